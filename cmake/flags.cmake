@@ -1,0 +1,18 @@
+# One set of flags for every target. -frounding-math: code relies on the rounding mode (framework/num/rounding.h); contraction is
+# stated per file. Nothing is ever compiled with -ffast-math.
+add_library(ambit_flags INTERFACE)
+target_compile_definitions(ambit_flags INTERFACE _GNU_SOURCE)
+target_compile_options(ambit_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wno-unknown-pragmas -frounding-math -ffp-contract=off -fno-math-errno
+  $<$<COMPILE_LANGUAGE:C>:-Wconversion -Wstrict-prototypes -Wmissing-prototypes>)
+if(AMBIT_WERROR)
+  target_compile_options(ambit_flags INTERFACE -Werror)
+endif()
+if(AMBIT_SANITIZE)
+  target_compile_options(ambit_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  target_link_options(ambit_flags INTERFACE -fsanitize=address,undefined)
+endif()
+# clang respects the rounding mode only with the strict model
+target_compile_options(ambit_flags INTERFACE $<$<C_COMPILER_ID:Clang>:-ffp-model=strict>)
+target_include_directories(ambit_flags INTERFACE ${PROJECT_SOURCE_DIR}/framework/abi)
+find_package(PkgConfig REQUIRED)

@@ -1,0 +1,15 @@
+# libambit: the layers base, num, graph, host, model; no Lua inside.
+set(kernel_sources "")
+foreach(layer base num graph host model)
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/framework/${layer}/*.c)
+  list(APPEND kernel_sources ${sources})
+endforeach()
+pkg_check_modules(YAJL REQUIRED IMPORTED_TARGET yajl)
+add_library(libambit SHARED ${kernel_sources})
+set_target_properties(libambit PROPERTIES OUTPUT_NAME ambit SOVERSION 0 VERSION ${PROJECT_VERSION})
+target_include_directories(libambit PUBLIC
+  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/framework/abi> $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/framework>
+  $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/ambit-kernel>)
+target_compile_definitions(libambit PRIVATE
+  AMBIT_PLUGIN_DIR="${CMAKE_INSTALL_FULL_LIBDIR}/ambit" AMBIT_BUILD_PLUGIN_DIR="${PROJECT_BINARY_DIR}/plugins")
+target_link_libraries(libambit PRIVATE $<BUILD_INTERFACE:ambit_flags> PkgConfig::YAJL ${CMAKE_DL_LIBS} m)

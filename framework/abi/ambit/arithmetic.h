@@ -1,0 +1,77 @@
+/* arithmetic.h -- "ambit.arithmetic/1": a way to compute with sets of reals.
+**
+** An element is elem(ctx) bytes, opaque to everybody else. Element (slot s, lane l) of a block lies at
+** base + (s * pitch + l) * elem, with pitch >= lanes. Lanes are independent problems (boxes of a subdivision, samples).
+**
+** TIER 1 is enough: `elem`, `set` and `bounds` alone give every operation, because the kernel fills each NULL run[] with
+** "hull the operands, apply the kernel's interval function, set", which is valid for any rigorous arithmetic, only loose.
+** TIER 2 is speed only and obeys the same contract: the result encloses the exact image of the operands.
+*/
+#ifndef AMBIT_ARITHMETIC_H
+#define AMBIT_ARITHMETIC_H
+#include "tape.h"
+
+#define AMBIT_ARITHMETIC "ambit.arithmetic/1"
+
+/* Flags, OR-ed over all lanes of a call; the elements themselves stay valid supersets. */
+#define AMBIT_F_PARTIAL 1u   /* some operand left the domain: the result holds for the part inside */
+#define AMBIT_F_EMPTY 2u     /* some lane is proven empty */
+#define AMBIT_F_UNBOUNDED 4u /* some lane is not bounded */
+
+typedef struct ambit_arithmetic ambit_arithmetic; /* `self` below is the kernel's completed copy */
+/* [ctx] dst, a, b are slot numbers (b of POWN: exponent); a dst slot never is an operand of the same call */
+typedef uint32_t (*ambit_run_fn)(const ambit_arithmetic *self, void *ctx, void *base, size_t pitch, size_t lanes,
+    size_t count, const uint32_t *dst, const uint32_t *a, const uint32_t *b);
+
+/* Taylor coefficients of every slot of a SERIES tape in the arithmetic's own layout (tier 2; the kernel has a general
+** form for arithmetics that offer none). Value coefficients u_k are given as midpoint +- radius. With ndir > 0 each slot
+** also carries, for each direction j, a coefficient of the slope s_j: for all x in the box and the centre c,
+** u(x) - u(c) = sum_j s_j (x_j - c_j) as power series in time. */
+typedef struct ambit_jets {
+  uint32_t size;
+  /* [ctx] Orders 0..order. With ndir > 0, `centre` is another object of this kind, on the same tape, that holds the
+  ** series at the centre point whenever advance() is called: then slopes over the box are computed (half the radius
+  ** of derivatives); centre NULL: derivatives over the box. */
+  ambit_status (*open)(const ambit_host *h, void *ctx, const ambit_tape *t, uint32_t order, uint32_t ndir,
+      const void *centre, void **self);
+  void (*close)(void *self);
+  /* coefficient k of input `in`; dmid, drad [ndir] (NULL: zero) */
+  void (*put)(void *self, uint32_t in, uint32_t k, double mid, double rad, const double *dmid, const double *drad);
+  /* computes order k of every slot, from orders <= k of the inputs; orders ascend from 0. Returns AMBIT_F_*; PARTIAL
+  ** or UNBOUNDED: the coefficients prove nothing */
+  uint32_t (*advance)(void *self, uint32_t k);
+  /* coefficient k of a slot; any of the last two may be NULL */
+  void (*get)(const void *self, uint32_t slot, uint32_t k, double *mid, double *rad, double *dmid, double *drad);
+  /* upper bounds: mag[k] >= |u_k|, dmag[k*ndir + j] >= |s_j,k|, k < n; dmag may be NULL */
+  void (*magnitude)(const void *self, uint32_t slot, uint32_t n, double *mag, double *dmag);
+} ambit_jets;
+
+struct ambit_arithmetic {
+  uint32_t size;
+  uint32_t rigorous;        /* 1: every result encloses the exact image */
+  const ambit_param *param; /* options (degree, symbols); an entry with NULL name ends; NULL = none */
+
+  /* -- life: [ctx], one context per thread; NULL open and close = stateless, ctx is NULL */
+  ambit_status (*open)(const ambit_host *h, const double *option, uint32_t nvar, void **ctx);
+  void (*close)(void *ctx);
+  size_t (*elem)(void *ctx); /* bytes per element, a multiple of 8 */
+  ambit_status (*init)(void *ctx, void *base, size_t n); /* NULL: zero bytes are a valid element */
+  void (*clear)(void *ctx, void *base, size_t n);        /* NULL: nothing owned */
+  void (*enter)(void *ctx); /* e.g. set the rounding mode; brackets a batch of run[] calls */
+  void (*leave)(void *ctx);
+
+  /* -- TIER 1 (required: elem, set, bounds); both work inside and outside enter/leave */
+  /* dst[i] := [lo[i], hi[i]]; var >= 0: the independent variable of that number, var < nvar */
+  void (*set)(void *ctx, void *dst, size_t n, const double *lo, const double *hi, int32_t var);
+  void (*bounds)(void *ctx, const void *src, size_t n, double *lo, double *hi); /* outward */
+  ambit_run_fn run[32]; /* by opcode; NULL = kernel default */
+
+  /* -- TIER 2 (optional) */
+  /* dst[l] := sum_{j<m} a[j*sa + l] * b[j*sb + l], the Taylor product; strides in elements */
+  uint32_t (*dot)(void *ctx, void *dst, const void *a, ptrdiff_t sa, const void *b, ptrdiff_t sb, size_t m, size_t lanes);
+  uint32_t (*eval_tape)(void *ctx, const ambit_tape *t, void *base, size_t pitch, size_t lanes);
+  const ambit_jets *jets;
+  /* element from a constant's text, tighter than its enclosure; returns 0 if it has no better than set() */
+  int32_t (*set_text)(void *ctx, void *dst, const char *text);
+};
+#endif

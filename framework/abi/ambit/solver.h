@@ -1,0 +1,60 @@
+/* solver.h -- "ambit.solver/1": advances a problem and emits records. */
+#ifndef AMBIT_SOLVER_H
+#define AMBIT_SOLVER_H
+#include "arithmetic.h"
+
+#define AMBIT_SOLVER "ambit.solver/1"
+
+/* What a solver may ask for; the kernel builds only that. */
+#define AMBIT_WANT_RHS 1u      /* x' = f(x, p, t) as a tape */
+#define AMBIT_WANT_SERIES 2u   /* the rhs tape must be a SERIES tape */
+#define AMBIT_WANT_JACOBIAN 4u /* df/dx as a tape, row by row, same inputs as the rhs */
+#define AMBIT_WANT_INITIAL 8u  /* initial state and parameters as a SERIES tape over the unknowns */
+#define AMBIT_WANT_EVENT 16u   /* g(x, p, t) whose sign changes end a phase */
+
+/* Inputs of rhs, jacobian, event: x [nx], p [np], then t if uses_time. Inputs of initial: the unknowns [nu];
+** its outputs: x(t0) [nx], p [np]. An unknown that several data share occurs once: correlation is kept. */
+typedef struct ambit_problem {
+  uint32_t size, nx, np, nu, nevent, uses_time;
+  const char *const *name;             /* [nx] state names, [np] parameter names behind them */
+  const ambit_tape *rhs, *jacobian, *initial, *event; /* NULL when not wanted */
+  const ambit_arithmetic *arithmetic;  /* completed: every run[] filled */
+  void *actx;                          /* its context, lent to this solver until close */
+  const double *x0_lo, *x0_hi;         /* [nx] hull of the initial set */
+  const double *p_lo, *p_hi;           /* [np] hull of the parameters (only uncertain data are parameters) */
+  const double *u_lo, *u_hi;           /* [nu] ranges of the unknowns */
+  uint32_t ntime;                      /* >= 2 */
+  const double *time;                  /* [ntime] start, instants that a step must end on, end; ascending or descending, s */
+} ambit_problem;
+
+/* Result record: header first, so that readers skip kinds they do not know. Enclosures hold for every solution. */
+#define AMBIT_REC_STEP 1u  /* a step from t_from to t_to */
+#define AMBIT_REC_EVENT 2u /* event number `event` happens within [t_from, t_to], ordered in time */
+typedef struct ambit_record {
+  uint32_t size, kind;
+  double t_from, t_to;            /* s; t_to < t_from when integrating backwards */
+  uint32_t nx, flags, event, rigorous;
+  const double *lo, *hi;          /* [nx] at t_to; valid only during the call */
+  const double *tube_lo, *tube_hi; /* [nx] over the whole step, or NULL */
+  uint32_t order, ncoef;          /* order used (0 = none) */
+} ambit_record;
+
+typedef struct ambit_sink ambit_sink;
+struct ambit_sink {
+  uint32_t size;
+  int32_t (*emit)(ambit_sink *s, const ambit_record *r);              /* nonzero: stop, return AMBIT_STOPPED */
+  int32_t (*progress)(ambit_sink *s, double done, const char *message); /* 0..1; nonzero: stop; call at least every step */
+};
+
+typedef struct ambit_solver {
+  uint32_t size, want;       /* AMBIT_WANT_* */
+  uint32_t needs_rigorous;   /* 1: refuse an arithmetic that is not; 0: results prove nothing */
+  const char *arithmetics;   /* names that fit, blank-separated, the first is the default; NULL: every rigorous one */
+  const ambit_param *param;
+  /* [ctx] allocates everything here; `option` in declaration order, shapes flattened */
+  ambit_status (*open)(const ambit_host *h, const ambit_problem *p, const double *option, void **self);
+  /* [ctx] runs to the end; no allocation inside. Failures say why and which knob to turn, through h->fail of open's host */
+  ambit_status (*run)(void *self, ambit_sink *s);
+  void (*close)(void *self);
+} ambit_solver;
+#endif

@@ -1,0 +1,94 @@
+/* path.c -- the search path for plugins. */
+#define _GNU_SOURCE
+#include "host/path.h"
+#include "base/names.h"
+#include <dlfcn.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#define LONGEST_NAME 63
+
+const char *const ambit_plugin_kind[AMBIT_KINDS] = { "arithmetic", "element", "solver", "service" };
+
+static bool is_directory(const char *name) {
+  struct stat about;
+  return stat(name, &about) == 0 && S_ISDIR(about.st_mode);
+}
+
+static void append(ambit_path *path, const char *directory) {
+  for (size_t i = 0; i < path->count; i++)
+    if (strcmp(path->directory[i], directory) == 0) return;
+  path->directory[path->count++] = directory;
+}
+
+static size_t count_parts(const char *list) {
+  size_t n = 1;
+  for (; *list; list++) n += *list == ':';
+  return n;
+}
+
+/* Appends the nonempty parts of a colon-separated list, which is cut up in place. */
+static void append_list(ambit_path *path, char *list) {
+  for (char *rest = list; rest;) {
+    char *part = strsep(&rest, ":");
+    if (*part) append(path, part);
+  }
+}
+
+/* "<where libambit is>/ambit": finds the plugins of an installation that was moved. */
+static char *beside_library(ambit_arena *arena) {
+  Dl_info about;
+  if (!dladdr((void *)&ambit_plugin_kind, &about) || !about.dli_fname) return NULL;
+  const char *slash = strrchr(about.dli_fname, '/');
+  if (!slash) return NULL;
+  size_t bytes = (size_t)(slash - about.dli_fname) + sizeof "/ambit";
+  char *text = ambit_arena_alloc(arena, bytes);
+  if (text) snprintf(text, bytes, "%.*s/ambit", (int)(slash - about.dli_fname), about.dli_fname);
+  return text;
+}
+
+ambit_status ambit_path_open(ambit_arena *arena, const char *given, ambit_path *path) {
+  if (!given) given = getenv("AMBIT_PATH");
+  if (!given) given = "";
+  char *list = ambit_arena_text(arena, given);
+  path->count = 0;
+  path->directory = ambit_arena_alloc(arena, (count_parts(given) + 3) * sizeof *path->directory);
+  if (!list || !path->directory) return AMBIT_NOMEM;
+  append_list(path, list);
+  if (is_directory(AMBIT_BUILD_PLUGIN_DIR)) append(path, AMBIT_BUILD_PLUGIN_DIR);
+  const char *beside = beside_library(arena);
+  if (beside && is_directory(beside)) append(path, beside);
+  append(path, AMBIT_PLUGIN_DIR);
+  return AMBIT_OK;
+}
+
+char *ambit_path_file(ambit_arena *arena, const char *directory, const char *kind, const char *name) {
+  size_t bytes = strlen(directory) + strlen(kind) + strlen(name) + sizeof "//.so";
+  char *text = ambit_arena_alloc(arena, bytes);
+  if (text) snprintf(text, bytes, "%s/%s/%s.so", directory, kind, name);
+  return text;
+}
+
+static bool is_name(const char *name) {
+  static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.";
+  size_t length = strlen(name);
+  return length > 0 && length <= LONGEST_NAME && name[0] != '.' && strspn(name, letters) == length;
+}
+
+ambit_status ambit_path_check(const char *kind, const char *name, ambit_failure *f) {
+  bool known = false;
+  for (size_t i = 0; i < AMBIT_KINDS; i++) known = known || strcmp(kind, ambit_plugin_kind[i]) == 0;
+  if (!known) {
+    const char *near = ambit_names_nearest(kind, ambit_plugin_kind, AMBIT_KINDS);
+    return ambit_fail(f, AMBIT_INVALID, "there is no kind of plugin called `%s`%s%s%s (arithmetic, element, solver, service)",
+        kind, near ? "; did you mean `" : "", near ? near : "", near ? "`?" : "");
+  }
+  if (!is_name(name))
+    return ambit_fail(f, AMBIT_INVALID,
+        "`%s` cannot be the name of a plugin: letters, digits, '_', '-' and '.' (not first), at most %d of them", name,
+        LONGEST_NAME);
+  return AMBIT_OK;
+}

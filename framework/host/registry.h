@@ -1,0 +1,38 @@
+/* registry.h -- plugins by name: found on AMBIT_PATH, dlopened on first use, never scanned-and-loaded. */
+#ifndef AMBIT_REGISTRY_H
+#define AMBIT_REGISTRY_H
+#include "base/status.h"
+#include <ambit/arithmetic.h>
+#include <ambit/element.h>
+#include <ambit/export.h>
+#include <ambit/solver.h>
+
+typedef struct ambit_registry ambit_registry;
+
+/* path: colon-separated directories, each with arithmetic/ element/ solver/ service/ below; NULL: $AMBIT_PATH, then the build's or the
+** installed plugin directory. */
+ambit_registry *ambit_registry_open(const char *path);
+void ambit_registry_close(ambit_registry *r);
+
+/* kind "arithmetic" | "element" | "solver" | "service". Loads on first use. A failure lists every path tried, the reason, and the nearest
+** known name (from a directory listing, without loading). Checks id, ABI version, sizes. */
+ambit_status ambit_registry_plugin(ambit_registry *r, const char *kind, const char *name, const ambit_plugin **p, ambit_failure *f);
+ambit_status ambit_registry_arithmetic(ambit_registry *r, const char *name, const ambit_arithmetic **a, ambit_failure *f); /* completed; valid until close */
+ambit_status ambit_registry_element(ambit_registry *r, const char *name, const ambit_element **e, ambit_failure *f);
+ambit_status ambit_registry_solver(ambit_registry *r, const char *name, const ambit_solver **s, ambit_failure *f);
+ambit_status ambit_registry_load_file(ambit_registry *r, const char *file, const ambit_plugin **p, ambit_failure *f); /* any .so, for `ambit check` */
+
+typedef struct ambit_listing {
+  const char *kind, *name, *file;
+  int loaded;
+} ambit_listing;
+size_t ambit_registry_list(ambit_registry *r, size_t room, ambit_listing *out); /* by file names, loads nothing */
+/* options by name -> the flat array that open() takes. given[i].name NULL ends. Unknown name: error with the nearest. */
+typedef struct ambit_option {
+  const char *name;
+  const char *text; /* a word for choices, a literal for numbers (point) */
+} ambit_option;
+size_t ambit_params_count(const ambit_param *param);
+size_t ambit_params_doubles(const ambit_param *param);
+ambit_status ambit_params_resolve(const ambit_param *param, const char *owner, size_t n, const ambit_option *given, double *out, ambit_failure *f);
+#endif

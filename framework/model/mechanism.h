@@ -1,0 +1,52 @@
+/* mechanism.h -- parts (elements with parameters), joined at frames; quantities are pulled on demand and remembered.
+**
+** Part 0 is the world: one OUT frame `world` at rest. Motion is pulled towards the world, forces towards the tips; gravity enters as the
+** proper acceleration of the world frame (minus the sum of all AMBIT_FIELDs), so that dynamics needs no poses.
+*/
+#ifndef AMBIT_MECHANISM_H
+#define AMBIT_MECHANISM_H
+#include "graph/graph.h"
+#include <ambit/element.h>
+
+typedef struct ambit_mechanism ambit_mechanism;
+typedef struct ambit_frame {
+  uint32_t part, port; /* an OUT port of a part */
+} ambit_frame;
+
+#define AMBIT_WORLD ((ambit_frame){ 0, 0 })
+#define AMBIT_NOWHERE ((ambit_frame){ UINT32_MAX, 0 }) /* an optional port that is not connected */
+
+/* One part to add. param[i]: NULL = absent, else the expressions of parameter i in its declared shape.
+** connection[i]: for IN port i the frame it is connected to (OUT ports: ignored). `where`: "scene.lua:12", for messages. */
+typedef struct ambit_part_spec {
+  const ambit_element *element;
+  const char *type, *name, *where; /* name NULL: type and a number */
+  const ambit_expr *const *param;
+  const ambit_frame *connection;
+} ambit_part_spec;
+
+ambit_mechanism *ambit_mechanism_open(ambit_graph *g, const char *name);
+void ambit_mechanism_close(ambit_mechanism *m);
+ambit_graph *ambit_mechanism_graph(ambit_mechanism *m);
+/* INVALID: a name used twice, a missing connection, a joint port connected to no joint. */
+ambit_status ambit_mechanism_add(ambit_mechanism *m, const ambit_part_spec *spec, uint32_t *part, ambit_failure *f);
+uint32_t ambit_mechanism_count(const ambit_mechanism *m);
+const char *ambit_mechanism_part_name(const ambit_mechanism *m, uint32_t part);
+const ambit_element *ambit_mechanism_part_element(const ambit_mechanism *m, uint32_t part);
+
+/* The quantity at an OUT frame or joint port: motion is that of the frame; AMBIT_WRENCH, AMBIT_EFFORT: the sum over all attached
+** elements; frame AMBIT_NOWHERE: of the mechanism (AMBIT_FIELD, AMBIT_ENERGY). The pointer stays valid. NULL: the failure says which
+** element and why; a loop of elements is named part by part. */
+const ambit_expr *ambit_mechanism_pull(ambit_mechanism *m, ambit_frame frame, uint32_t quantity, ambit_failure *f);
+/* how often express() was called, of how many (part, port, quantity) that exist: "leave out" in numbers */
+void ambit_mechanism_pulled(const ambit_mechanism *m, size_t *pulled, size_t *available);
+
+/* The coordinates that b->state() has made, in the order of the parts: symbols of q, q', q''. */
+typedef struct ambit_coordinate {
+  const char *name;  /* "beta1" (several degrees of freedom: "name.1", ...) */
+  const char *unit;  /* of q */
+  ambit_expr q, qd, qdd;
+  uint32_t part, index;
+} ambit_coordinate;
+size_t ambit_mechanism_coordinates(ambit_mechanism *m, size_t room, ambit_coordinate *out); /* of all joint parts */
+#endif

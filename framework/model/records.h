@@ -1,0 +1,27 @@
+/* records.h -- JSON lines: one object a line, flushed as it is written, so that what is there stays valid if the process dies.
+**
+** Every object has "record" ("step", "event", "value", "root", "term", "note", "result"); times and enclosures are [lo, hi] doubles that
+** round-trip exactly; infinite bounds are the strings "inf", "-inf"; an empty enclosure is []. A failed write (full disk) is reported once and stops the run.
+*/
+#ifndef AMBIT_RECORDS_H
+#define AMBIT_RECORDS_H
+#include "base/status.h"
+#include "num/interval.h"
+#include <ambit/solver.h>
+#include <stdio.h>
+
+typedef struct ambit_records ambit_records;
+ambit_status ambit_records_open(const char *path, ambit_records **r, ambit_failure *f); /* "-": stdout */
+ambit_status ambit_records_close(ambit_records *r, ambit_failure *f);
+
+/* Building one line: begin, any fields, end. Keys in a begin/end pair; `end` writes and flushes. No allocation after the first lines. */
+void ambit_records_begin(ambit_records *r, const char *kind);
+void ambit_records_text(ambit_records *r, const char *key, const char *value);
+void ambit_records_number(ambit_records *r, const char *key, double value);
+void ambit_records_interval(ambit_records *r, const char *key, ambit_interval value);
+void ambit_records_open_object(ambit_records *r, const char *key);
+void ambit_records_close_object(ambit_records *r);
+ambit_status ambit_records_end(ambit_records *r, ambit_failure *f);
+/* a solver's step or event */
+ambit_status ambit_records_step(ambit_records *r, const ambit_record *step, const char *const *name, ambit_failure *f);
+#endif
