@@ -1,1 +1,38 @@
-# command
+# The command `ambit` and the Lua module lua/ambit.so: the same files of framework/lua and the same embedded scripts. The module leaves
+# Lua's own symbols to the interpreter that loads it; the command brings liblua along.
+pkg_search_module(LUA REQUIRED IMPORTED_TARGET lua5.4 lua-5.4 lua54)
+pkg_check_modules(FFI REQUIRED IMPORTED_TARGET libffi)
+
+set(embedded "")
+set(embedded_paths "")
+foreach(folder prelude command)
+  file(GLOB scripts CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/scripts/${folder}/*.lua)
+  foreach(script ${scripts})
+    get_filename_component(name ${script} NAME_WE)
+    if(folder STREQUAL "prelude")
+      list(APPEND embedded "ambit.${name}|${name}|${script}")
+    else()
+      list(APPEND embedded "ambit.${folder}.${name}|${folder}/${name}|${script}")
+    endif()
+    list(APPEND embedded_paths ${script})
+  endforeach()
+endforeach()
+set(embedded_source ${PROJECT_BINARY_DIR}/embedded.c)
+add_custom_command(OUTPUT ${embedded_source}
+  COMMAND ${CMAKE_COMMAND} -DOUTPUT=${embedded_source} "-DFILES=${embedded}" -P ${PROJECT_SOURCE_DIR}/cmake/embed.cmake
+  DEPENDS ${embedded_paths} ${PROJECT_SOURCE_DIR}/cmake/embed.cmake VERBATIM)
+
+file(GLOB lua_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/framework/lua/*.c)
+add_library(ambit_lua OBJECT ${lua_sources} ${embedded_source})
+target_include_directories(ambit_lua PRIVATE ${PROJECT_SOURCE_DIR}/framework ${LUA_INCLUDE_DIRS} ${FFI_INCLUDE_DIRS})
+target_compile_definitions(ambit_lua PRIVATE AMBIT_VERSION="${PROJECT_VERSION}")
+target_link_libraries(ambit_lua PRIVATE ambit_flags)
+
+add_executable(ambit ${PROJECT_SOURCE_DIR}/framework/main.c $<TARGET_OBJECTS:ambit_lua>)
+target_include_directories(ambit PRIVATE ${PROJECT_SOURCE_DIR}/framework)
+target_link_libraries(ambit PRIVATE ambit_flags libambit PkgConfig::LUA PkgConfig::FFI ${CMAKE_DL_LIBS} m)
+set_target_properties(ambit PROPERTIES ENABLE_EXPORTS ON RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+
+add_library(ambit_module MODULE $<TARGET_OBJECTS:ambit_lua>)
+target_link_libraries(ambit_module PRIVATE ambit_flags libambit PkgConfig::FFI ${CMAKE_DL_LIBS} m)
+set_target_properties(ambit_module PROPERTIES PREFIX "" OUTPUT_NAME ambit LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lua)

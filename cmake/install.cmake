@@ -1,1 +1,44 @@
-# install
+# What a user of the installed tree gets: the command, libambit with headers for hosts (ambit-kernel/) and plugins (ambit/), find_package(Ambit),
+# ambit.pc, the plugins (cmake/plugins.cmake), the Lua module, the scenes.
+include(CMakePackageConfigHelpers)
+
+set(AMBIT_LUA_DIR ${CMAKE_INSTALL_LIBDIR}/lua/5.4 CACHE STRING "where the Lua module goes, below the prefix")
+set(AMBIT_SCENE_DIR ${CMAKE_INSTALL_DATADIR}/ambit)
+
+# Found from where they are, so that an installed tree can be moved.
+file(RELATIVE_PATH command_to_lib /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR})
+file(RELATIVE_PATH module_to_lib /${AMBIT_LUA_DIR} /${CMAKE_INSTALL_LIBDIR})
+set_target_properties(ambit PROPERTIES INSTALL_RPATH "$ORIGIN/${command_to_lib}")
+set_target_properties(ambit_module PROPERTIES INSTALL_RPATH "$ORIGIN/${module_to_lib}")
+set_target_properties(libambit PROPERTIES EXPORT_NAME kernel)
+
+install(TARGETS libambit EXPORT AmbitTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS ambit RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS ambit_module LIBRARY DESTINATION ${AMBIT_LUA_DIR})
+
+install(DIRECTORY framework/abi/ambit DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+foreach(layer base num graph host model)
+  install(DIRECTORY framework/${layer} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/ambit-kernel FILES_MATCHING PATTERN "*.h")
+endforeach()
+
+# Plugins need headers only: Ambit::sdk; hosts link Ambit::kernel.
+add_library(ambit_sdk INTERFACE)
+set_target_properties(ambit_sdk PROPERTIES EXPORT_NAME sdk)
+target_include_directories(ambit_sdk INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+install(TARGETS ambit_sdk EXPORT AmbitTargets)
+
+set(AMBIT_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/Ambit)
+install(EXPORT AmbitTargets NAMESPACE Ambit:: DESTINATION ${AMBIT_CMAKE_DIR})
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/AmbitConfig.cmake.in ${PROJECT_BINARY_DIR}/AmbitConfig.cmake
+  INSTALL_DESTINATION ${AMBIT_CMAKE_DIR} PATH_VARS CMAKE_INSTALL_LIBDIR)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/AmbitConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/AmbitConfig.cmake ${PROJECT_BINARY_DIR}/AmbitConfigVersion.cmake DESTINATION ${AMBIT_CMAKE_DIR})
+
+file(RELATIVE_PATH pc_to_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+string(REGEX REPLACE "/$" "" pc_to_prefix "${pc_to_prefix}")
+configure_file(${PROJECT_SOURCE_DIR}/cmake/ambit.pc.in ${PROJECT_BINARY_DIR}/ambit.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/ambit.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+
+file(GLOB scenes CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/scripts/*.lua)
+install(FILES ${scenes} DESTINATION ${AMBIT_SCENE_DIR}/scenes)
+install(DIRECTORY scripts/types DESTINATION ${AMBIT_SCENE_DIR})

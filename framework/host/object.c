@@ -1,10 +1,10 @@
 /* object.c -- the parts of an ELF header that decide whether dlopen is safe to try (System V ABI, chapters 4 and 5).
 **
-** glibc maps the segments that the program headers name; a page behind the end of a truncated file is a SIGBUS as soon as the
-** loader reads it. So every header table and every loaded segment must lie inside the file. What is right is this very
-** library: class, byte order and machine are compared with its own header, which the linker maps as __ehdr_start.
+** glibc maps the segments that the program headers name; a page behind the end of a truncated file is a SIGBUS as
+** soon as the loader reads it. So every header table and every loaded segment must lie inside the file. What is
+** right is this very library: class, byte order and machine are compared with its own header, which the linker maps
+** as __ehdr_start.
 */
-#define _GNU_SOURCE
 #include "host/object.h"
 #include <elf.h>
 #include <errno.h>

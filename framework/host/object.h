@@ -1,4 +1,5 @@
-/* object.h -- is this file a shared object that the loader can map? Asked before dlopen, which may crash on a truncated one. */
+/* object.h -- is this file a shared object that the loader can map? Asked before dlopen, which may crash on a
+** truncated one. */
 #ifndef AMBIT_OBJECT_H
 #define AMBIT_OBJECT_H
 #include <stdbool.h>

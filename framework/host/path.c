@@ -1,5 +1,4 @@
 /* path.c -- the search path for plugins. */
-#define _GNU_SOURCE
 #include "host/path.h"
 #include "base/names.h"
 #include <dlfcn.h>
@@ -83,8 +82,9 @@ ambit_status ambit_path_check(const char *kind, const char *name, ambit_failure 
   for (size_t i = 0; i < AMBIT_KINDS; i++) known = known || strcmp(kind, ambit_plugin_kind[i]) == 0;
   if (!known) {
     const char *near = ambit_names_nearest(kind, ambit_plugin_kind, AMBIT_KINDS);
-    return ambit_fail(f, AMBIT_INVALID, "there is no kind of plugin called `%s`%s%s%s (arithmetic, element, solver, service)",
-        kind, near ? "; did you mean `" : "", near ? near : "", near ? "`?" : "");
+    return ambit_fail(f, AMBIT_INVALID,
+        "there is no kind of plugin called `%s`%s%s%s (arithmetic, element, solver, service)", kind,
+        near ? "; did you mean `" : "", near ? near : "", near ? "`?" : "");
   }
   if (!is_name(name))
     return ambit_fail(f, AMBIT_INVALID,

@@ -9,9 +9,17 @@ typedef struct ambit_path {
   const char **directory; /* [count] */
 } ambit_path;
 
-/* given (NULL: $AMBIT_PATH), then the build tree's directory if it exists, the directory `ambit` beside libambit, and the one fixed at
-** configuration. The texts live in the arena. */
+/* given (NULL: $AMBIT_PATH), then the build tree's directory if it exists, the directory `ambit` beside libambit,
+** and the one fixed at configuration. The texts live in the arena. */
 ambit_status ambit_path_open(ambit_arena *arena, const char *given, ambit_path *path);
+/* What lies there by file name, without loading: one entry a name (the first directory wins), sorted. Returns how
+** many; the list lives in the arena (NULL if there are none or memory is out). */
+typedef struct ambit_found {
+  const char *name, *file;
+} ambit_found;
+size_t ambit_path_list(ambit_arena *arena, const ambit_path *path, const char *kind, ambit_found **found);
+/* The nearest known name of that kind, or NULL. */
+const char *ambit_path_nearest(ambit_arena *arena, const ambit_path *path, const char *kind, const char *name);
 /* "<directory>/<kind>/<name>.so" in the arena; NULL: out of memory */
 char *ambit_path_file(ambit_arena *arena, const char *directory, const char *kind, const char *name);
 

@@ -83,11 +83,19 @@ static AMBIT_WORKER double plain_down(double x, uint32_t m) {
 static AMBIT_WORKER double invert_up(double x) { return 1 / x; }
 static AMBIT_WORKER double invert_down(double x) { return -(-1 / x); }
 
+/* Both 1/(x^m) and (1/x)^m bound the inverse power; far out one of them keeps more. */
 static void directed(double x, int32_t n, double *lo, double *hi) {
+  uint32_t m = size_of(n);
   ambit_rounding old = ambit_round_up();
-  double up = plain_up(x, size_of(n)), down = plain_down(x, size_of(n));
-  *lo = n < 0 ? invert_down(up) : down;
-  *hi = n < 0 ? invert_up(down) : up;
+  if (n > 0) {
+    *lo = plain_down(x, m);
+    *hi = plain_up(x, m);
+  } else {
+    double inverse_lo = plain_down(invert_down(x), m), inverse_hi = plain_up(invert_up(x), m);
+    double below = invert_down(plain_up(x, m)), above = invert_up(plain_down(x, m));
+    *lo = below > inverse_lo ? below : inverse_lo;
+    *hi = above < inverse_hi ? above : inverse_hi;
+  }
   ambit_rounding_restore(old);
 }
 

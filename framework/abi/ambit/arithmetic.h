@@ -26,7 +26,7 @@ typedef uint32_t (*ambit_run_fn)(const ambit_arithmetic *self, void *ctx, void *
 /* Taylor coefficients of every slot of a SERIES tape in the arithmetic's own layout (tier 2; the kernel has a general
 ** form for arithmetics that offer none). Value coefficients u_k are given as midpoint +- radius. With ndir > 0 each slot
 ** also carries, for each direction j, a coefficient of the slope s_j: for all x in the box and the centre c,
-** u(x) - u(c) = sum_j s_j (x_j - c_j) as power series in time. */
+** u(x) - u(c) = sum_j s_j (x_j - c_j) as power series in time. c is a point of the box. */
 typedef struct ambit_jets {
   uint32_t size;
   /* [ctx] Orders 0..order. With ndir > 0, `centre` is another object of this kind, on the same tape, that holds the
@@ -44,6 +44,9 @@ typedef struct ambit_jets {
   void (*get)(const void *self, uint32_t slot, uint32_t k, double *mid, double *rad, double *dmid, double *drad);
   /* upper bounds: mag[k] >= |u_k|, dmag[k*ndir + j] >= |s_j,k|, k < n; dmag may be NULL */
   void (*magnitude)(const void *self, uint32_t slot, uint32_t n, double *mag, double *dmag);
+  /* coefficient k + 1 of input `in` := coefficient k of `slot` / (k + 1), slopes too; NULL: the kernel does it with get and put,
+  ** which loses what an arithmetic knows besides midpoint and radius */
+  void (*integrate)(void *self, uint32_t in, uint32_t slot, uint32_t k);
 } ambit_jets;
 
 struct ambit_arithmetic {

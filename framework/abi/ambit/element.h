@@ -54,14 +54,18 @@ struct ambit_build { /* [main] valid only during express() */
   ambit_expr (*num)(ambit_build *b, const char *decimal); /* "0.5", "1/3", "pi": rigorous, encloses what it says */
   ambit_expr (*op)(ambit_build *b, uint32_t opcode, ambit_expr x, ambit_expr y); /* folds, hash-conses; y ignored if unary; POWN: y is the int32 exponent */
   const ambit_expr *(*param)(ambit_build *b, uint32_t index); /* in declaration order; NULL: optional and absent */
-  /* the element's own coordinate number i, or its first or second time derivative (order 0, 1, 2); becomes a state */
+  /* the element's own coordinate number i (counted through its OUT joint ports in order), or its first or second time derivative
+  ** (order 0, 1, 2); becomes a state. `unit` is that of the coordinate, whatever the order */
   ambit_expr (*state)(ambit_build *b, uint32_t i, uint32_t order, const char *unit);
   /* pulls a quantity: of an own IN port: motion of the frame it is connected to; of an own OUT port: the sum of what is
-  ** exerted there by all elements attached to it; of AMBIT_NO_PORT: of the mechanism. NULL after a failure: return its status */
+  ** exerted there by all elements attached to it; of AMBIT_NO_PORT: of the mechanism. NULL: return any status but OK and UNABLE (a failure,
+  ** already recorded, or a chain too deep for the stack: the kernel calls express() again); or an optional port is not connected */
   const ambit_expr *(*get)(ambit_build *b, uint32_t port, uint32_t quantity);
   ambit_expr (*unknown)(ambit_build *b, const char *lo, const char *hi); /* a fresh independent unknown in [lo, hi] */
   ambit_status (*fail)(ambit_build *b, ambit_status s, const char *format, ...) AMBIT_PRINTF(3, 4);
   ambit_expr (*diff_time)(ambit_build *b, ambit_expr x); /* total time derivative of a given motion (of a parameter) */
+  /* bounds that hold for x whatever the unknowns are, perhaps wide; for checks of data (a mass below zero) */
+  void (*range)(ambit_build *b, ambit_expr x, double *lo, double *hi);
 };
 
 typedef struct ambit_element {

@@ -67,6 +67,6 @@ typedef struct ambit_tape {
   const char *const *text;       /* [nconst] what the constant is ("0.1", "1/3", "pi") for arithmetics of higher precision; NULL: the enclosure is all that is known */
   const uint32_t *out;           /* [nout] slots of the outputs */
   const uint32_t *degree;        /* [nslot] degree as a polynomial in time when every state is a general function of time: 0 = constant, AMBIT_DEGREE_ANY */
-  const double *range_lo, *range_hi; /* [nslot] bounds that hold for every real input (cos: [-1, 1]); may be infinite */
+  const double *range_lo, *range_hi; /* [nslot] bounds that hold for every real input (cos: [-1, 1]), an unknown datum being in its set; may be infinite */
 } ambit_tape;
 #endif

@@ -1,0 +1,10 @@
+# bench/*.c -> build/bench/*: programs that print ratios measured in one run; never tests.
+file(GLOB bench_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/bench/*.c)
+foreach(source ${bench_sources})
+  get_filename_component(name ${source} NAME_WE)
+  add_executable(bench.${name} EXCLUDE_FROM_ALL ${source})
+  set_target_properties(bench.${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bench OUTPUT_NAME ${name})
+  target_link_libraries(bench.${name} PRIVATE ambit_flags libambit m ${CMAKE_DL_LIBS})
+  list(APPEND bench_targets bench.${name})
+endforeach()
+add_custom_target(bench DEPENDS ${bench_targets})

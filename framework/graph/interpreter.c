@@ -1,0 +1,119 @@
+/* interpreter.c -- a tape over a block of elements: constants once, then run by run.
+**
+** The result of a run is sound because every run function encloses the exact image of its operands and operands precede.
+*/
+#include "graph/interpreter.h"
+#include <stdlib.h>
+#include <string.h>
+
+#define ALIGNMENT 64u
+
+struct ambit_block {
+  const ambit_tape *tape;
+  const ambit_arithmetic *arithmetic;
+  void *ctx;
+  char *base;
+  size_t lanes, elem;
+  bool initialised; /* clear() is due */
+};
+
+static char *element(const ambit_block *block, uint32_t slot, size_t lane) {
+  return block->base + ((size_t)slot * block->lanes + lane) * block->elem;
+}
+
+static ambit_status allocate(ambit_block *block, ambit_failure *f) {
+  size_t slots = block->tape->nslot, lanes = block->lanes, elem = block->elem, count, bytes;
+  double need = (double)slots * (double)lanes * (double)elem;
+  bool overflow = __builtin_mul_overflow(slots, lanes, &count) || __builtin_mul_overflow(count, elem, &bytes) ||
+      bytes > SIZE_MAX / 2;
+  if (overflow)
+    return ambit_fail(f, AMBIT_INVALID, "%zu slots in %zu lanes of %zu bytes need %.3g bytes, more than there are addresses",
+        slots, lanes, elem, need);
+  bytes = (bytes / ALIGNMENT + 1) * ALIGNMENT;
+  block->base = aligned_alloc(ALIGNMENT, bytes);
+  if (!block->base)
+    return ambit_fail(f, AMBIT_NOMEM, "out of memory: %zu slots in %zu lanes of %zu bytes need %.3g bytes", slots, lanes,
+        elem, need);
+  memset(block->base, 0, bytes);
+  ambit_status status = block->arithmetic->init ? block->arithmetic->init(block->ctx, block->base, count) : AMBIT_OK;
+  if (status != AMBIT_OK) return ambit_fail(f, status, "the arithmetic could not initialise %zu elements", count);
+  block->initialised = true;
+  return AMBIT_OK;
+}
+
+static void set_constants(ambit_block *block) {
+  const ambit_tape *t = block->tape;
+  const ambit_arithmetic *arithmetic = block->arithmetic;
+  for (uint32_t i = 0; i < t->nconst; i++) {
+    const char *text = arithmetic->set_text && t->text ? t->text[i] : NULL;
+    for (size_t lane = 0; lane < block->lanes; lane++) {
+      void *place = element(block, i, lane);
+      if (text && arithmetic->set_text(block->ctx, place, text)) continue;
+      arithmetic->set(block->ctx, place, 1, &t->lo[i], &t->hi[i], -1);
+    }
+  }
+}
+
+ambit_status ambit_block_open(const ambit_tape *t, const ambit_arithmetic *full, void *ctx, size_t lanes,
+    ambit_block **block, ambit_failure *f) {
+  *block = NULL;
+  if (lanes == 0) return ambit_fail(f, AMBIT_INVALID, "a block needs at least one lane");
+  size_t elem = full->elem(ctx);
+  if (elem == 0 || elem % 8 != 0)
+    return ambit_fail(f, AMBIT_INVALID, "the arithmetic's elements have %zu bytes; a multiple of 8 is required", elem);
+  ambit_block *made = calloc(1, sizeof *made);
+  if (!made) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  *made = (ambit_block) { .tape = t, .arithmetic = full, .ctx = ctx, .lanes = lanes, .elem = elem };
+  ambit_status status = allocate(made, f);
+  if (status != AMBIT_OK) {
+    ambit_block_close(made);
+    return status;
+  }
+  set_constants(made);
+  *block = made;
+  return AMBIT_OK;
+}
+
+void ambit_block_close(ambit_block *block) {
+  if (!block) return;
+  if (block->initialised && block->arithmetic->clear)
+    block->arithmetic->clear(block->ctx, block->base, (size_t)block->tape->nslot * block->lanes);
+  free(block->base);
+  free(block);
+}
+
+void ambit_block_set(ambit_block *block, uint32_t in, size_t lane, ambit_interval x, int32_t var) {
+  block->arithmetic->set(block->ctx, element(block, block->tape->nconst + in, lane), 1, &x.lo, &x.hi, var);
+}
+
+static uint32_t run_all(ambit_block *block) {
+  const ambit_tape *t = block->tape;
+  const ambit_arithmetic *full = block->arithmetic;
+  if (full->eval_tape) return full->eval_tape(block->ctx, t, block->base, block->lanes, block->lanes);
+  uint32_t flags = 0;
+  for (uint32_t i = 0; i < t->nrun; i++) {
+    const ambit_run *r = &t->run[i];
+    flags |= full->run[r->op](full, block->ctx, block->base, block->lanes, block->lanes, r->count, t->dst + r->first,
+        t->a + r->first, t->b + r->first);
+  }
+  return flags;
+}
+
+uint32_t ambit_block_run(ambit_block *block) {
+  const ambit_arithmetic *full = block->arithmetic;
+  if (full->enter) full->enter(block->ctx);
+  uint32_t flags = run_all(block);
+  if (full->leave) full->leave(block->ctx);
+  return flags;
+}
+
+ambit_interval ambit_block_get(const ambit_block *block, uint32_t out, size_t lane) {
+  ambit_interval x;
+  block->arithmetic->bounds(block->ctx, element(block, block->tape->out[out], lane), 1, &x.lo, &x.hi);
+  return isnan(x.lo) || isnan(x.hi) ? AMBIT_ENTIRE : x; /* whatever a plugin does: a bound is never NaN */
+}
+
+void *ambit_block_base(ambit_block *block, size_t *pitch) {
+  *pitch = block->lanes;
+  return block->base;
+}

@@ -1,0 +1,131 @@
+/* series_lowering.c -- TAN, TANH, ASIN, ACOS and POWN in opcodes that have simple recurrences for Taylor
+** coefficients.
+**
+**   tan u  = sin u / cos u                      acos u = pi/2 - asin u
+**   tanh u = 1 - 2 / (exp(2u) + 1)              u^n    = (u^(n/2))^2 or u u^(n-1); n < 0: 1 / u^-n
+**   asin u = atan(u / sqrt(1 - u^2)), |u| < 1
+**
+** The domain is the same, but for asin and acos at -1 and 1, where their series do not exist. The nodes are made
+** without folding, which would undo the work.
+*/
+#include "graph/series_lowering.h"
+#include "graph/fold.h"
+#include "graph/walk.h"
+#include <stdlib.h>
+
+static ambit_expr make(ambit_graph *g, uint32_t op, ambit_expr a, ambit_expr b) {
+  return ambit_store_make(g, op, a, b);
+}
+
+static ambit_expr lower_tanh(ambit_graph *g, ambit_expr u) {
+  ambit_expr two = ambit_graph_number(g, 2);
+  ambit_expr power = make(g, AMBIT_OP_EXP, make(g, AMBIT_OP_MUL, two, u), 0);
+  ambit_expr quotient = make(g, AMBIT_OP_DIV, two, make(g, AMBIT_OP_ADD, AMBIT_ONE, power));
+  return make(g, AMBIT_OP_SUB, AMBIT_ONE, quotient);
+}
+
+static ambit_expr lower_asin(ambit_graph *g, ambit_expr u) {
+  ambit_expr rest = make(g, AMBIT_OP_SUB, AMBIT_ONE, make(g, AMBIT_OP_SQR, u, u));
+  ambit_expr slope = make(g, AMBIT_OP_DIV, u, make(g, AMBIT_OP_SQRT, rest, rest));
+  return make(g, AMBIT_OP_ATAN, slope, slope);
+}
+
+static ambit_expr lower_acos(ambit_graph *g, ambit_expr u) {
+  ambit_expr half_pi = make(g, AMBIT_OP_MUL, ambit_graph_number(g, 0.5), ambit_graph_pi(g));
+  return make(g, AMBIT_OP_SUB, half_pi, lower_asin(g, u));
+}
+
+/* u^n, n >= 1: squaring outermost wherever it can be, since SQR is tight on sets */
+static ambit_expr positive_power(ambit_graph *g, ambit_expr u, uint32_t n) {
+  if (n == 1) return u;
+  if (n % 2) return make(g, AMBIT_OP_MUL, u, positive_power(g, u, n - 1));
+  ambit_expr root = positive_power(g, u, n / 2);
+  return make(g, AMBIT_OP_SQR, root, root);
+}
+
+static ambit_expr lower_power(ambit_graph *g, ambit_expr u, int32_t n) {
+  if (n == 0) return make(g, AMBIT_OP_ADD, AMBIT_ONE, make(g, AMBIT_OP_MUL, AMBIT_ZERO, u)); /* 1 where u is defined */
+  if (n > 0) return positive_power(g, u, (uint32_t)n);
+  return make(g, AMBIT_OP_DIV, AMBIT_ONE, positive_power(g, u, (uint32_t)(-(int64_t)n)));
+}
+
+/* The operation on operands that are lowered already. */
+static ambit_expr lower(ambit_graph *g, uint32_t op, ambit_expr a, ambit_expr b) {
+  if (a == AMBIT_NO_EXPR) return a;
+  switch (op) {
+  case AMBIT_OP_TAN: return make(g, AMBIT_OP_DIV, make(g, AMBIT_OP_SIN, a, a), make(g, AMBIT_OP_COS, a, a));
+  case AMBIT_OP_TANH: return lower_tanh(g, a);
+  case AMBIT_OP_ASIN: return lower_asin(g, a);
+  case AMBIT_OP_ACOS: return lower_acos(g, a);
+  case AMBIT_OP_POWN: return lower_power(g, a, (int32_t)b);
+  default: return make(g, op, a, b);
+  }
+}
+
+ambit_expr ambit_series_helper(ambit_graph *g, ambit_expr e) {
+  const ambit_node x = *ambit_at(g, e);
+  switch (x.op) {
+  case AMBIT_OP_SIN: return make(g, AMBIT_OP_COS, x.a, x.a);
+  case AMBIT_OP_COS: return make(g, AMBIT_OP_SIN, x.a, x.a);
+  case AMBIT_OP_SINH: return make(g, AMBIT_OP_COSH, x.a, x.a);
+  case AMBIT_OP_COSH: return make(g, AMBIT_OP_SINH, x.a, x.a);
+  case AMBIT_OP_ATAN: return make(g, AMBIT_OP_ADD, AMBIT_ONE, make(g, AMBIT_OP_SQR, x.a, x.a));
+  case AMBIT_OP_ATAN2: return make(g, AMBIT_OP_ADD, make(g, AMBIT_OP_SQR, x.a, x.a), make(g, AMBIT_OP_SQR, x.b, x.b));
+  default: return AMBIT_NO_EXPR;
+  }
+}
+
+static bool needs_helper(uint32_t op) {
+  return op == AMBIT_OP_SIN || op == AMBIT_OP_COS || op == AMBIT_OP_SINH || op == AMBIT_OP_COSH ||
+         op == AMBIT_OP_ATAN || op == AMBIT_OP_ATAN2;
+}
+
+/* Rewrites root[0..nout) in place. */
+static bool rewrite(ambit_graph *g, size_t nout, ambit_expr *root, ambit_walk_stop stop) {
+  ambit_walk w;
+  if (!ambit_walk_open(g, nout, root, stop, &w)) return false;
+  ambit_expr *now = malloc((w.count + 1) * sizeof *now);
+  bool done = now;
+  for (size_t i = 0; i < nout && done; i++) root[i] = ambit_walk_find(g, root[i]);
+  for (size_t i = 0; i < w.count && done; i++) {
+    const ambit_node x = *ambit_at(g, w.node[i]);
+    bool leaf = ambit_op_is_leaf(x.op) || (stop && stop(g, w.node[i]));
+    now[i] = leaf ? w.node[i] : lower(g, x.op, now[w.a[i]], x.op == AMBIT_OP_POWN ? x.b : now[w.b[i]]);
+    done = now[i] != AMBIT_NO_EXPR;
+  }
+  for (size_t i = 0; i < nout && done; i++) root[i] = now[root[i]];
+  free(now);
+  ambit_walk_close(&w);
+  return done;
+}
+
+/* *root: room for the helpers of all nodes below, appended. */
+static bool append_helpers(ambit_graph *g, ambit_expr **root, size_t *nroot, ambit_walk_stop stop) {
+  ambit_walk w;
+  if (!ambit_walk_open(g, *nroot, *root, stop, &w)) return false;
+  ambit_expr *grown = realloc(*root, (*nroot + w.count + 1) * sizeof *grown);
+  bool done = grown;
+  if (grown) *root = grown;
+  for (size_t i = 0; i < w.count && done; i++) {
+    if (!needs_helper(ambit_at(g, w.node[i])->op) || (stop && stop(g, w.node[i]))) continue;
+    ambit_expr helper = ambit_series_helper(g, w.node[i]);
+    done = helper != AMBIT_NO_EXPR;
+    grown[(*nroot)++] = helper;
+  }
+  ambit_walk_close(&w);
+  return done;
+}
+
+ambit_status ambit_series_lower(ambit_graph *g, size_t nout, const ambit_expr *out, bool series, bool keep,
+    ambit_expr **root, size_t *nroot, ambit_failure *f) {
+  ambit_walk_stop stop = keep ? NULL : ambit_tape_folds;
+  *nroot = nout;
+  *root = calloc(nout + 1, sizeof **root);
+  bool done = *root;
+  for (size_t i = 0; i < nout && done; i++) (*root)[i] = out[i];
+  if (done && series) done = rewrite(g, nout, *root, stop) && append_helpers(g, root, nroot, stop);
+  if (done) return AMBIT_OK;
+  free(*root);
+  *root = NULL;
+  return ambit_fail(f, AMBIT_NOMEM, "out of memory while sealing a tape");
+}

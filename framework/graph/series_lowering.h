@@ -1,0 +1,14 @@
+/* series_lowering.h -- expressions in the opcodes that a SERIES tape may hold (ambit/tape.h). */
+#ifndef AMBIT_SERIES_LOWERING_H
+#define AMBIT_SERIES_LOWERING_H
+#include "graph/graph.h"
+
+/* Will sealing write the node as a constant? */
+bool ambit_tape_folds(const ambit_graph *g, ambit_expr e);
+
+/* root [nroot]: the outputs, rewritten if `series`, then the helpers that their nodes need. The caller frees root. */
+ambit_status ambit_series_lower(ambit_graph *g, size_t nout, const ambit_expr *out, bool series, bool keep,
+    ambit_expr **root, size_t *nroot, ambit_failure *f);
+/* The node whose slot is the `aux` of node e; AMBIT_NO_EXPR: e needs none, or out of memory. */
+ambit_expr ambit_series_helper(ambit_graph *g, ambit_expr e);
+#endif

@@ -1,0 +1,27 @@
+/* load.h -- one plugin file: checked, mapped, its entry verified. Keeps no state, so any thread may call it. */
+#ifndef AMBIT_LOAD_H
+#define AMBIT_LOAD_H
+#include "host/path.h"
+#include <stdbool.h>
+
+typedef struct ambit_loaded {
+  void *handle; /* dlclose when done */
+  const char *file;
+  ambit_plugin plugin; /* the kernel's copy, as far as both know the struct */
+} ambit_loaded;
+
+#define AMBIT_REASON_MAX 512
+
+/* Maps `file` and checks its entry: ABI version, size and, unless `id` is NULL, that it calls itself so. INVALID:
+** `reason` says why. */
+ambit_status ambit_load_file(const char *file, const char *id, ambit_loaded *loaded, char reason[AMBIT_REASON_MAX]);
+/* The first existing <directory>/<kind>/<name>.so. A file that exists but cannot be used ends the search: silently
+** taking another plugin of the same name would hide the mistake. The failure lists every file tried and why it was
+** not taken. */
+ambit_status ambit_load_named(ambit_arena *arena, const ambit_path *path, const char *kind, const char *name,
+    ambit_loaded *loaded, ambit_failure *f);
+
+/* Copies min(own, its size) bytes of a struct that starts with its size into the zeroed `into`; false if it holds
+** fewer than `required`. */
+bool ambit_load_struct(void *into, size_t own, size_t required, const void *theirs);
+#endif

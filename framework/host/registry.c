@@ -1,0 +1,256 @@
+/* registry.c -- loaded plugins and the kernel's completed copies of their interfaces. */
+#include "host/registry.h"
+#include "base/arena.h"
+#include "graph/interpreter.h"
+#include "host/load.h"
+#include "host/slow.h"
+#include <dlfcn.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* One loaded plugin; each interface is copied when it is first asked for. */
+typedef struct entry {
+  struct entry *next;
+  const char *kind, *name; /* NULL when loaded by file */
+  ambit_loaded loaded;
+  ambit_arithmetic *arithmetic;
+  ambit_element *element;
+  ambit_solver *solver;
+  ambit_exports *exports;
+} entry;
+
+struct ambit_registry {
+  ambit_arena *arena;
+  ambit_path path;
+  entry *first;
+  void (*note)(void *user, const char *line);
+  void *user;
+};
+
+ambit_registry *ambit_registry_open(const char *path) {
+  ambit_registry *r = calloc(1, sizeof *r);
+  if (!r) return NULL;
+  r->arena = ambit_arena_open();
+  if (!r->arena || ambit_path_open(r->arena, path, &r->path) != AMBIT_OK) {
+    ambit_arena_close(r->arena);
+    free(r);
+    return NULL;
+  }
+  ambit_slow_offer(r, path);
+  return r;
+}
+
+void ambit_registry_close(ambit_registry *r) {
+  if (!r) return;
+  ambit_slow_withdraw(r);
+  for (entry *e = r->first; e; e = e->next) dlclose(e->loaded.handle);
+  ambit_arena_close(r->arena);
+  free(r);
+}
+
+void ambit_registry_set_note(ambit_registry *r, void (*note)(void *user, const char *line), void *user) {
+  r->note = note;
+  r->user = user;
+}
+
+void ambit_registry_note(ambit_registry *r, const char *line) {
+  if (r->note) r->note(r->user, line);
+}
+
+static entry *find_named(const ambit_registry *r, const char *kind, const char *name) {
+  for (entry *e = r->first; e; e = e->next)
+    if (e->kind && strcmp(e->kind, kind) == 0 && strcmp(e->name, name) == 0) return e;
+  return NULL;
+}
+
+static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
+
+/* Puts a loaded plugin on the list. */
+static entry *keep(ambit_registry *r, const ambit_loaded *loaded, const char *kind, const char *name) {
+  entry *e = ambit_arena_alloc(r->arena, sizeof *e);
+  if (!e) return NULL;
+  *e = (entry) { .next = r->first, .loaded = *loaded };
+  if (kind) {
+    e->kind = ambit_arena_text(r->arena, kind);
+    e->name = ambit_arena_text(r->arena, name);
+    if (!e->kind || !e->name) return NULL;
+  }
+  r->first = e;
+  return e;
+}
+
+static ambit_status load(ambit_registry *r, const char *kind, const char *name, entry **e, ambit_failure *f) {
+  *e = find_named(r, kind, name);
+  if (*e) return AMBIT_OK;
+  ambit_loaded loaded;
+  ambit_status status = ambit_load_named(r->arena, &r->path, kind, name, &loaded, f);
+  if (status != AMBIT_OK) return status;
+  *e = keep(r, &loaded, kind, name);
+  if (*e) return AMBIT_OK;
+  dlclose(loaded.handle);
+  return no_memory(f);
+}
+
+ambit_status ambit_registry_plugin(
+    ambit_registry *r, const char *kind, const char *name, const ambit_plugin **p, ambit_failure *f) {
+  entry *e;
+  *p = NULL;
+  ambit_status status = load(r, kind, name, &e, f);
+  if (status == AMBIT_OK) *p = &e->loaded.plugin;
+  return status;
+}
+
+ambit_status ambit_registry_load_file(ambit_registry *r, const char *file, const ambit_plugin **p, ambit_failure *f) {
+  *p = NULL;
+  char reason[AMBIT_REASON_MAX];
+  ambit_loaded loaded;
+  const char *kept_name = ambit_arena_text(r->arena, file);
+  if (!kept_name) return no_memory(f);
+  ambit_status status = ambit_load_file(kept_name, NULL, &loaded, reason);
+  if (status != AMBIT_OK) return ambit_fail(f, status, "cannot use %s: %s", file, reason);
+  entry *e = keep(r, &loaded, NULL, NULL);
+  if (!e) {
+    dlclose(loaded.handle);
+    return no_memory(f);
+  }
+  *p = &e->loaded.plugin;
+  return AMBIT_OK;
+}
+
+/* The kernel's zero-extended copy of the interface `id` of a plugin. */
+static ambit_status copy_interface(
+    ambit_registry *r, const entry *e, const char *id, size_t own, size_t required, void **copy, ambit_failure *f) {
+  const void *theirs = e->loaded.plugin.get(id);
+  if (!theirs)
+    return ambit_fail(f, AMBIT_INVALID, "plugin `%s` (%s) does not offer the interface `%s`", e->loaded.plugin.id,
+        e->loaded.file, id);
+  *copy = ambit_arena_alloc(r->arena, own);
+  if (!*copy) return no_memory(f);
+  if (!ambit_load_struct(*copy, own, required, theirs)) {
+    uint32_t size;
+    memcpy(&size, theirs, sizeof size);
+    return ambit_fail(f, AMBIT_INVALID, "plugin `%s` (%s): its `%s` says it has %u bytes, at least %zu are needed",
+        e->loaded.plugin.id, e->loaded.file, id, (unsigned)size, required);
+  }
+  return AMBIT_OK;
+}
+
+static ambit_status lacks(const entry *e, const char *id, const char *member, ambit_failure *f) {
+  return ambit_fail(
+      f, AMBIT_INVALID, "plugin `%s` (%s): its `%s` lacks `%s`", e->loaded.plugin.id, e->loaded.file, id, member);
+}
+
+#define UPTO(type, member) (offsetof(type, member) + sizeof(((type *)0)->member))
+
+/* The optional jets of an arithmetic carry a size of their own. */
+static ambit_status copy_jets(ambit_registry *r, const entry *e, ambit_arithmetic *a, ambit_failure *f) {
+  if (!a->jets) return AMBIT_OK;
+  ambit_jets *jets = ambit_arena_alloc(r->arena, sizeof *jets);
+  if (!jets) return no_memory(f);
+  if (!ambit_load_struct(jets, sizeof *jets, UPTO(ambit_jets, magnitude), a->jets) || !jets->open || !jets->close ||
+      !jets->put || !jets->advance || !jets->get || !jets->magnitude)
+    return lacks(e, AMBIT_ARITHMETIC, "jets (complete)", f);
+  a->jets = jets;
+  return AMBIT_OK;
+}
+
+static ambit_status make_arithmetic(ambit_registry *r, entry *e, ambit_failure *f) {
+  void *copy;
+  ambit_status status =
+      copy_interface(r, e, AMBIT_ARITHMETIC, sizeof(ambit_arithmetic), UPTO(ambit_arithmetic, bounds), &copy, f);
+  if (status != AMBIT_OK) return status;
+  ambit_arithmetic *a = copy;
+  if (!a->elem || !a->set || !a->bounds)
+    return lacks(e, AMBIT_ARITHMETIC, !a->elem ? "elem" : !a->set ? "set" : "bounds", f);
+  status = copy_jets(r, e, a, f);
+  if (status != AMBIT_OK) return status;
+  ambit_arithmetic *full = ambit_arena_alloc(r->arena, sizeof *full);
+  if (!full) return no_memory(f);
+  status = ambit_arithmetic_complete(a, full, f);
+  if (status == AMBIT_OK) e->arithmetic = full;
+  return status;
+}
+
+static ambit_status make_element(ambit_registry *r, entry *e, ambit_failure *f) {
+  void *copy;
+  ambit_status status =
+      copy_interface(r, e, AMBIT_ELEMENT, sizeof(ambit_element), UPTO(ambit_element, express), &copy, f);
+  if (status != AMBIT_OK) return status;
+  ambit_element *element = copy;
+  if (!element->express) return lacks(e, AMBIT_ELEMENT, "express", f);
+  if (element->nport && !element->port) return lacks(e, AMBIT_ELEMENT, "port", f);
+  e->element = element;
+  return AMBIT_OK;
+}
+
+static ambit_status make_solver(ambit_registry *r, entry *e, ambit_failure *f) {
+  void *copy;
+  ambit_status status = copy_interface(r, e, AMBIT_SOLVER, sizeof(ambit_solver), UPTO(ambit_solver, close), &copy, f);
+  if (status != AMBIT_OK) return status;
+  ambit_solver *s = copy;
+  if (!s->open || !s->run || !s->close) return lacks(e, AMBIT_SOLVER, !s->open ? "open" : !s->run ? "run" : "close", f);
+  e->solver = s;
+  return AMBIT_OK;
+}
+
+ambit_status ambit_registry_arithmetic(
+    ambit_registry *r, const char *name, const ambit_arithmetic **a, ambit_failure *f) {
+  entry *e;
+  *a = NULL;
+  ambit_status status = load(r, "arithmetic", name, &e, f);
+  if (status == AMBIT_OK && !e->arithmetic) status = make_arithmetic(r, e, f);
+  if (status == AMBIT_OK) *a = e->arithmetic;
+  return status;
+}
+
+ambit_status ambit_registry_element(
+    ambit_registry *r, const char *name, const ambit_element **element, ambit_failure *f) {
+  entry *e;
+  *element = NULL;
+  ambit_status status = load(r, "element", name, &e, f);
+  if (status == AMBIT_OK && !e->element) status = make_element(r, e, f);
+  if (status == AMBIT_OK) *element = e->element;
+  return status;
+}
+
+ambit_status ambit_registry_solver(ambit_registry *r, const char *name, const ambit_solver **s, ambit_failure *f) {
+  entry *e;
+  *s = NULL;
+  ambit_status status = load(r, "solver", name, &e, f);
+  if (status == AMBIT_OK && !e->solver) status = make_solver(r, e, f);
+  if (status == AMBIT_OK) *s = e->solver;
+  return status;
+}
+
+ambit_status ambit_registry_exports(
+    ambit_registry *r, const ambit_plugin *p, const ambit_exports **exports, ambit_failure *f) {
+  *exports = NULL;
+  entry *e = r->first;
+  while (e && &e->loaded.plugin != p) e = e->next;
+  if (!e) return ambit_fail(f, AMBIT_INVALID, "the plugin was not loaded by this registry");
+  if (!e->exports && p->get(AMBIT_EXPORTS)) {
+    void *copy;
+    ambit_status status =
+        copy_interface(r, e, AMBIT_EXPORTS, sizeof(ambit_exports), UPTO(ambit_exports, function), &copy, f);
+    if (status != AMBIT_OK) return status;
+    ambit_exports *made = copy;
+    if (made->count && !made->function) return lacks(e, AMBIT_EXPORTS, "function", f);
+    e->exports = made;
+  }
+  *exports = e->exports;
+  return AMBIT_OK;
+}
+
+size_t ambit_registry_list(ambit_registry *r, size_t room, ambit_listing *out) {
+  size_t n = 0;
+  for (size_t k = 0; k < AMBIT_KINDS; k++) {
+    ambit_found *found;
+    size_t count = ambit_path_list(r->arena, &r->path, ambit_plugin_kind[k], &found);
+    for (size_t i = 0; i < count; i++, n++) {
+      if (n >= room) continue;
+      out[n] = (ambit_listing) { ambit_plugin_kind[k], found[i].name, found[i].file,
+        find_named(r, ambit_plugin_kind[k], found[i].name) != NULL };
+    }
+  }
+  return n;
+}

@@ -1,0 +1,79 @@
+/* services.c -- memory from an arena, one failure message, services of the lower layers by their id. */
+#include "host/services.h"
+#include "graph/jet.h"
+#include "num/service.h"
+#include <pthread.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define NOTE_MAX 512
+
+/* fail() may come from any thread of a plugin, so the message is guarded. */
+typedef struct guarded_lease {
+  ambit_lease lease; /* first: host, lease and this share one address */
+  pthread_mutex_t lock;
+} guarded_lease;
+
+static void *alloc(const ambit_host *h, size_t bytes) {
+  return ambit_arena_alloc(((const ambit_lease *)(const void *)h)->arena, bytes);
+}
+
+static ambit_status fail(const ambit_host *h, ambit_status status, const char *format, ...) {
+  char message[AMBIT_MESSAGE_MAX];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(message, sizeof message, format, arguments);
+  va_end(arguments);
+  guarded_lease *guarded = (guarded_lease *)(uintptr_t)h;
+  pthread_mutex_lock(&guarded->lock);
+  ambit_fail(&guarded->lease.failure, status, "%s", message);
+  pthread_mutex_unlock(&guarded->lock);
+  return status;
+}
+
+static void note(const ambit_host *h, const char *format, ...) {
+  const ambit_lease *lease = (const ambit_lease *)(const void *)h;
+  if (!lease->note) return;
+  char line[NOTE_MAX];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(line, sizeof line, format, arguments);
+  va_end(arguments);
+  lease->note(lease->user, line);
+}
+
+static const void *service(const ambit_host *h, const char *id) {
+  (void)h;
+  if (strcmp(id, AMBIT_NUM_SERVICE) == 0) return &ambit_num_service_v1;
+  if (strcmp(id, AMBIT_JET_SERVICE) == 0) return &ambit_jet_service_v1;
+  return NULL;
+}
+
+ambit_status ambit_lease_open(ambit_lease **lease, void (*sink)(void *user, const char *line), void *user) {
+  *lease = NULL;
+  guarded_lease *guarded = calloc(1, sizeof *guarded);
+  if (!guarded) return AMBIT_NOMEM;
+  guarded->lease = (ambit_lease) {
+    .host = { sizeof(ambit_host), AMBIT_ABI, alloc, fail, note, service },
+    .arena = ambit_arena_open(),
+    .note = sink,
+    .user = user,
+  };
+  if (!guarded->lease.arena) {
+    free(guarded);
+    return AMBIT_NOMEM;
+  }
+  pthread_mutex_init(&guarded->lock, NULL);
+  *lease = &guarded->lease;
+  return AMBIT_OK;
+}
+
+void ambit_lease_close(ambit_lease *lease) {
+  if (!lease) return;
+  guarded_lease *guarded = (guarded_lease *)(void *)lease;
+  pthread_mutex_destroy(&guarded->lock);
+  ambit_arena_close(lease->arena);
+  free(guarded);
+}

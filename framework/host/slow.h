@@ -1,0 +1,12 @@
+/* slow.h -- the slow path of the elementary functions (num/elementary.h): a plugin, loaded at the first argument
+** that needs it. */
+#ifndef AMBIT_SLOW_H
+#define AMBIT_SLOW_H
+#include "host/registry.h"
+
+/* From now on the plugin service/elementary is looked for on this registry's path (NULL: as for
+** ambit_registry_open), and a failure is noted through it. Once loaded it stays for the life of the process: any
+** thread may be inside it. */
+void ambit_slow_offer(ambit_registry *r, const char *path);
+void ambit_slow_withdraw(ambit_registry *r); /* the registry is about to close */
+#endif

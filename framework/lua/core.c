@@ -1,0 +1,93 @@
+/* core.c -- the module `ambit` and its C half `ambit.core`. */
+#include "lua/core.h"
+#include "lua/embedded.h"
+#include <string.h>
+
+static const char state_key = 0; /* its address is the key in the Lua registry */
+
+static int state_close(lua_State *L) {
+  ambit_lua *core = lua_touserdata(L, 1);
+  if (core->records) ambit_records_close(core->records, NULL);
+  if (core->graph) ambit_graph_close(core->graph);
+  if (core->registry) ambit_registry_close(core->registry);
+  ambit_arena_close(core->arena);
+  memset(core, 0, sizeof *core);
+  return 0;
+}
+
+/* The state is made before everything that points to it, so Lua finalises it last. */
+static ambit_lua *state_get(lua_State *L) {
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &state_key) == LUA_TUSERDATA) {
+    ambit_lua *core = lua_touserdata(L, -1);
+    lua_pop(L, 1);
+    return core;
+  }
+  lua_pop(L, 1);
+  ambit_lua *core = lua_newuserdatauv(L, sizeof *core, 0);
+  memset(core, 0, sizeof *core);
+  lua_createtable(L, 0, 1);
+  lua_pushcfunction(L, state_close);
+  lua_setfield(L, -2, "__gc");
+  lua_setmetatable(L, -2);
+  core->arena = ambit_arena_open();
+  core->graph = ambit_graph_open();
+  core->registry = ambit_registry_open(NULL);
+  if (!core->arena || !core->graph || !core->registry) luaL_error(L, "ambit: out of memory");
+  lua_rawsetp(L, LUA_REGISTRYINDEX, &state_key);
+  return core;
+}
+
+void ambit_lua_set_functions(lua_State *L, ambit_lua *core, const luaL_Reg *functions) {
+  lua_pushlightuserdata(L, core);
+  luaL_setfuncs(L, functions, 1);
+}
+
+void ambit_lua_new_type(lua_State *L, ambit_lua *core, const char *type, const luaL_Reg *functions) {
+  luaL_newmetatable(L, type);
+  lua_pushstring(L, type);
+  lua_setfield(L, -2, "__metatable"); /* getmetatable(x) is the type's name: nobody pokes into it */
+  ambit_lua_set_functions(L, core, functions);
+}
+
+int luaopen_ambit_core(lua_State *L) {
+  ambit_lua *core = state_get(L);
+  lua_newtable(L);
+  ambit_lua_open_functions(L, core);
+  ambit_lua_open_expression(L, core);
+  ambit_lua_open_enclosure(L, core);
+  ambit_lua_open_data(L, core);
+  ambit_lua_open_plugins(L, core);
+  ambit_lua_open_mechanism(L, core);
+  ambit_lua_open_system(L, core);
+  ambit_lua_open_verbs(L, core);
+  ambit_lua_open_track(L, core);
+  ambit_lua_open_records(L, core);
+  ambit_lua_open_process(L, core);
+  ambit_lua_open_foreign(L, core);
+  return 1;
+}
+
+static int embedded_load(lua_State *L) {
+  const ambit_embedded *file = lua_touserdata(L, lua_upvalueindex(1));
+  if (luaL_loadbufferx(L, file->text, file->size, file->chunk, "t") != LUA_OK) return lua_error(L);
+  lua_insert(L, 1);
+  lua_call(L, lua_gettop(L) - 1, 1);
+  return 1;
+}
+
+/* `require "ambit"`: the embedded files become loadable as ambit.*, then the prelude's own init makes the module. */
+int luaopen_ambit(lua_State *L) {
+  luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_PRELOAD_TABLE);
+  for (const ambit_embedded *file = ambit_embedded_files; file->name; file++) {
+    lua_pushlightuserdata(L, (void *)(uintptr_t)file);
+    lua_pushcclosure(L, embedded_load, 1);
+    lua_setfield(L, -2, file->name);
+  }
+  lua_pushcfunction(L, luaopen_ambit_core);
+  lua_setfield(L, -2, "ambit.core");
+  lua_pop(L, 1);
+  lua_getglobal(L, "require");
+  lua_pushliteral(L, "ambit.init");
+  lua_call(L, 1, 1);
+  return 1;
+}

@@ -1,0 +1,94 @@
+/* core.h -- what the files of this layer share: one kernel state per Lua state, values, and how failures become Lua
+** errors.
+**
+** This layer alone sees lua.h and ffi.h. It is thin: it checks types, calls the kernel and hands results back;
+** everything that can be said in Lua (verbs, keys, shapes, messages about them) is in scripts/prelude.
+**
+** Errors: a Lua error is raised only with no kernel object open that Lua does not own, and never from inside a solver,
+** an element or a C callback. Messages start with "file:line:" of the nearest line that is not Ambit's own.
+*/
+#ifndef AMBIT_LUA_CORE_H
+#define AMBIT_LUA_CORE_H
+#include "base/arena.h"
+#include "base/status.h"
+#include "graph/graph.h"
+#include "host/registry.h"
+#include "model/records.h"
+#include "model/unit.h"
+#include "num/interval.h"
+#include <lauxlib.h>
+#include <lua.h>
+
+/* One per Lua state, kept in the Lua registry; upvalue 1 of every function of the core. */
+typedef struct ambit_lua {
+  ambit_graph *graph;
+  ambit_registry *registry;
+  ambit_records *records; /* JSON lines of `ambit run --json`, or NULL */
+  ambit_arena *arena;     /* texts that must live as long as the state */
+  bool progress;          /* draw a progress bar on stderr */
+} ambit_lua;
+
+#define AMBIT_LUA(L) ((ambit_lua *)lua_touserdata(L, lua_upvalueindex(1)))
+
+#define AMBIT_TYPE_EXPRESSION "ambit.expression"
+#define AMBIT_TYPE_ENCLOSURE "ambit.enclosure"
+#define AMBIT_TYPE_MECHANISM "ambit.mechanism"
+#define AMBIT_TYPE_SYSTEM "ambit.system"
+#define AMBIT_TYPE_TRACK "ambit.track"
+
+/* An expression; `dimension` is what its data said ("35 mm": a length), known only while no operation has touched it.
+** */
+typedef struct ambit_lua_expression {
+  ambit_expr e;
+  bool known;
+  int8_t dimension[7];
+} ambit_lua_expression;
+
+/* An enclosure; flags: AMBIT_F_PARTIAL if some operation on the way left its domain. */
+typedef struct ambit_lua_enclosure {
+  ambit_interval x;
+  uint32_t flags;
+} ambit_lua_enclosure;
+
+/* "scene.lua:12: ", pushed; empty if no line of a script is active. */
+void ambit_lua_where(lua_State *L);
+/* Raises a Lua error "file:line: message". */
+_Noreturn void ambit_lua_error(lua_State *L, const char *format, ...);
+_Noreturn void ambit_lua_raise(lua_State *L, const ambit_failure *f);
+
+ambit_lua_expression *ambit_lua_push_expression(lua_State *L, ambit_expr e); /* NO_EXPR: raises */
+void ambit_lua_push_enclosure(lua_State *L, ambit_interval x, uint32_t flags);
+/* Pushes a new table {expression, ...}. */
+void ambit_lua_push_expressions(lua_State *L, size_t n, const ambit_expr *e);
+
+/* The value at idx as an expression: number (exact), text (decimal it says, a unit allowed), expression, enclosure (a
+** fresh unknown).
+** wanted: SI unit that a dimension must agree with, or NULL. what: named in messages ("offset"), or NULL. */
+ambit_lua_expression ambit_lua_to_expression(lua_State *L, int idx, const char *wanted, const char *what);
+/* The value at idx as a set: enclosure, number, text, or an expression without unknowns. */
+ambit_lua_enclosure ambit_lua_to_enclosure(lua_State *L, int idx, const char *what);
+/* {expression, ...} at idx -> an array of n owned by Lua (pushed as one userdata above the stack). */
+ambit_expr *ambit_lua_to_array(lua_State *L, int idx, size_t n);
+bool ambit_lua_is_constant(lua_State *L, const ambit_lua_expression *x);
+
+/* Each adds its functions to the table on top of the stack (the state as upvalue). */
+void ambit_lua_open_functions(lua_State *L, ambit_lua *core);  /* functions.c: sin, pow, ... */
+void ambit_lua_open_expression(lua_State *L, ambit_lua *core); /* expression.c */
+void ambit_lua_open_enclosure(lua_State *L, ambit_lua *core);  /* enclosure.c */
+void ambit_lua_open_data(lua_State *L, ambit_lua *core);       /* data.c: around, between, interval */
+void ambit_lua_open_plugins(lua_State *L, ambit_lua *core);    /* plugins.c */
+void ambit_lua_open_mechanism(lua_State *L, ambit_lua *core);  /* mechanism.c */
+void ambit_lua_open_system(lua_State *L, ambit_lua *core);     /* system.c */
+void ambit_lua_open_verbs(lua_State *L, ambit_lua *core);      /* verbs.c: evaluate, simulate */
+void ambit_lua_open_track(lua_State *L, ambit_lua *core);      /* track.c: the recorded steps of a run */
+void ambit_lua_open_records(lua_State *L, ambit_lua *core);    /* records.c: JSON lines */
+void ambit_lua_open_process(lua_State *L, ambit_lua *core);    /* process.c: libraries, clocks, terminals */
+void ambit_lua_open_foreign(lua_State *L, ambit_lua *core);    /* foreign.c: plugin exports by libffi */
+
+/* A metatable for the named type with the given functions, all with the state as upvalue; left on the stack. */
+void ambit_lua_new_type(lua_State *L, ambit_lua *core, const char *type, const luaL_Reg *functions);
+void ambit_lua_set_functions(lua_State *L, ambit_lua *core, const luaL_Reg *functions);
+
+int luaopen_ambit_core(lua_State *L);
+int luaopen_ambit(lua_State *L);
+#endif

@@ -1,0 +1,141 @@
+/* data.c -- uncertain data: around, between, interval.
+**
+** around(c, tol) for a numeric c is one fresh unknown over [c - tol, c + tol]; both ends are rounded outward from
+** enclosures of c and tol, so every value within the tolerance is inside. For a general expression c it is c + |c| tol
+** xi (absolute: c + tol xi) with a fresh xi in [-1, 1], which has the same image. between(lo, hi): one fresh unknown
+** over the hull of its ends.
+*/
+#include "lua/core.h"
+#include "num/decimal.h"
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct tolerance {
+  ambit_interval size; /* >= 0 */
+  bool relative;
+} tolerance;
+
+/* 0.1 (a number: absolute), "0.1", "0.1%", "0.1 mm" */
+static tolerance tolerance_of(lua_State *L, int idx) {
+  tolerance t = { { 0, 0 }, false };
+  ambit_failure f = { 0 };
+  if (lua_type(L, idx) == LUA_TNUMBER) {
+    double x = lua_tonumber(L, idx);
+    if (!(x >= 0) || isinf(x)) ambit_lua_error(L, "around: the tolerance must be a finite number, not negative");
+    t.size = (ambit_interval) { x, x };
+    return t;
+  }
+  if (lua_type(L, idx) != LUA_TSTRING)
+    ambit_lua_error(L, "around: expected a tolerance such as 0.1, \"0.1\" or \"1%%\", got %s",
+        lua_isnone(L, idx) ? "nothing" : luaL_typename(L, idx));
+  const char *rest = "";
+  if (ambit_decimal_tolerance(lua_tostring(L, idx), &t.size, &t.relative, &rest, &f) != AMBIT_OK)
+    ambit_lua_raise(L, &f);
+  while (isspace((unsigned char)*rest)) rest++;
+  if (*rest && t.relative) ambit_lua_error(L, "around: a tolerance in %% takes no unit, got \"%s\"", rest);
+  if (*rest) {
+    lua_pushfstring(L, "1 %s", rest);
+    ambit_interval unit = ambit_lua_to_enclosure(L, -1, "around").x;
+    lua_pop(L, 1);
+    t.size = ambit_interval_mul(t.size, unit);
+  }
+  if (!ambit_interval_is_bounded(t.size)) ambit_lua_error(L, "around: the tolerance is not finite");
+  return t;
+}
+
+static ambit_expr around_number(ambit_graph *g, ambit_interval c, tolerance t) {
+  ambit_interval radius = t.size;
+  if (t.relative)
+    radius = ambit_interval_mul(radius, (ambit_interval) { ambit_interval_mig(c), ambit_interval_mag(c) });
+  ambit_interval both = { -radius.hi, radius.hi };
+  return ambit_graph_unknown(g, NULL, ambit_interval_add(c, both));
+}
+
+static ambit_expr around_general(ambit_graph *g, ambit_expr c, tolerance t) {
+  ambit_interval range = ambit_graph_node(g, c)->range;
+  ambit_expr xi = ambit_graph_unknown(g, NULL, (ambit_interval) { -1, 1 }), scale = ambit_graph_number(g, t.size.hi);
+  if (xi == AMBIT_NO_EXPR || scale == AMBIT_NO_EXPR) return AMBIT_NO_EXPR;
+  ambit_expr d = ambit_graph_op(g, AMBIT_OP_MUL, scale, xi);
+  if (t.relative && d != AMBIT_NO_EXPR) { /* |c| is c or -c where the sign is known: smooth */
+    bool known = range.lo >= 0 || range.hi <= 0;
+    ambit_expr size = known ? c : ambit_graph_op(g, AMBIT_OP_ABS, c, c); /* xi is symmetric: the sign does not matter */
+    d = size == AMBIT_NO_EXPR ? size : ambit_graph_op(g, AMBIT_OP_MUL, size, d);
+  }
+  return d == AMBIT_NO_EXPR ? d : ambit_graph_op(g, AMBIT_OP_ADD, c, d);
+}
+
+static int around(lua_State *L) {
+  ambit_graph *g = AMBIT_LUA(L)->graph;
+  ambit_lua_expression c = ambit_lua_to_expression(L, 1, NULL, "around");
+  tolerance t = tolerance_of(L, 2);
+  if (t.size.hi > 0) {
+    const ambit_node *node = ambit_graph_node(g, c.e);
+    if (node->constant && !ambit_interval_is_bounded(node->range))
+      ambit_lua_error(L, "around: the value is not bounded");
+    c.e = node->constant ? around_number(g, node->range, t) : around_general(g, c.e, t);
+  }
+  *ambit_lua_push_expression(L, c.e) = c;
+  return 1;
+}
+
+static int between(lua_State *L) {
+  ambit_lua_expression lo = ambit_lua_to_expression(L, 1, NULL, "between"),
+                       hi = ambit_lua_to_expression(L, 2, NULL, "between");
+  ambit_graph *g = AMBIT_LUA(L)->graph;
+  const ambit_node *node = ambit_graph_node(g, lo.e);
+  bool constant = node->constant;
+  ambit_interval a = node->range;
+  node = ambit_graph_node(g, hi.e);
+  if (!constant || !node->constant)
+    ambit_lua_error(L, "between: the ends must be known numbers, not uncertain themselves");
+  if (lo.known && hi.known && memcmp(lo.dimension, hi.dimension, sizeof lo.dimension) != 0)
+    ambit_lua_error(L, "between: the ends have different dimensions");
+  ambit_interval b = node->range;
+  if (a.lo > b.hi) ambit_lua_error(L, "between: the interval is reversed: %g is greater than %g", a.lo, b.hi);
+  ambit_interval range = { a.lo, b.hi };
+  if (!ambit_interval_is_bounded(range)) ambit_lua_error(L, "between: the ends must be finite");
+  if (lo.e != hi.e) lo.e = ambit_graph_unknown(g, NULL, range);
+  if (!lo.known) {
+    hi.e = lo.e;
+    lo = hi;
+  }
+  *ambit_lua_push_expression(L, lo.e) = lo;
+  return 1;
+}
+
+/* interval(lo, hi): numbers (infinite ones too), texts, enclosures; interval(x): a literal, a number, an enclosure */
+static int interval(lua_State *L) {
+  ambit_lua_enclosure x, y;
+  if (lua_gettop(L) < 1) ambit_lua_error(L, "interval: expected bounds or a literal such as \"[0.1, 0.2]\"");
+  bool unbounded[2] = { false, false };
+  ambit_lua_enclosure end[2];
+  for (int i = 0; i < 2; i++) {
+    double v = lua_type(L, i + 1) == LUA_TNUMBER ? lua_tonumber(L, i + 1) : 0;
+    unbounded[i] = isinf(v);
+    if (unbounded[i])
+      end[i] = (ambit_lua_enclosure) { { v, v }, 0 };
+    else if (i == 0 || !lua_isnoneornil(L, 2))
+      end[i] = ambit_lua_to_enclosure(L, i + 1, "interval");
+    else
+      end[i] = end[0];
+  }
+  x = end[0];
+  y = end[1];
+  if (ambit_interval_is_empty(x.x) && lua_isnoneornil(L, 2)) {
+    ambit_lua_push_enclosure(L, AMBIT_EMPTY, x.flags);
+    return 1;
+  }
+  ambit_interval r = { x.x.lo, y.x.hi };
+  if (ambit_interval_is_empty(x.x) || ambit_interval_is_empty(y.x)) ambit_lua_error(L, "interval: a bound is empty");
+  if (r.lo > r.hi) ambit_lua_error(L, "interval: the bounds are reversed: %g is greater than %g", r.lo, r.hi);
+  if (r.lo == r.hi && isinf(r.lo)) ambit_lua_error(L, "interval: the interval is empty: it holds no real number");
+  ambit_lua_push_enclosure(L, r, x.flags | y.flags);
+  return 1;
+}
+
+void ambit_lua_open_data(lua_State *L, ambit_lua *core) {
+  static const luaL_Reg functions[] = { { "around", around }, { "between", between }, { "interval", interval },
+    { NULL, NULL } };
+  ambit_lua_set_functions(L, core, functions);
+}

@@ -1,0 +1,42 @@
+/* error.c -- failures as Lua errors that name the script's own line. */
+#include "lua/core.h"
+#include "lua/embedded.h"
+#include <stdio.h>
+#include <string.h>
+
+/* Ambit's own chunks are named "=(ambit) ..."; the user's line is the nearest one that is neither those nor C. */
+void ambit_lua_where(lua_State *L) {
+  lua_Debug frame;
+  for (int level = 0; lua_getstack(L, level, &frame); level++) {
+    lua_getinfo(L, "Sl", &frame);
+    bool own = strncmp(frame.source, AMBIT_CHUNK_PREFIX, sizeof AMBIT_CHUNK_PREFIX - 1) == 0;
+    if (frame.currentline > 0 && !own) {
+      lua_pushfstring(L, "%s:%d: ", frame.short_src, frame.currentline);
+      return;
+    }
+  }
+  lua_pushliteral(L, "");
+}
+
+_Noreturn static void raise(lua_State *L, const char *message) {
+  ambit_lua_where(L);
+  lua_pushstring(L, message);
+  lua_concat(L, 2);
+  lua_error(L);
+  for (;;) {}
+}
+
+_Noreturn void ambit_lua_error(lua_State *L, const char *format, ...) {
+  char message[AMBIT_MESSAGE_MAX];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(message, sizeof message, format, arguments);
+  va_end(arguments);
+  raise(L, message);
+}
+
+_Noreturn void ambit_lua_raise(lua_State *L, const ambit_failure *f) {
+  char message[AMBIT_MESSAGE_MAX]; /* a copy: the failure may live in something that Lua frees */
+  snprintf(message, sizeof message, "%s", f->message[0] ? f->message : ambit_status_name(f->status));
+  raise(L, message);
+}

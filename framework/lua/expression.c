@@ -1,0 +1,136 @@
+/* expression.c -- expressions as Lua values: operators, text, derivative. */
+#include "lua/core.h"
+#include "num/decimal.h"
+#include <string.h>
+
+static ambit_lua_expression *self(lua_State *L) { return luaL_checkudata(L, 1, AMBIT_TYPE_EXPRESSION); }
+
+static int text(lua_State *L) {
+  ambit_graph *g = AMBIT_LUA(L)->graph;
+  ambit_expr e = self(L)->e;
+  char small[256];
+  size_t length = ambit_graph_text(g, e, small, sizeof small);
+  if (length < sizeof small) {
+    lua_pushlstring(L, small, length);
+    return 1;
+  }
+  luaL_Buffer buffer;
+  char *room = luaL_buffinitsize(L, &buffer, length + 1);
+  ambit_graph_text(g, e, room, length + 1);
+  luaL_pushresultsize(&buffer, length);
+  return 1;
+}
+
+static int equal(lua_State *L) {
+  const ambit_lua_expression *a = luaL_testudata(L, 1, AMBIT_TYPE_EXPRESSION);
+  const ambit_lua_expression *b = luaL_testudata(L, 2, AMBIT_TYPE_EXPRESSION);
+  lua_pushboolean(L, a && b && a->e == b->e);
+  return 1;
+}
+
+static int order(lua_State *L) {
+  ambit_lua_error(
+      L, "expressions have no order: compare enclosures (ambit.evaluate), or use ambit.min, ambit.max, ambit.abs");
+}
+
+/* derivative(e, x): x a variable, an unknown or ambit.time */
+static int derivative(lua_State *L) {
+  ambit_graph *g = AMBIT_LUA(L)->graph;
+  ambit_expr e = ambit_lua_to_expression(L, 1, NULL, "derivative").e,
+             x = ambit_lua_to_expression(L, 2, NULL, "derivative").e;
+  ambit_failure f = { 0 };
+  if (ambit_graph_node(g, x)->op < AMBIT_LEAF_UNKNOWN)
+    ambit_lua_error(L, "derivative: the second argument must be a single variable or unknown");
+  ambit_expr d = ambit_graph_derivative(g, e, x, &f);
+  if (d == AMBIT_NO_EXPR && f.status != AMBIT_OK) ambit_lua_raise(L, &f);
+  ambit_lua_push_expression(L, d);
+  return 1;
+}
+
+static int simplify(lua_State *L) {
+  ambit_expr e = ambit_lua_to_expression(L, 1, NULL, "simplify").e;
+  ambit_lua_push_expression(L, ambit_graph_simplify(AMBIT_LUA(L)->graph, e, (size_t)luaL_optinteger(L, 2, 1000)));
+  return 1;
+}
+
+/* expression(value [, unit [, what]]) */
+static int expression(lua_State *L) {
+  const char *unit = luaL_optstring(L, 2, NULL), *what = luaL_optstring(L, 3, NULL);
+  *ambit_lua_push_expression(L, 0) = ambit_lua_to_expression(L, 1, unit, what);
+  return 1;
+}
+
+/* symbol(name, unit): the variable of that name */
+static int symbol(lua_State *L) {
+  ambit_lua *core = AMBIT_LUA(L);
+  ambit_lua_push_expression(L, ambit_graph_symbol(core->graph, luaL_checkstring(L, 1), luaL_optstring(L, 2, "1")));
+  return 1;
+}
+
+static int time_symbol(lua_State *L) {
+  ambit_lua_push_expression(L, ambit_graph_time(AMBIT_LUA(L)->graph));
+  return 1;
+}
+
+static int pi(lua_State *L) {
+  ambit_lua_push_expression(L, ambit_graph_pi(AMBIT_LUA(L)->graph));
+  return 1;
+}
+
+static int is_constant(lua_State *L) {
+  lua_pushboolean(L, ambit_lua_is_constant(L, self(L)));
+  return 1;
+}
+
+/* leaves({e, ...}) -> {{expression, kind, name, unit, lo, hi}, ...}: what the expressions depend on */
+static int leaves(lua_State *L) {
+  ambit_graph *g = AMBIT_LUA(L)->graph;
+  size_t n = (size_t)luaL_len(L, 1);
+  ambit_expr *e = ambit_lua_to_array(L, 1, n);
+  size_t count = ambit_graph_leaves(g, n, e, 0, NULL);
+  ambit_expr *leaf = lua_newuserdatauv(L, (count + 1) * sizeof *leaf, 0);
+  ambit_graph_leaves(g, n, e, count, leaf);
+  lua_createtable(L, (int)count, 0);
+  for (size_t i = 0; i < count; i++) {
+    const ambit_node *node = ambit_graph_node(g, leaf[i]);
+    const char *kind = node->op == AMBIT_LEAF_UNKNOWN ? "unknown" : node->op == AMBIT_LEAF_TIME ? "time" : "symbol";
+    ambit_interval range = node->op == AMBIT_LEAF_UNKNOWN ? node->value : node->range;
+    lua_createtable(L, 0, 6);
+    lua_pushstring(L, node->text);
+    lua_setfield(L, -2, "name");
+    lua_pushstring(L, node->unit);
+    lua_setfield(L, -2, "unit");
+    lua_pushstring(L, kind);
+    lua_setfield(L, -2, "kind");
+    lua_pushnumber(L, range.lo);
+    lua_setfield(L, -2, "lo");
+    lua_pushnumber(L, range.hi);
+    lua_setfield(L, -2, "hi");
+    ambit_lua_push_expression(L, leaf[i]);
+    lua_setfield(L, -2, "expression");
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  return 1;
+}
+
+static int nodes(lua_State *L) {
+  lua_pushinteger(L, ambit_graph_count(AMBIT_LUA(L)->graph));
+  return 1;
+}
+
+void ambit_lua_open_expression(lua_State *L, ambit_lua *core) {
+  static const luaL_Reg meta[] = { { "__tostring", text }, { "__eq", equal }, { "__lt", order }, { "__le", order },
+    { NULL, NULL } };
+  static const luaL_Reg functions[] = { { "derivative", derivative }, { "simplify", simplify },
+    { "expression", expression }, { "symbol", symbol }, { "time", time_symbol }, { "pi", pi },
+    { "is_constant", is_constant }, { "leaves", leaves }, { "nodes", nodes }, { NULL, NULL } };
+  static const char *const operators[][2] = { { "__add", "add" }, { "__sub", "sub" }, { "__mul", "mul" },
+    { "__div", "div" }, { "__unm", "neg" }, { "__pow", "pow" } };
+  ambit_lua_set_functions(L, core, functions);
+  ambit_lua_new_type(L, core, AMBIT_TYPE_EXPRESSION, meta);
+  for (size_t i = 0; i < sizeof operators / sizeof *operators; i++) {
+    lua_getfield(L, -2, operators[i][1]);
+    lua_setfield(L, -2, operators[i][0]);
+  }
+  lua_pop(L, 1);
+}

@@ -1,0 +1,150 @@
+/* functions.c -- sin, sqrt, pow ... and the operators, one function per opcode for every kind of value.
+**
+** With an enclosure among the operands (and no unknown) the result is an enclosure, by the kernel's interval functions
+** (IEEE 1788 set-based); otherwise an expression, so that what a script writes stays exact, differentiable and
+** correlated.
+*/
+#include "lua/core.h"
+#include <ctype.h>
+#include <string.h>
+
+static const struct {
+  const char *name;
+  int arity;
+} opcode[] = {
+#define AMBIT_X(name, arity, symbol) { #name, arity },
+  AMBIT_OPS(AMBIT_X)
+#undef AMBIT_X
+};
+
+static bool is_enclosure(lua_State *L, int idx) { return luaL_testudata(L, idx, AMBIT_TYPE_ENCLOSURE) != NULL; }
+
+static bool is_unknown(lua_State *L, int idx) {
+  const ambit_lua_expression *x = luaL_testudata(L, idx, AMBIT_TYPE_EXPRESSION);
+  return x && !ambit_lua_is_constant(L, x);
+}
+
+static bool wants_enclosure(lua_State *L, int arity) {
+  bool some = false;
+  for (int i = 1; i <= arity; i++) {
+    if (is_unknown(L, i)) return false;
+    some = some || is_enclosure(L, i);
+  }
+  return some;
+}
+
+static int apply(lua_State *L, uint32_t op, int arity, const char *what) {
+  if (wants_enclosure(L, arity)) {
+    ambit_lua_enclosure a = ambit_lua_to_enclosure(L, 1, what), b = arity == 2 ? ambit_lua_to_enclosure(L, 2, what) : a;
+    ambit_interval r;
+    uint32_t flags = ambit_interval_op(op, &r, a.x, b.x);
+    ambit_lua_push_enclosure(L, r, flags | a.flags | b.flags);
+    return 1;
+  }
+  ambit_expr a = ambit_lua_to_expression(L, 1, NULL, what).e;
+  ambit_expr b = arity == 2 ? ambit_lua_to_expression(L, 2, NULL, what).e : a;
+  ambit_lua_push_expression(L, ambit_graph_op(AMBIT_LUA(L)->graph, op, a, b));
+  return 1;
+}
+
+/* sin(x), atan2(y, x): upvalue 2 is the opcode */
+static int function(lua_State *L) {
+  uint32_t op = (uint32_t)lua_tointeger(L, lua_upvalueindex(2));
+  return apply(L, op, opcode[op].arity, lua_tostring(L, lua_upvalueindex(3)));
+}
+
+/* min(a, b, ...), max(a, b, ...) */
+static int fold(lua_State *L) {
+  uint32_t op = (uint32_t)lua_tointeger(L, lua_upvalueindex(2));
+  const char *what = lua_tostring(L, lua_upvalueindex(3));
+  int n = lua_gettop(L);
+  if (n == 1) {
+    lua_pushvalue(L, 1);
+    return apply(L, op, 2, what);
+  }
+  while (lua_gettop(L) > 1) {
+    int rest = lua_gettop(L) - 2;
+    apply(L, op, 2, what);
+    lua_replace(L, 1);
+    lua_remove(L, 2);
+    lua_settop(L, rest + 1);
+  }
+  if (n == 0) apply(L, op, 2, what); /* says what is missing */
+  return 1;
+}
+
+/* The exponent as an integer, if that is what it says. */
+static bool integer_exponent(lua_State *L, int idx, int32_t *n) {
+  double x;
+  if (lua_type(L, idx) == LUA_TNUMBER || lua_type(L, idx) == LUA_TSTRING) {
+    int is_number;
+    x = lua_tonumberx(L, idx, &is_number);
+    if (!is_number) return false;
+  } else if (!is_unknown(L, idx)) {
+    ambit_lua_enclosure e = ambit_lua_to_enclosure(L, idx, "exponent");
+    if (!ambit_interval_is_point(e.x)) return false;
+    x = e.x.lo;
+  } else {
+    return false;
+  }
+  if (!(fabs(x) <= 1e9) || x != floor(x)) return false;
+  *n = (int32_t)x;
+  return true;
+}
+
+static int integer_power(lua_State *L, int32_t n) {
+  if (is_enclosure(L, 1)) {
+    ambit_lua_enclosure a = ambit_lua_to_enclosure(L, 1, "pow");
+    ambit_interval r;
+    uint32_t flags = ambit_interval_pown(&r, a.x, n);
+    ambit_lua_push_enclosure(L, r, flags | a.flags);
+  } else {
+    ambit_expr a = ambit_lua_to_expression(L, 1, NULL, "pow").e;
+    ambit_lua_push_expression(L, ambit_graph_pown(AMBIT_LUA(L)->graph, a, n));
+  }
+  return 1;
+}
+
+/* a^b: integer b for every a, otherwise exp(b log a), a > 0; b = 1/2 is the square root */
+static int power(lua_State *L) {
+  int32_t n;
+  lua_settop(L, 2);
+  if (integer_exponent(L, 2, &n)) return integer_power(L, n);
+  if (lua_type(L, 2) == LUA_TNUMBER && lua_tonumber(L, 2) == 0.5) return apply(L, AMBIT_OP_SQRT, 1, "pow");
+  if (wants_enclosure(L, 2)) {
+    ambit_lua_enclosure a = ambit_lua_to_enclosure(L, 1, "pow"), b = ambit_lua_to_enclosure(L, 2, "pow");
+    ambit_interval r;
+    uint32_t flags = a.flags | b.flags | ambit_interval_op(AMBIT_OP_LOG, &r, a.x, a.x);
+    r = ambit_interval_mul(r, b.x);
+    flags |= ambit_interval_op(AMBIT_OP_EXP, &r, r, r);
+    ambit_lua_push_enclosure(L, r, flags);
+    return 1;
+  }
+  ambit_graph *g = AMBIT_LUA(L)->graph;
+  ambit_expr a = ambit_lua_to_expression(L, 1, NULL, "pow").e, b = ambit_lua_to_expression(L, 2, NULL, "pow").e;
+  a = ambit_graph_op(g, AMBIT_OP_LOG, a, a);
+  if (a != AMBIT_NO_EXPR) a = ambit_graph_op(g, AMBIT_OP_MUL, a, b);
+  if (a != AMBIT_NO_EXPR) a = ambit_graph_op(g, AMBIT_OP_EXP, a, a);
+  ambit_lua_push_expression(L, a);
+  return 1;
+}
+
+static void push_function(lua_State *L, ambit_lua *core, lua_CFunction f, uint32_t op, const char *name) {
+  lua_pushlightuserdata(L, core);
+  lua_pushinteger(L, op);
+  lua_pushstring(L, name);
+  lua_pushcclosure(L, f, 3);
+}
+
+void ambit_lua_open_functions(lua_State *L, ambit_lua *core) {
+  for (uint32_t op = 0; op < AMBIT_OP_COUNT; op++) {
+    char name[8];
+    size_t length = strlen(opcode[op].name);
+    for (size_t i = 0; i <= length; i++) name[i] = (char)tolower((unsigned char)opcode[op].name[i]);
+    if (op == AMBIT_OP_POWN) continue;
+    push_function(L, core, op == AMBIT_OP_MIN || op == AMBIT_OP_MAX ? fold : function, op, name);
+    lua_setfield(L, -2, name);
+  }
+  push_function(L, core, power, AMBIT_OP_POWN, "pow");
+  lua_setfield(L, -2, "pow");
+}

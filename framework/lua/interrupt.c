@@ -1,0 +1,56 @@
+/* interrupt.c -- SIGINT as a flag for verbs and as an error for Lua code. */
+#include "lua/interrupt.h"
+#include <lauxlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define IMPATIENT 3 /* so many during one verb: leave at once */
+
+static lua_State *volatile watched; /* NULL: nobody watches */
+static volatile sig_atomic_t in_verb, pending, seen;
+
+static void raise_interrupted(lua_State *L, lua_Debug *frame) {
+  (void)frame;
+  lua_sethook(L, NULL, 0, 0);
+  luaL_error(L, "interrupted");
+}
+
+static void on_signal(int number) {
+  (void)number;
+  seen = 1;
+  if (in_verb) {
+    pending = pending + 1;
+    if (pending >= IMPATIENT) _exit(130);
+  } else if (watched) { /* lua_sethook is safe in a signal handler */
+    lua_sethook(watched, raise_interrupted, LUA_MASKCALL | LUA_MASKRET | LUA_MASKLINE | LUA_MASKCOUNT, 1);
+  }
+}
+
+static void catch_signal(struct sigaction *previous) {
+  struct sigaction action;
+  memset(&action, 0, sizeof action);
+  action.sa_handler = on_signal;
+  sigemptyset(&action.sa_mask);
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGINT, &action, previous);
+}
+
+void ambit_interrupt_watch(lua_State *L) {
+  watched = L;
+  catch_signal(NULL);
+}
+
+void ambit_interrupt_begin(ambit_interrupt *i) {
+  i->lent = watched == NULL;
+  pending = 0;
+  in_verb = 1;
+  if (i->lent) catch_signal(&i->previous);
+}
+
+void ambit_interrupt_end(ambit_interrupt *i) {
+  if (i->lent) sigaction(SIGINT, &i->previous, NULL);
+  in_verb = 0;
+}
+
+bool ambit_interrupt_pending(void) { return pending != 0; }
+bool ambit_interrupt_seen(void) { return seen != 0; }

@@ -1,0 +1,170 @@
+/* mechanism.c -- mechanisms as Lua values: adding parts, pulling quantities, equations of motion. */
+#include "lua/core.h"
+#include "model/dynamics.h"
+#include "model/mechanism.h"
+#include "lua/system.h"
+#include <string.h>
+
+static ambit_mechanism *self(lua_State *L) {
+  ambit_mechanism **m = luaL_checkudata(L, 1, AMBIT_TYPE_MECHANISM);
+  return *m;
+}
+
+static int close(lua_State *L) {
+  ambit_mechanism **m = luaL_checkudata(L, 1, AMBIT_TYPE_MECHANISM);
+  if (*m) ambit_mechanism_close(*m);
+  *m = NULL;
+  return 0;
+}
+
+/* mechanism(name) */
+static int mechanism(lua_State *L) {
+  ambit_lua *core = AMBIT_LUA(L);
+  ambit_mechanism **m = lua_newuserdatauv(L, sizeof(ambit_mechanism *), 0);
+  *m = NULL;
+  luaL_setmetatable(L, AMBIT_TYPE_MECHANISM);
+  *m = ambit_mechanism_open(core->graph, luaL_checkstring(L, 1));
+  if (!*m) ambit_lua_error(L, "out of memory");
+  return 1;
+}
+
+/* {{expression, ...} or false, ...} at idx -> arrays owned by Lua */
+static const ambit_expr **params_of(lua_State *L, int idx, size_t n) {
+  const ambit_expr **param = lua_newuserdatauv(L, (n + 1) * sizeof *param, 0);
+  luaL_checkstack(L, (int)n + 4, "too many parameters");
+  for (size_t i = 0; i < n; i++) {
+    param[i] = NULL;
+    lua_rawgeti(L, idx, (lua_Integer)i + 1);
+    if (lua_istable(L, -1)) param[i] = ambit_lua_to_array(L, -1, (size_t)luaL_len(L, -1)); /* stays on the stack */
+  }
+  return param;
+}
+
+/* {part, port, part, port, ...} at idx; part < 0: not connected */
+static ambit_frame *frames_of(lua_State *L, int idx, size_t n) {
+  ambit_frame *frame = lua_newuserdatauv(L, (n + 1) * sizeof *frame, 0);
+  for (size_t i = 0; i < n; i++) {
+    lua_rawgeti(L, idx, 2 * (lua_Integer)i + 1);
+    lua_rawgeti(L, idx, 2 * (lua_Integer)i + 2);
+    lua_Integer part = lua_tointeger(L, -2);
+    frame[i] = part < 0 ? AMBIT_NOWHERE : (ambit_frame) { (uint32_t)part, (uint32_t)lua_tointeger(L, -1) };
+    lua_pop(L, 2);
+  }
+  return frame;
+}
+
+/* add(mechanism, type, name or nil, where, params, connections) -> part number */
+static int add(lua_State *L) {
+  ambit_lua *core = AMBIT_LUA(L);
+  ambit_mechanism *m = self(L);
+  ambit_failure f = { 0 };
+  ambit_part_spec spec = { 0 };
+  spec.type = ambit_arena_text(core->arena, luaL_checkstring(L, 2));
+  spec.name = lua_isnil(L, 3) ? NULL : ambit_arena_text(core->arena, luaL_checkstring(L, 3));
+  spec.where = ambit_arena_text(core->arena, luaL_checkstring(L, 4));
+  if (ambit_registry_element(core->registry, spec.type, &spec.element, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
+  spec.param = params_of(L, 5, ambit_params_count(spec.element->param));
+  spec.connection = frames_of(L, 6, spec.element->nport);
+  uint32_t part = 0;
+  if (ambit_mechanism_add(m, &spec, &part, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
+  lua_pushinteger(L, part);
+  return 1;
+}
+
+/* pull(mechanism, part, port, quantity, count) -> {expression, ...}; part < 0: of the mechanism */
+static int pull(lua_State *L) {
+  ambit_mechanism *m = self(L);
+  ambit_failure f = { 0 };
+  lua_Integer part = luaL_checkinteger(L, 2);
+  ambit_frame frame = part < 0 ? AMBIT_NOWHERE : (ambit_frame) { (uint32_t)part, (uint32_t)luaL_checkinteger(L, 3) };
+  const ambit_expr *e = ambit_mechanism_pull(m, frame, (uint32_t)luaL_checkinteger(L, 4), &f);
+  if (!e) ambit_lua_raise(L, &f);
+  ambit_lua_push_expressions(L, (size_t)luaL_checkinteger(L, 5), e);
+  return 1;
+}
+
+static int part_name(lua_State *L) {
+  uint32_t part = (uint32_t)luaL_checkinteger(L, 2);
+  ambit_mechanism *m = self(L);
+  lua_pushstring(L, part < ambit_mechanism_count(m) ? ambit_mechanism_part_name(m, part) : "?");
+  return 1;
+}
+
+static int pulled(lua_State *L) {
+  size_t some = 0, all = 0;
+  ambit_mechanism_pulled(self(L), &some, &all);
+  lua_pushinteger(L, (lua_Integer)some);
+  lua_pushinteger(L, (lua_Integer)all);
+  return 2;
+}
+
+static int count(lua_State *L) {
+  lua_pushinteger(L, ambit_mechanism_count(self(L)));
+  return 1;
+}
+
+/* coordinates(mechanism) -> {{name, unit, q, qd, qdd}, ...} */
+static int coordinates(lua_State *L) {
+  ambit_mechanism *m = self(L);
+  size_t n = ambit_mechanism_coordinates(m, 0, NULL);
+  ambit_coordinate *c = lua_newuserdatauv(L, (n + 1) * sizeof *c, 0);
+  ambit_mechanism_coordinates(m, n, c);
+  lua_createtable(L, (int)n, 0);
+  for (size_t i = 0; i < n; i++) {
+    lua_createtable(L, 0, 5);
+    lua_pushstring(L, c[i].name);
+    lua_setfield(L, -2, "name");
+    lua_pushstring(L, c[i].unit);
+    lua_setfield(L, -2, "unit");
+    ambit_lua_push_expression(L, c[i].q);
+    lua_setfield(L, -2, "q");
+    ambit_lua_push_expression(L, c[i].qd);
+    lua_setfield(L, -2, "qd");
+    ambit_lua_push_expression(L, c[i].qdd);
+    lua_setfield(L, -2, "qdd");
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  return 1;
+}
+
+/* dynamics(mechanism) -> system */
+static int dynamics(lua_State *L) {
+  ambit_failure f = { 0 };
+  ambit_mechanism *m = self(L);
+  ambit_lua_system *s = ambit_lua_push_system(L);
+  if (ambit_dynamics_system(m, s->arena, &s->system, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
+  return 1;
+}
+
+/* motion(mechanism) -> n, {M by rows}, {h}: M(q) q'' = h(q, q') */
+static int motion(lua_State *L) {
+  ambit_failure f = { 0 };
+  ambit_motion motion = { 0 };
+  ambit_mechanism *m = self(L);
+  ambit_lua_system *scratch = ambit_lua_push_system(L); /* its arena is Lua's to free */
+  if (ambit_motion_build(m, scratch->arena, &motion, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
+  lua_pushinteger(L, (lua_Integer)motion.n);
+  ambit_lua_push_expressions(L, motion.n * motion.n, motion.mass);
+  ambit_lua_push_expressions(L, motion.n, motion.force);
+  return 3;
+}
+
+void ambit_lua_open_mechanism(lua_State *L, ambit_lua *core) {
+  static const luaL_Reg meta[] = { { "__gc", close }, { NULL, NULL } };
+  static const luaL_Reg functions[] = { { "mechanism", mechanism }, { "add", add }, { "pull", pull },
+    { "part_name", part_name }, { "pulled", pulled }, { "part_count", count }, { "coordinates", coordinates },
+    { "dynamics", dynamics }, { "motion", motion }, { NULL, NULL } };
+  static const struct {
+    const char *name;
+    lua_Integer value;
+  } quantity[] = { { "POSE", AMBIT_POSE }, { "TWIST", AMBIT_TWIST }, { "ACCEL", AMBIT_ACCEL },
+    { "WRENCH", AMBIT_WRENCH }, { "ENERGY", AMBIT_ENERGY }, { "COORDINATE", AMBIT_COORDINATE }, { "RATE", AMBIT_RATE },
+    { "FIELD", AMBIT_FIELD } };
+  ambit_lua_set_functions(L, core, functions);
+  for (size_t i = 0; i < sizeof quantity / sizeof *quantity; i++) {
+    lua_pushinteger(L, quantity[i].value);
+    lua_setfield(L, -2, quantity[i].name);
+  }
+  ambit_lua_new_type(L, core, AMBIT_TYPE_MECHANISM, meta);
+  lua_pop(L, 1);
+}

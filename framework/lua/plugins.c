@@ -1,0 +1,134 @@
+/* plugins.c -- plugins as Lua tables: the listing, and what each declares about itself (ports, parameters, options). */
+#include "lua/core.h"
+#include "base/names.h"
+#include <string.h>
+
+static void set_text(lua_State *L, const char *key, const char *value) {
+  lua_pushstring(L, value); /* nil if NULL */
+  lua_setfield(L, -2, key);
+}
+
+static void set_integer(lua_State *L, const char *key, lua_Integer value) {
+  lua_pushinteger(L, value);
+  lua_setfield(L, -2, key);
+}
+
+/* {{name, unit, shape, fallback, doc}, ...} */
+static void push_params(lua_State *L, const ambit_param *param) {
+  size_t n = ambit_params_count(param);
+  lua_createtable(L, (int)n, 0);
+  for (size_t i = 0; i < n; i++) {
+    lua_createtable(L, 0, 5);
+    set_text(L, "name", param[i].name);
+    set_text(L, "unit", param[i].unit && param[i].unit[0] ? param[i].unit : "1");
+    set_text(L, "shape", param[i].shape ? param[i].shape : "");
+    set_text(L, "fallback", param[i].fallback);
+    set_text(L, "doc", param[i].doc);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+}
+
+static void push_ports(lua_State *L, const ambit_element *element) {
+  lua_createtable(L, (int)element->nport, 0);
+  for (uint32_t i = 0; i < element->nport; i++) {
+    const ambit_port *port = &element->port[i];
+    lua_createtable(L, 0, 6);
+    set_text(L, "name", port->name);
+    set_text(L, "kind", port->kind == AMBIT_PORT_JOINT ? "joint" : "frame");
+    set_text(L, "role", port->role == AMBIT_ROLE_IN ? "in" : "out");
+    set_text(L, "doc", port->doc);
+    set_integer(L, "dof", port->dof);
+    lua_pushboolean(L, port->optional != 0);
+    lua_setfield(L, -2, "optional");
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+}
+
+static void push_plugin(lua_State *L, const char *kind, const char *name) {
+  const ambit_plugin *plugin;
+  ambit_failure f = { 0 };
+  if (ambit_registry_plugin(AMBIT_LUA(L)->registry, kind, name, &plugin, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
+  lua_createtable(L, 0, 10);
+  set_text(L, "kind", kind);
+  set_text(L, "name", name);
+  set_text(L, "id", plugin->id);
+  set_text(L, "version", plugin->version);
+  set_text(L, "doc", plugin->doc);
+}
+
+/* plugin(kind, name) -> {kind, name, id, version, doc, and what the kind declares}; loads it */
+static int plugin(lua_State *L) {
+  const char *kind = luaL_checkstring(L, 1), *name = luaL_checkstring(L, 2);
+  ambit_registry *r = AMBIT_LUA(L)->registry;
+  ambit_failure f = { 0 };
+  ambit_status status = AMBIT_OK;
+  push_plugin(L, kind, name);
+  if (strcmp(kind, "element") == 0) {
+    const ambit_element *element;
+    if ((status = ambit_registry_element(r, name, &element, &f)) == AMBIT_OK) {
+      push_ports(L, element);
+      lua_setfield(L, -2, "ports");
+      push_params(L, element->param);
+      lua_setfield(L, -2, "parameters");
+    }
+  } else if (strcmp(kind, "solver") == 0) {
+    const ambit_solver *solver;
+    if ((status = ambit_registry_solver(r, name, &solver, &f)) == AMBIT_OK) {
+      push_params(L, solver->param);
+      lua_setfield(L, -2, "parameters");
+      set_text(L, "arithmetics", solver->arithmetics);
+      lua_pushboolean(L, solver->needs_rigorous != 0);
+      lua_setfield(L, -2, "rigorous");
+    }
+  } else if (strcmp(kind, "arithmetic") == 0) {
+    const ambit_arithmetic *arithmetic;
+    if ((status = ambit_registry_arithmetic(r, name, &arithmetic, &f)) == AMBIT_OK) {
+      push_params(L, arithmetic->param);
+      lua_setfield(L, -2, "parameters");
+      lua_pushboolean(L, arithmetic->rigorous != 0);
+      lua_setfield(L, -2, "rigorous");
+    }
+  }
+  if (status != AMBIT_OK) ambit_lua_raise(L, &f);
+  return 1;
+}
+
+/* list() -> {{kind, name, file, loaded}, ...}; loads nothing */
+static int list(lua_State *L) {
+  ambit_registry *r = AMBIT_LUA(L)->registry;
+  size_t n = ambit_registry_list(r, 0, NULL);
+  ambit_listing *entry = lua_newuserdatauv(L, (n + 1) * sizeof *entry, 0);
+  size_t found = ambit_registry_list(r, n, entry);
+  if (found < n) n = found;
+  lua_createtable(L, (int)n, 0);
+  for (size_t i = 0; i < n; i++) {
+    lua_createtable(L, 0, 4);
+    set_text(L, "kind", entry[i].kind);
+    set_text(L, "name", entry[i].name);
+    set_text(L, "file", entry[i].file);
+    lua_pushboolean(L, entry[i].loaded);
+    lua_setfield(L, -2, "loaded");
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  return 1;
+}
+
+/* nearest(name, {candidate, ...}) -> the nearest one or nil */
+static int nearest(lua_State *L) {
+  const char *name = luaL_checkstring(L, 1);
+  size_t n = (size_t)luaL_len(L, 2);
+  const char **candidate = lua_newuserdatauv(L, (n + 1) * sizeof *candidate, 0);
+  for (size_t i = 0; i < n; i++) {
+    lua_rawgeti(L, 2, (lua_Integer)i + 1);
+    candidate[i] = luaL_checkstring(L, -1);
+    lua_pop(L, 1); /* the table keeps it */
+  }
+  lua_pushstring(L, ambit_names_nearest(name, candidate, n));
+  return 1;
+}
+
+void ambit_lua_open_plugins(lua_State *L, ambit_lua *core) {
+  static const luaL_Reg functions[] = { { "plugin", plugin }, { "list", list }, { "nearest", nearest },
+    { NULL, NULL } };
+  ambit_lua_set_functions(L, core, functions);
+}

@@ -1,0 +1,105 @@
+/* process.c -- what Lua's own libraries do not say: loaded libraries, CPU time, terminals, where the script stands. */
+#include "lua/core.h"
+#include "lua/interrupt.h"
+#include "num/decimal.h"
+#include <link.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#ifndef AMBIT_VERSION
+#error "AMBIT_VERSION comes from the build"
+#endif
+
+typedef struct collection {
+  size_t count, room;
+  const char **name; /* NULL: only count */
+} collection;
+
+static int collect(struct dl_phdr_info *info, size_t size, void *user) {
+  collection *c = user;
+  (void)size;
+  if (!info->dlpi_name || !info->dlpi_name[0]) return 0;
+  if (c->count < c->room) c->name[c->count] = info->dlpi_name;
+  c->count++;
+  return 0;
+}
+
+/* libraries() -> {file, ...}: every shared object in this process, as the dynamic loader lists them */
+static int libraries(lua_State *L) {
+  collection c = { 0 };
+  dl_iterate_phdr(collect, &c);
+  c.name = lua_newuserdatauv(L, (c.count + 1) * sizeof *c.name, 0);
+  c.room = c.count;
+  c.count = 0;
+  dl_iterate_phdr(collect, &c);
+  lua_createtable(L, (int)c.room, 0);
+  for (size_t i = 0; i < c.count && i < c.room; i++) {
+    lua_pushstring(L, c.name[i]);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  return 1;
+}
+
+/* cpu() -> s of CPU time of this process */
+static int cpu(lua_State *L) {
+  struct timespec t;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  lua_pushnumber(L, (double)t.tv_sec + 1e-9 * (double)t.tv_nsec);
+  return 1;
+}
+
+/* terminal("stdin" | "stdout" | "stderr") */
+static int terminal(lua_State *L) {
+  static const char *const name[] = { "stdin", "stdout", "stderr", NULL };
+  lua_pushboolean(L, isatty(luaL_checkoption(L, 1, NULL, name)));
+  return 1;
+}
+
+/* where() -> "scene.lua:12: " or "" */
+static int where(lua_State *L) {
+  ambit_lua_where(L);
+  return 1;
+}
+
+/* fail(message): a Lua error at the script's own line */
+static int fail(lua_State *L) { ambit_lua_error(L, "%s", luaL_checkstring(L, 1)); }
+
+/* progress(on) */
+static int progress(lua_State *L) {
+  AMBIT_LUA(L)->progress = lua_toboolean(L, 1);
+  return 0;
+}
+
+static void print_note(void *user, const char *line) {
+  (void)user;
+  fprintf(stderr, "note: %s\n", line);
+}
+
+/* notes(on): what plugins have to say goes to stderr, or nowhere */
+static int notes(lua_State *L) {
+  ambit_registry_set_note(AMBIT_LUA(L)->registry, lua_toboolean(L, 1) ? print_note : NULL, NULL);
+  return 0;
+}
+
+static int interrupted(lua_State *L) {
+  lua_pushboolean(L, ambit_interrupt_seen());
+  return 1;
+}
+
+/* literal(x) -> the shortest text that reads back as x */
+static int literal(lua_State *L) {
+  char text[AMBIT_DECIMAL_MAX];
+  lua_pushlstring(L, text, (size_t)ambit_decimal_shortest(text, luaL_checknumber(L, 1)));
+  return 1;
+}
+
+void ambit_lua_open_process(lua_State *L, ambit_lua *core) {
+  static const luaL_Reg functions[] = { { "libraries", libraries }, { "cpu", cpu }, { "terminal", terminal },
+    { "where", where }, { "fail", fail }, { "progress", progress }, { "notes", notes }, { "interrupted", interrupted },
+    { "literal", literal }, { NULL, NULL } };
+  ambit_lua_set_functions(L, core, functions);
+  lua_pushliteral(L, AMBIT_VERSION);
+  lua_setfield(L, -2, "version");
+}

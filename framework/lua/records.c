@@ -1,0 +1,77 @@
+/* records.c -- JSON lines from Lua: values and results; the steps of a run are written by its sink. */
+#include "lua/core.h"
+#include <string.h>
+
+/* records_open(path): "-" is stdout */
+static int open_records(lua_State *L) {
+  ambit_lua *core = AMBIT_LUA(L);
+  ambit_failure f = { 0 };
+  if (core->records) ambit_lua_error(L, "records are being written already");
+  if (ambit_records_open(luaL_checkstring(L, 1), &core->records, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
+  return 0;
+}
+
+static int close_records(lua_State *L) {
+  ambit_lua *core = AMBIT_LUA(L);
+  ambit_failure f = { 0 };
+  ambit_records *r = core->records;
+  core->records = NULL;
+  if (r && ambit_records_close(r, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
+  return 0;
+}
+
+static void write_fields(lua_State *L, ambit_records *r, int idx);
+
+static void write_field(lua_State *L, ambit_records *r, const char *key) {
+  const ambit_lua_enclosure *x = luaL_testudata(L, -1, AMBIT_TYPE_ENCLOSURE);
+  if (x) {
+    ambit_records_interval(r, key, x->x);
+  } else if (lua_istable(L, -1)) {
+    ambit_records_open_object(r, key);
+    write_fields(L, r, lua_gettop(L));
+    ambit_records_close_object(r);
+  } else if (lua_type(L, -1) == LUA_TNUMBER) {
+    ambit_records_number(r, key, lua_tonumber(L, -1));
+  } else {
+    ambit_records_text(r, key, luaL_tolstring(L, -1, NULL));
+    lua_pop(L, 1);
+  }
+}
+
+/* {key, value, key, value, ...}: the order is the order in the line */
+static void write_fields(lua_State *L, ambit_records *r, int idx) {
+  lua_Integer n = luaL_len(L, idx);
+  luaL_checkstack(L, 8, "records nested too deeply");
+  for (lua_Integer i = 1; i < n; i += 2) {
+    lua_rawgeti(L, idx, i);
+    const char *key = luaL_checkstring(L, -1);
+    lua_rawgeti(L, idx, i + 1);
+    write_field(L, r, key);
+    lua_pop(L, 2);
+  }
+}
+
+/* record(kind, {key, value, ...}): a value is a text, a number, an enclosure or a list of the same form */
+static int record(lua_State *L) {
+  ambit_lua *core = AMBIT_LUA(L);
+  ambit_failure f = { 0 };
+  const char *kind = luaL_checkstring(L, 1);
+  luaL_checktype(L, 2, LUA_TTABLE);
+  if (!core->records) return 0;
+  ambit_records_begin(core->records, kind);
+  write_fields(L, core->records, 2);
+  if (ambit_records_end(core->records, &f) != AMBIT_OK && f.status != AMBIT_OK)
+    ambit_lua_raise(L, &f); /* reported once */
+  return 0;
+}
+
+static int recording(lua_State *L) {
+  lua_pushboolean(L, AMBIT_LUA(L)->records != NULL);
+  return 1;
+}
+
+void ambit_lua_open_records(lua_State *L, ambit_lua *core) {
+  static const luaL_Reg functions[] = { { "records_open", open_records }, { "records_close", close_records },
+    { "record", record }, { "recording", recording }, { NULL, NULL } };
+  ambit_lua_set_functions(L, core, functions);
+}

@@ -1,0 +1,62 @@
+/* request.c -- what the verbs share: options, instants, fields and reports between Lua tables and C. */
+#include "lua/request.h"
+#include <string.h>
+
+/* {name, text, name, text, ...} at idx -> options owned by Lua */
+ambit_option *ambit_lua_options(lua_State *L, int idx, size_t *n) {
+  *n = (size_t)luaL_len(L, idx) / 2;
+  ambit_option *option = lua_newuserdatauv(L, (*n + 1) * sizeof *option, 0);
+  memset(option, 0, (*n + 1) * sizeof *option);
+  for (size_t i = 0; i < *n; i++) {
+    lua_rawgeti(L, idx, 2 * (lua_Integer)i + 1);
+    lua_rawgeti(L, idx, 2 * (lua_Integer)i + 2);
+    option[i] = (ambit_option) { luaL_checkstring(L, -2), luaL_checkstring(L, -1) }; /* the table keeps both */
+    lua_pop(L, 2);
+  }
+  return option;
+}
+
+void ambit_lua_set_number(lua_State *L, const char *key, double value) {
+  lua_pushnumber(L, value);
+  lua_setfield(L, -2, key);
+}
+
+void ambit_lua_set_count(lua_State *L, const char *key, uint32_t value) {
+  lua_pushinteger(L, value);
+  lua_setfield(L, -2, key);
+}
+
+void ambit_lua_set_text(lua_State *L, const char *key, const char *value) {
+  lua_pushstring(L, value);
+  lua_setfield(L, -2, key);
+}
+
+void ambit_lua_push_report(lua_State *L, const ambit_report *r) {
+  lua_createtable(L, 0, 16);
+  ambit_lua_set_text(L, "arithmetic", r->arithmetic);
+  if (r->solver[0]) ambit_lua_set_text(L, "solver", r->solver);
+  ambit_lua_set_count(L, "expressions", r->expressions);
+  ambit_lua_set_count(L, "graph_nodes", r->graph_nodes);
+  ambit_lua_set_count(L, "tape_slots", r->tape_slots);
+  ambit_lua_set_count(L, "tape_constants", r->tape_constants);
+  ambit_lua_set_count(L, "tape_instructions", r->tape_instructions);
+  ambit_lua_set_count(L, "tape_runs", r->tape_runs);
+  ambit_lua_set_count(L, "states", r->states);
+  ambit_lua_set_count(L, "parameters", r->parameters);
+  ambit_lua_set_count(L, "unknowns", r->unknowns);
+  ambit_lua_set_count(L, "constant_slots", r->constant_slots);
+  ambit_lua_set_count(L, "steps", r->steps);
+  ambit_lua_set_number(L, "seconds_build", r->seconds_build);
+  ambit_lua_set_number(L, "seconds_run", r->seconds_run);
+}
+
+double *ambit_lua_times(lua_State *L, int idx, size_t *n) {
+  *n = (size_t)luaL_len(L, idx);
+  double *t = lua_newuserdatauv(L, (*n + 1) * sizeof *t, 0);
+  for (size_t i = 0; i < *n; i++) {
+    lua_rawgeti(L, idx, (lua_Integer)i + 1);
+    t[i] = luaL_checknumber(L, -1);
+    lua_pop(L, 1);
+  }
+  return t;
+}

@@ -1,0 +1,16 @@
+/* request.h -- what the verbs share: options, instants, fields and reports between Lua tables and C. Arrays are Lua's
+** (one userdata each, pushed). */
+#ifndef AMBIT_LUA_REQUEST_H
+#define AMBIT_LUA_REQUEST_H
+#include "lua/core.h"
+#include "model/report.h"
+
+ambit_option *ambit_lua_options(lua_State *L, int idx, size_t *n); /* {name, text, name, text, ...} */
+double *ambit_lua_times(lua_State *L, int idx, size_t *n);         /* {t, ...}, s */
+void ambit_lua_push_report(lua_State *L, const ambit_report *r);
+
+/* Field of the table on top of the stack. */
+void ambit_lua_set_number(lua_State *L, const char *key, double value);
+void ambit_lua_set_count(lua_State *L, const char *key, uint32_t value);
+void ambit_lua_set_text(lua_State *L, const char *key, const char *value);
+#endif

@@ -1,0 +1,73 @@
+/* system.c -- x' = f(x, t) as a Lua value, from a mechanism or from equations written in Lua. */
+#include "lua/system.h"
+#include <string.h>
+
+ambit_lua_system *ambit_lua_push_system(lua_State *L) {
+  ambit_lua_system *s = lua_newuserdatauv(L, sizeof *s, 0);
+  memset(s, 0, sizeof *s);
+  luaL_setmetatable(L, AMBIT_TYPE_SYSTEM);
+  s->arena = ambit_arena_open();
+  if (!s->arena) ambit_lua_error(L, "out of memory");
+  return s;
+}
+
+ambit_lua_system *ambit_lua_check_system(lua_State *L, int idx) { return luaL_checkudata(L, idx, AMBIT_TYPE_SYSTEM); }
+
+static int close(lua_State *L) {
+  ambit_lua_system *s = ambit_lua_check_system(L, 1);
+  ambit_arena_close(s->arena);
+  memset(s, 0, sizeof *s);
+  return 0;
+}
+
+static const char *text_at(lua_State *L, ambit_arena *arena, int idx, lua_Integer i) {
+  lua_rawgeti(L, idx, i);
+  const char *text = ambit_arena_text(arena, luaL_checkstring(L, -1));
+  lua_pop(L, 1);
+  if (!text) ambit_lua_error(L, "out of memory");
+  return text;
+}
+
+/* system({name}, {unit}, {state}, {rate}) */
+static int system_new(lua_State *L) {
+  size_t n = (size_t)luaL_len(L, 1);
+  ambit_lua_system *s = ambit_lua_push_system(L);
+  const char **name = ambit_arena_alloc(s->arena, n * sizeof *name),
+             **unit = ambit_arena_alloc(s->arena, n * sizeof *unit);
+  ambit_expr *state = ambit_arena_alloc(s->arena, n * sizeof *state),
+             *rate = ambit_arena_alloc(s->arena, n * sizeof *rate);
+  if (!name || !unit || !state || !rate) ambit_lua_error(L, "out of memory");
+  memcpy(state, ambit_lua_to_array(L, 3, n), n * sizeof *state);
+  memcpy(rate, ambit_lua_to_array(L, 4, n), n * sizeof *rate);
+  lua_pop(L, 2);
+  for (size_t i = 0; i < n; i++) {
+    name[i] = text_at(L, s->arena, 1, (lua_Integer)i + 1);
+    unit[i] = text_at(L, s->arena, 2, (lua_Integer)i + 1);
+  }
+  s->system = (ambit_system) { AMBIT_LUA(L)->graph, n, name, unit, state, rate };
+  return 1;
+}
+
+/* system_parts(system) -> {name}, {unit}, {state}, {rate} */
+static int system_parts(lua_State *L) {
+  const ambit_system *s = &ambit_lua_check_system(L, 1)->system;
+  lua_createtable(L, (int)s->nx, 0);
+  lua_createtable(L, (int)s->nx, 0);
+  for (size_t i = 0; i < s->nx; i++) {
+    lua_pushstring(L, s->name[i]);
+    lua_rawseti(L, -3, (lua_Integer)i + 1);
+    lua_pushstring(L, s->unit[i] ? s->unit[i] : "1");
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  ambit_lua_push_expressions(L, s->nx, s->state);
+  ambit_lua_push_expressions(L, s->nx, s->rate);
+  return 4;
+}
+
+void ambit_lua_open_system(lua_State *L, ambit_lua *core) {
+  static const luaL_Reg meta[] = { { "__gc", close }, { NULL, NULL } };
+  static const luaL_Reg functions[] = { { "system", system_new }, { "system_parts", system_parts }, { NULL, NULL } };
+  ambit_lua_set_functions(L, core, functions);
+  ambit_lua_new_type(L, core, AMBIT_TYPE_SYSTEM, meta);
+  lua_pop(L, 1);
+}

@@ -1,0 +1,14 @@
+/* system.h -- first-order systems as Lua values. */
+#ifndef AMBIT_LUA_SYSTEM_H
+#define AMBIT_LUA_SYSTEM_H
+#include "lua/core.h"
+#include "model/system.h"
+
+typedef struct ambit_lua_system {
+  ambit_arena *arena; /* holds what `system` points to */
+  ambit_system system;
+} ambit_lua_system;
+
+ambit_lua_system *ambit_lua_push_system(lua_State *L); /* empty, with its arena */
+ambit_lua_system *ambit_lua_check_system(lua_State *L, int idx);
+#endif

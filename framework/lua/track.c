@@ -1,0 +1,120 @@
+/* track.c -- the recorded steps of a run. */
+#include "lua/track.h"
+#include "base/vector.h"
+#include <stdlib.h>
+#include <string.h>
+
+#define FIRST_STEPS 4096 /* most runs never grow their track */
+
+static ambit_track *self(lua_State *L) { return luaL_checkudata(L, 1, AMBIT_TYPE_TRACK); }
+
+static int close(lua_State *L) {
+  ambit_track *track = self(L);
+  free(track->step);
+  free(track->value);
+  memset(track, 0, sizeof *track);
+  return 0;
+}
+
+static bool reserve(ambit_track *track, size_t steps) {
+  void *step = ambit_vector_reserve(track->step, &track->room_steps, steps, sizeof *track->step);
+  if (!step) return false;
+  track->step = step;
+  void *value = ambit_vector_reserve(track->value, &track->room_values, steps * 4 * track->nx, sizeof *track->value);
+  if (!value) return false;
+  track->value = value;
+  return true;
+}
+
+ambit_track *ambit_track_push(lua_State *L, size_t nx) {
+  ambit_track *track = lua_newuserdatauv(L, sizeof *track, 0);
+  memset(track, 0, sizeof *track);
+  track->nx = nx;
+  luaL_setmetatable(L, AMBIT_TYPE_TRACK);
+  if (!reserve(track, FIRST_STEPS)) ambit_lua_error(L, "out of memory");
+  return track;
+}
+
+bool ambit_track_append(ambit_track *track, const ambit_record *r) {
+  size_t nx = track->nx, bytes = nx * sizeof(double);
+  if (!reserve(track, track->count + 1)) return false;
+  double *value = track->value + track->count * 4 * nx;
+  bool tube = r->tube_lo && r->tube_hi;
+  track->step[track->count++] = (ambit_track_step) { r->t_from, r->t_to, r->kind, r->event, r->flags, r->order, tube };
+  memcpy(value, r->lo, bytes);
+  memcpy(value + nx, r->hi, bytes);
+  if (tube) {
+    memcpy(value + 2 * nx, r->tube_lo, bytes);
+    memcpy(value + 3 * nx, r->tube_hi, bytes);
+  }
+  return true;
+}
+
+static const ambit_track_step *step_at(lua_State *L, const ambit_track *track, size_t *i) {
+  lua_Integer n = luaL_checkinteger(L, 2);
+  if (n < 1 || (size_t)n > track->count) ambit_lua_error(L, "there is no step %d", (int)n);
+  *i = (size_t)n - 1;
+  return &track->step[*i];
+}
+
+/* track_step(track, i) -> t_from, t_to, kind, event, order, has tube */
+static int step(lua_State *L) {
+  size_t i;
+  const ambit_track_step *s = step_at(L, self(L), &i);
+  lua_pushnumber(L, s->t_from);
+  lua_pushnumber(L, s->t_to);
+  lua_pushstring(L, s->kind == AMBIT_REC_EVENT ? "event" : "step");
+  lua_pushinteger(L, s->event);
+  lua_pushinteger(L, s->order);
+  lua_pushboolean(L, s->tube);
+  return 6;
+}
+
+/* track_value(track, i, state, tube) -> enclosure */
+static int value(lua_State *L) {
+  size_t i;
+  const ambit_track *track = self(L);
+  const ambit_track_step *s = step_at(L, track, &i);
+  size_t state = (size_t)luaL_checkinteger(L, 3) - 1;
+  bool tube = lua_toboolean(L, 4);
+  if (state >= track->nx || (tube && !s->tube)) return 0;
+  const double *v = track->value + i * 4 * track->nx + (tube ? 2 * track->nx : 0) + state;
+  ambit_lua_push_enclosure(L, (ambit_interval) { v[0], v[track->nx] }, s->flags);
+  return 1;
+}
+
+static int count(lua_State *L) {
+  lua_pushinteger(L, (lua_Integer)self(L)->count);
+  return 1;
+}
+
+/* track_find(track, t) -> first step with t between its ends (nil: none), whether t is its very end. Steps ascend or
+** descend. */
+static int find(lua_State *L) {
+  const ambit_track *track = self(L);
+  double t = luaL_checknumber(L, 2);
+  size_t lo = 0, hi = track->count;
+  if (!hi) return 0;
+  double sign = track->step[hi - 1].t_to < track->step[0].t_from ? -1 : 1;
+  while (lo < hi) {
+    size_t mid = lo + (hi - lo) / 2;
+    if (track->step[mid].t_to * sign < t * sign)
+      lo = mid + 1;
+    else
+      hi = mid;
+  }
+  while (lo < track->count && track->step[lo].kind != AMBIT_REC_STEP) lo++;
+  if (lo == track->count || t * sign < track->step[lo].t_from * sign) return 0;
+  lua_pushinteger(L, (lua_Integer)lo + 1);
+  lua_pushboolean(L, track->step[lo].t_to == t);
+  return 2;
+}
+
+void ambit_lua_open_track(lua_State *L, ambit_lua *core) {
+  static const luaL_Reg meta[] = { { "__gc", close }, { NULL, NULL } };
+  static const luaL_Reg functions[] = { { "track_step", step }, { "track_value", value }, { "track_count", count },
+    { "track_find", find }, { NULL, NULL } };
+  ambit_lua_set_functions(L, core, functions);
+  ambit_lua_new_type(L, core, AMBIT_TYPE_TRACK, meta);
+  lua_pop(L, 1);
+}

@@ -1,0 +1,208 @@
+/* value.c -- Lua values as kernel values. A number is the exact double it is; text is the decimal it says. */
+#include "lua/core.h"
+#include "num/decimal.h"
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+ambit_lua_expression *ambit_lua_push_expression(lua_State *L, ambit_expr e) {
+  if (e == AMBIT_NO_EXPR) ambit_lua_error(L, "out of memory while building an expression");
+  ambit_lua_expression *x = lua_newuserdatauv(L, sizeof *x, 0);
+  memset(x, 0, sizeof *x);
+  x->e = e;
+  luaL_setmetatable(L, AMBIT_TYPE_EXPRESSION);
+  return x;
+}
+
+void ambit_lua_push_enclosure(lua_State *L, ambit_interval x, uint32_t flags) {
+  ambit_lua_enclosure *y = lua_newuserdatauv(L, sizeof *y, 0);
+  y->x = x;
+  y->flags = flags & AMBIT_F_PARTIAL;
+  luaL_setmetatable(L, AMBIT_TYPE_ENCLOSURE);
+}
+
+void ambit_lua_push_expressions(lua_State *L, size_t n, const ambit_expr *e) {
+  lua_createtable(L, (int)n, 0);
+  for (size_t i = 0; i < n; i++) {
+    ambit_lua_push_expression(L, e[i]);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+}
+
+ambit_expr *ambit_lua_to_array(lua_State *L, int idx, size_t n) {
+  idx = lua_absindex(L, idx);
+  ambit_expr *e = lua_newuserdatauv(L, (n + 1) * sizeof *e, 0);
+  for (size_t i = 0; i < n; i++) {
+    lua_rawgeti(L, idx, (lua_Integer)i + 1);
+    e[i] = ((ambit_lua_expression *)luaL_checkudata(L, -1, AMBIT_TYPE_EXPRESSION))->e;
+    lua_pop(L, 1);
+  }
+  return e;
+}
+
+bool ambit_lua_is_constant(lua_State *L, const ambit_lua_expression *x) {
+  return ambit_graph_node(AMBIT_LUA(L)->graph, x->e)->constant;
+}
+
+_Noreturn static void wrong(lua_State *L, const char *what, const char *message) {
+  ambit_lua_error(L, "%s%s%s", what ? what : "", what ? ": " : "", message);
+}
+
+static const char *type_name(lua_State *L, int idx) {
+  return luaL_getmetafield(L, idx, "__name") == LUA_TSTRING ? lua_tostring(L, -1) : luaL_typename(L, idx);
+}
+
+/* An integer beyond 2^53 is a decimal too: no digit of it is lost. */
+static ambit_expr number_expression(lua_State *L, int idx, const char *what) {
+  ambit_graph *g = AMBIT_LUA(L)->graph;
+  double x = lua_tonumber(L, idx);
+  if (lua_isinteger(L, idx) && (lua_Number)(lua_Integer)x != (lua_Number)INFINITY) {
+    lua_Integer n = lua_tointeger(L, idx);
+    if (n > 9007199254740992LL || n < -9007199254740992LL) {
+      char text[32];
+      snprintf(text, sizeof text, LUA_INTEGER_FMT, (LUAI_UACINT)n);
+      return ambit_graph_decimal(g, text, NULL);
+    }
+  }
+  if (!isfinite(x)) wrong(L, what, isnan(x) ? "the number is NaN" : "the number is infinite");
+  return ambit_graph_number(g, x);
+}
+
+/* "kg*m^2/s^3" of a dimension, for the unit reader. */
+static void dimension_text(const int8_t power[7], char out[96]) {
+  static const char *const base[7] = { "m", "kg", "s", "A", "K", "mol", "cd" };
+  size_t used = 0;
+  out[0] = '\0';
+  for (int sign = 1; sign >= -1; sign -= 2) {
+    for (int i = 0; i < 7; i++) {
+      int p = power[i] * sign;
+      if (p <= 0) continue;
+      const char *join = sign < 0 ? (used ? "/" : "1/") : used ? "*" : "";
+      used += (size_t)snprintf(out + used, 96 - used, p == 1 ? "%s%s" : "%s%s^%d", join, base[i], p);
+    }
+  }
+  if (!used) snprintf(out, 96, "1");
+}
+
+static bool text_is_set(const char *text, const char *rest) {
+  while (isspace((unsigned char)*text)) text++;
+  const char *mark = strchr(text, '?');
+  return *text == '[' || (mark && mark < rest);
+}
+
+/* A set literal is an uncertain datum: a fresh unknown, times its unit. */
+static ambit_expr set_expression(
+    ambit_graph *g, ambit_interval x, const char *unit, const char *wanted, ambit_failure *f) {
+  if (ambit_interval_is_empty(x)) {
+    ambit_fail(f, AMBIT_INVALID, "the interval is empty");
+    return AMBIT_NO_EXPR;
+  }
+  if (!ambit_interval_is_bounded(x)) {
+    ambit_fail(f, AMBIT_INVALID, "the interval is not bounded");
+    return AMBIT_NO_EXPR;
+  }
+  ambit_expr e = ambit_interval_is_point(x) ? ambit_graph_number(g, x.lo) : ambit_graph_unknown(g, NULL, x), factor;
+  if (!*unit) return e;
+  char one[128];
+  snprintf(one, sizeof one, "1 %s", unit);
+  if (ambit_unit_quantity(g, one, wanted, &factor, f) != AMBIT_OK) return AMBIT_NO_EXPR;
+  return ambit_graph_op(g, AMBIT_OP_MUL, e, factor);
+}
+
+static ambit_status text_expression(
+    ambit_graph *g, const char *text, const char *wanted, ambit_lua_expression *out, ambit_failure *f) {
+  ambit_interval x;
+  const char *rest = "";
+  ambit_unit unit = { 0 };
+  char dimension[96];
+  if (ambit_decimal_read(text, &x, &rest, f) != AMBIT_OK) return f->status;
+  while (isspace((unsigned char)*rest)) rest++;
+  if (*rest && ambit_unit_read(rest, &unit, f) != AMBIT_OK) return f->status;
+  if (!wanted) dimension_text(unit.power, dimension);
+  memcpy(out->dimension, unit.power, sizeof out->dimension);
+  out->known = *rest != '\0';
+  if (text_is_set(text, rest)) {
+    out->e = set_expression(g, x, rest, wanted ? wanted : dimension, f);
+    return out->e == AMBIT_NO_EXPR ? ambit_fail(f, AMBIT_NOMEM, "out of memory") : AMBIT_OK;
+  }
+  if (!ambit_interval_is_bounded(x) && isinf(x.lo) && isinf(x.hi))
+    return ambit_fail(f, AMBIT_INVALID, "\"%s\" is not finite", text);
+  return ambit_unit_quantity(g, text, wanted ? wanted : dimension, &out->e, f);
+}
+
+static void check_dimension(lua_State *L, const ambit_lua_expression *x, const char *wanted, const char *what) {
+  ambit_unit unit;
+  ambit_failure f = { 0 };
+  char have[96], message[256];
+  if (!wanted || !x->known) return;
+  if (ambit_unit_read(wanted, &unit, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
+  if (memcmp(unit.power, x->dimension, sizeof unit.power) == 0) return;
+  dimension_text(x->dimension, have);
+  snprintf(message, sizeof message, "expected a value in %s, got one in %s", wanted, have);
+  wrong(L, what, message);
+}
+
+static ambit_expr enclosure_expression(lua_State *L, const ambit_lua_enclosure *y, const char *what) {
+  ambit_graph *g = AMBIT_LUA(L)->graph;
+  if (ambit_interval_is_empty(y->x)) wrong(L, what, "the enclosure is empty");
+  if (!ambit_interval_is_bounded(y->x)) wrong(L, what, "the enclosure is not bounded");
+  return ambit_interval_is_point(y->x) ? ambit_graph_number(g, y->x.lo) : ambit_graph_unknown(g, NULL, y->x);
+}
+
+ambit_lua_expression ambit_lua_to_expression(lua_State *L, int idx, const char *wanted, const char *what) {
+  ambit_lua_expression out = { 0 };
+  ambit_failure f = { 0 };
+  const void *user;
+  char message[160];
+  switch (lua_type(L, idx)) {
+  case LUA_TNUMBER: out.e = number_expression(L, idx, what); return out;
+  case LUA_TSTRING:
+    if (text_expression(AMBIT_LUA(L)->graph, lua_tostring(L, idx), wanted, &out, &f) != AMBIT_OK)
+      wrong(L, what, f.message);
+    return out;
+  case LUA_TUSERDATA:
+    if ((user = luaL_testudata(L, idx, AMBIT_TYPE_EXPRESSION)) != NULL) {
+      out = *(const ambit_lua_expression *)user;
+      check_dimension(L, &out, wanted, what);
+      return out;
+    }
+    if ((user = luaL_testudata(L, idx, AMBIT_TYPE_ENCLOSURE)) != NULL) {
+      out.e = enclosure_expression(L, user, what);
+      return out;
+    }
+    break;
+  default: break;
+  }
+  snprintf(message, sizeof message, "expected a number, text, expression or enclosure, got %s",
+      lua_isnone(L, idx) ? "nothing" : type_name(L, idx));
+  wrong(L, what, message);
+}
+
+/* How many SI units one `unit` is. */
+static ambit_interval unit_factor(lua_State *L, const char *unit, const char *what) {
+  ambit_lua_expression one = { 0 };
+  ambit_failure f = { 0 };
+  char text[128];
+  snprintf(text, sizeof text, "1 %s", unit);
+  if (text_expression(AMBIT_LUA(L)->graph, text, NULL, &one, &f) != AMBIT_OK) wrong(L, what, f.message);
+  return ambit_graph_node(AMBIT_LUA(L)->graph, one.e)->range;
+}
+
+ambit_lua_enclosure ambit_lua_to_enclosure(lua_State *L, int idx, const char *what) {
+  const void *user = luaL_testudata(L, idx, AMBIT_TYPE_ENCLOSURE);
+  if (user) return *(const ambit_lua_enclosure *)user;
+  if (lua_type(L, idx) == LUA_TSTRING) { /* sets and infinite bounds are welcome here */
+    ambit_interval x;
+    ambit_failure f = { 0 };
+    const char *rest;
+    if (ambit_decimal_read(lua_tostring(L, idx), &x, &rest, &f) != AMBIT_OK) wrong(L, what, f.message);
+    while (isspace((unsigned char)*rest)) rest++;
+    return (ambit_lua_enclosure) { *rest ? ambit_interval_mul(x, unit_factor(L, rest, what)) : x, 0 };
+  }
+  if (lua_type(L, idx) == LUA_TNUMBER && isnan(lua_tonumber(L, idx))) wrong(L, what, "the number is NaN");
+  ambit_lua_expression e = ambit_lua_to_expression(L, idx, NULL, what);
+  const ambit_node *node = ambit_graph_node(AMBIT_LUA(L)->graph, e.e);
+  if (!node->constant)
+    wrong(L, what, "this expression holds unknowns or variables; ask ambit.evaluate for its enclosure");
+  return (ambit_lua_enclosure) { node->range, node->total ? 0 : AMBIT_F_PARTIAL };
+}

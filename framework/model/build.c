@@ -1,0 +1,204 @@
+/* build.c -- what an element sees of the kernel while it writes formulas (ambit_build), and the world. */
+#include "base/vector.h"
+#include "model/parts.h"
+#include "num/decimal.h"
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct build {
+  ambit_build open; /* first: what the element holds is a pointer to this */
+  ambit_mechanism *m;
+  ambit_cell *cell;
+} build;
+
+static build *of(ambit_build *b) { return (build *)b; }
+static const ambit_part *part_of(const build *s) { return &s->m->part[s->cell->part]; }
+
+static ambit_status fail_text(build *s, ambit_status status, const char *text) {
+  char who[AMBIT_WHO_MAX];
+  if (s->m->deferred) return status; /* being broken off: nothing has failed */
+  return ambit_fail(s->m->failure, status, "%s: %s", ambit_part_who(part_of(s), who), text);
+}
+
+static ambit_status fail(ambit_build *b, ambit_status status, const char *format, ...) {
+  char text[AMBIT_MESSAGE_MAX];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  return fail_text(of(b), status == AMBIT_OK ? AMBIT_BROKEN : status, text);
+}
+
+static ambit_expr refuse(build *s, ambit_status status, const char *text) {
+  fail_text(s, status, text);
+  return AMBIT_NO_EXPR;
+}
+
+static ambit_expr num(ambit_build *b, const char *decimal) {
+  ambit_failure f = { 0 };
+  ambit_expr e = ambit_graph_decimal(of(b)->m->graph, decimal, &f);
+  return e == AMBIT_NO_EXPR ? refuse(of(b), f.status, f.message) : e;
+}
+
+static ambit_expr op(ambit_build *b, uint32_t opcode, ambit_expr x, ambit_expr y) {
+  return ambit_graph_op(of(b)->m->graph, opcode, x, y);
+}
+
+static const ambit_expr *param(ambit_build *b, uint32_t index) {
+  const ambit_part *p = part_of(of(b));
+  if (index < p->nparam) return p->param[index];
+  fail(b, AMBIT_BROKEN, "it asks for parameter %u of %zu", index, p->nparam);
+  return NULL;
+}
+
+/* -- coordinates */
+
+/* Symbols are found by name, so q, q' and q'' must be nobody else's. */
+static const ambit_coordinate *make_coordinate(build *s, uint32_t index, const char *unit) {
+  ambit_mechanism *m = s->m;
+  const ambit_part *p = part_of(s);
+  char q[128], qd[132], qdd[132], ud[80], udd[80];
+  if (p->dof > 1) snprintf(q, sizeof q, "%.100s.%u", p->name, index + 1);
+  else snprintf(q, sizeof q, "%.100s", p->name);
+  snprintf(qd, sizeof qd, "%s'", q);
+  snprintf(qdd, sizeof qdd, "%s''", q);
+  snprintf(ud, sizeof ud, "%.60s/s", unit);
+  snprintf(udd, sizeof udd, "%.60s/s^2", unit);
+  for (size_t i = 0; i < m->ncoordinate && strchr(q, '.'); i++) /* without a dot it is a part's own, unique name */
+    if (strcmp(m->coordinate[i].name, q) == 0) {
+      fail(&s->open, AMBIT_INVALID, "its coordinate `%s` has the name of another one", q);
+      return NULL;
+    }
+  ambit_coordinate *grown = ambit_vector_reserve(m->coordinate, &m->coordinate_capacity, m->ncoordinate + 1, sizeof *grown);
+  if (grown) m->coordinate = grown;
+  ambit_coordinate c = { .name = ambit_arena_text(m->arena, q), .unit = ambit_arena_text(m->arena, unit), .part = s->cell->part, .index = index };
+  c.q = ambit_graph_symbol(m->graph, q, unit);
+  c.qd = ambit_graph_symbol(m->graph, qd, ud);
+  c.qdd = ambit_graph_symbol(m->graph, qdd, udd);
+  if (!grown || !c.name || !c.unit || c.q == AMBIT_NO_EXPR || c.qd == AMBIT_NO_EXPR || c.qdd == AMBIT_NO_EXPR) {
+    refuse(s, AMBIT_NOMEM, "out of memory");
+    return NULL;
+  }
+  p->coordinate[index] = (uint32_t)m->ncoordinate;
+  grown[m->ncoordinate] = c;
+  return &grown[m->ncoordinate++];
+}
+
+static ambit_expr state(ambit_build *b, uint32_t i, uint32_t order, const char *unit) {
+  build *s = of(b);
+  const ambit_part *p = part_of(s);
+  if (i >= p->dof || order > 2) {
+    fail(b, AMBIT_BROKEN, "it asks for coordinate %u, derivative %u; it has %u", i, order, p->dof);
+    return AMBIT_NO_EXPR;
+  }
+  bool made = p->coordinate[i] != UINT32_MAX;
+  const ambit_coordinate *c = made ? &s->m->coordinate[p->coordinate[i]] : make_coordinate(s, i, unit);
+  if (!c) return AMBIT_NO_EXPR;
+  return order == 0 ? c->q : order == 1 ? c->qd : c->qdd;
+}
+
+/* -- pulling */
+
+/* The cell of a quantity at a port of the element itself; NULL: the failure says why, or an optional port is not connected. */
+static ambit_cell *reach(build *s, uint32_t port, uint32_t quantity) {
+  ambit_mechanism *m = s->m;
+  const ambit_part *p = part_of(s);
+  if (port == AMBIT_NO_PORT) {
+    if (quantity == AMBIT_FIELD) return &m->field;
+    if (quantity == AMBIT_ENERGY) return &m->energy;
+  } else if (port < p->element->nport) {
+    bool own = p->element->port[port].role == AMBIT_ROLE_OUT || quantity == AMBIT_WRENCH || quantity == AMBIT_EFFORT;
+    ambit_joined to = p->joined[port];
+    if (!own && to.part == UINT32_MAX) return NULL;
+    ambit_cell *cell = own ? ambit_part_cell(p, port, quantity) : ambit_part_cell(&m->part[to.part], to.port, quantity);
+    if (cell) return cell;
+  }
+  fail(&s->open, AMBIT_BROKEN, "it asks for the %s of port %u, which has none", ambit_quantity_name(quantity), port);
+  return NULL;
+}
+
+static const ambit_expr *get(ambit_build *b, uint32_t port, uint32_t quantity) {
+  build *s = of(b);
+  ambit_cell *cell = reach(s, port, quantity);
+  if (!cell) return NULL;
+  const ambit_expr *value = ambit_pull_cell(s->m, cell, s->cell);
+  if (!value && !s->m->deferred && cell->state == AMBIT_CELL_DECLINED)
+    fail(b, AMBIT_INVALID, "it needs the %s of `%s`, which has none", ambit_quantity_name(quantity), s->m->part[cell->part].name);
+  return value;
+}
+
+/* -- unknowns, time, ranges */
+
+static ambit_expr unknown(ambit_build *b, const char *lo, const char *hi) {
+  build *s = of(b);
+  ambit_failure f = { 0 };
+  ambit_interval l = AMBIT_EMPTY, h = AMBIT_EMPTY;
+  if (ambit_decimal_read(lo, &l, NULL, &f) != AMBIT_OK || ambit_decimal_read(hi, &h, NULL, &f) != AMBIT_OK)
+    return refuse(s, f.status, f.message);
+  ambit_interval range = { l.lo, h.hi };
+  if (!(l.lo <= h.hi) || !ambit_interval_is_bounded(range)) return refuse(s, AMBIT_BROKEN, "it asks for an unknown in an empty or unbounded interval");
+  return ambit_graph_unknown(s->m->graph, NULL, range);
+}
+
+/* What the leaf x becomes by d/dt: q -> q', q' -> q''; AMBIT_NO_EXPR: a failure. */
+static ambit_expr leaf_rate(const build *s, ambit_expr x, ambit_failure *f) {
+  for (size_t i = 0; i < s->m->ncoordinate; i++) {
+    const ambit_coordinate *c = &s->m->coordinate[i];
+    if (x == c->q) return c->qd;
+    if (x == c->qd) return c->qdd;
+    if (x != c->qdd) continue;
+    ambit_fail(f, AMBIT_INVALID, "a given motion depends on `%s''`: its time derivative would need a third one", c->name);
+    return AMBIT_NO_EXPR;
+  }
+  return 0; /* fixed; the graph itself knows the rate of TIME */
+}
+
+static ambit_expr diff_time(ambit_build *b, ambit_expr x) {
+  build *s = of(b);
+  ambit_graph *g = s->m->graph;
+  if (x >= ambit_graph_count(g)) return AMBIT_NO_EXPR;
+  ambit_failure f = { 0 };
+  size_t all = ambit_graph_leaves(g, 1, &x, 0, NULL), n = 0;
+  ambit_expr *leaf = malloc((2 * all + 1) * sizeof *leaf), *rate = leaf + all, e = AMBIT_NO_EXPR;
+  if (!leaf) return refuse(s, AMBIT_NOMEM, "out of memory");
+  ambit_graph_leaves(g, 1, &x, all, leaf);
+  for (size_t i = 0; i < all && f.status == AMBIT_OK; i++) {
+    ambit_expr r = leaf_rate(s, leaf[i], &f);
+    if (r == 0) continue;
+    leaf[n] = leaf[i];
+    rate[n++] = r;
+  }
+  if (f.status == AMBIT_OK) e = ambit_graph_time_derivative(g, x, n, leaf, rate, &f);
+  free(leaf);
+  return f.status == AMBIT_OK ? e : refuse(s, f.status, f.message);
+}
+
+static void range(ambit_build *b, ambit_expr x, double *lo, double *hi) {
+  const ambit_graph *g = of(b)->m->graph;
+  ambit_interval r = x < ambit_graph_count(g) ? ambit_graph_node(g, x)->range : AMBIT_ENTIRE;
+  *lo = r.lo;
+  *hi = r.hi;
+}
+
+ambit_status ambit_build_express(ambit_mechanism *m, ambit_cell *cell, ambit_expr *out) {
+  build s = { .open = { sizeof s.open, num, op, param, state, get, unknown, fail, diff_time, range }, .m = m, .cell = cell };
+  return part_of(&s)->element->express(&s.open, cell->port, cell->quantity, out);
+}
+
+/* -- the world */
+
+/* At rest, where the world's axes are; gravity is a proper acceleration upwards. */
+static ambit_status express_world(ambit_build *b, uint32_t port, uint32_t quantity, ambit_expr *out) {
+  if (port != 0 || quantity > AMBIT_ACCEL) return AMBIT_UNABLE;
+  const ambit_expr *field = quantity == AMBIT_ACCEL ? b->get(b, AMBIT_NO_PORT, AMBIT_FIELD) : NULL;
+  if (quantity == AMBIT_ACCEL && !field) return AMBIT_INVALID;
+  memset(out, 0, (quantity == AMBIT_POSE ? 12 : 6) * sizeof *out);
+  for (int i = 0; i < 3 && quantity == AMBIT_POSE; i++) out[4 * i] = b->num(b, "1");
+  for (int i = 0; i < 3 && field; i++) out[3 + i] = b->op(b, AMBIT_OP_NEG, field[i], 0);
+  return AMBIT_OK;
+}
+
+static const ambit_port world_port[] = { { "to", AMBIT_PORT_FRAME, AMBIT_ROLE_OUT, 0, 0, "the world's own frame" } };
+const ambit_element ambit_world_element = { .size = sizeof ambit_world_element, .nport = 1, .port = world_port, .express = express_world };

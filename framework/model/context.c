@@ -1,0 +1,64 @@
+/* context.c -- opening an arithmetic. */
+#include "model/context.h"
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+static void forward_note(void *user, const char *line) { ambit_registry_note(user, line); }
+
+ambit_status ambit_context_lease(ambit_registry *r, ambit_lease **lease, ambit_failure *f) {
+  ambit_status status = ambit_lease_open(lease, forward_note, r);
+  return status == AMBIT_OK ? status : ambit_fail(f, status, "out of memory");
+}
+
+double *ambit_context_options(ambit_lease *lease, const ambit_param *param, const char *kind, const char *name,
+    size_t noption, const ambit_option *option, ambit_failure *f) {
+  char owner[96];
+  snprintf(owner, sizeof owner, "%s `%s`", kind, name);
+  double *value = ambit_arena_alloc(lease->arena, ambit_params_doubles(param) * sizeof *value);
+  if (!value) {
+    ambit_fail(f, AMBIT_NOMEM, "out of memory");
+    return NULL;
+  }
+  return ambit_params_resolve(param, owner, noption, option, value, f) == AMBIT_OK ? value : NULL;
+}
+
+ambit_status ambit_context_failed(const ambit_lease *lease, ambit_status status, const char *who, ambit_failure *f) {
+  if (lease->failure.message[0]) return ambit_fail(f, status, "%s: %s", who, lease->failure.message);
+  return ambit_fail(f, status, "%s: %s, without a reason", who, ambit_status_name(status));
+}
+
+ambit_status ambit_context_open(ambit_registry *r, const char *name, size_t noption, const ambit_option *option,
+    uint32_t nvar, ambit_context *c, ambit_failure *f) {
+  char who[96];
+  *c = (ambit_context) { 0 };
+  ambit_failure own = { 0 };
+  ambit_status status = ambit_registry_arithmetic(r, name, &c->arithmetic, &own);
+  if (status == AMBIT_OK) status = ambit_context_lease(r, &c->lease, &own);
+  double *value = NULL;
+  if (status == AMBIT_OK) {
+    value = ambit_context_options(c->lease, c->arithmetic->param, "arithmetic", name, noption, option, &own);
+    status = own.status;
+  }
+  if (status == AMBIT_OK && c->arithmetic->open) {
+    snprintf(who, sizeof who, "arithmetic `%s`", name);
+    status = c->arithmetic->open(&c->lease->host, value, nvar, &c->ctx);
+    if (status != AMBIT_OK) ambit_context_failed(c->lease, status, who, &own);
+  }
+  if (status == AMBIT_OK) return AMBIT_OK;
+  ambit_lease_close(c->lease);
+  *c = (ambit_context) { 0 };
+  return ambit_fail(f, status, "%s", own.message);
+}
+
+void ambit_context_close(ambit_context *c) {
+  if (c->ctx && c->arithmetic->close) c->arithmetic->close(c->ctx);
+  ambit_lease_close(c->lease);
+  *c = (ambit_context) { 0 };
+}
+
+double ambit_context_seconds(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}

@@ -1,0 +1,81 @@
+/* evaluate.c -- expressions -> tape -> arithmetic -> enclosures.
+**
+** Sound because every step is: substitution and sealing keep identities, the arithmetic encloses the exact image of
+** its inputs, and an unknown that several expressions share is one variable. An arithmetic that is not rigorous
+** proves nothing and says so.
+*/
+#include "model/evaluate.h"
+#include "graph/interpreter.h"
+#include "graph/tape.h"
+#include "model/bound.h"
+#include "model/context.h"
+#include <stdio.h>
+
+typedef struct job {
+  const ambit_evaluate_request *q;
+  ambit_arena *arena;
+  ambit_bound bound;
+  const ambit_tape *tape;
+  ambit_context context;
+  ambit_block *block;
+} job;
+
+static ambit_status prepare(job *j, ambit_failure *f) {
+  const ambit_evaluate_request *q = j->q;
+  ambit_status status = ambit_bound_build(q, j->arena, &j->bound, f);
+  if (status != AMBIT_OK) return status;
+  size_t nu = j->bound.nunknown;
+  status = ambit_context_open(q->registry, q->arithmetic, q->noption, q->option, (uint32_t)nu, &j->context, f);
+  if (status != AMBIT_OK) return status;
+  uint32_t flags = j->context.arithmetic->set_text ? AMBIT_SEAL_KEEP : 0;
+  status = ambit_tape_seal(q->graph, j->arena, q->nexpr, j->bound.expr, nu, j->bound.unknown, 0, flags, &j->tape, f);
+  if (status != AMBIT_OK) return status;
+  return ambit_block_open(j->tape, j->context.arithmetic, j->context.ctx, 1, &j->block, f);
+}
+
+static uint32_t run(job *j, ambit_interval *out) {
+  for (size_t i = 0; i < j->bound.nunknown; i++)
+    ambit_block_set(j->block, (uint32_t)i, 0, ambit_graph_node(j->q->graph, j->bound.unknown[i])->value, (int32_t)i);
+  uint32_t flags = ambit_block_run(j->block) & AMBIT_F_PARTIAL;
+  for (size_t i = 0; i < j->q->nexpr; i++) {
+    out[i] = ambit_block_get(j->block, (uint32_t)i, 0);
+    if (ambit_interval_is_empty(out[i]))
+      flags |= AMBIT_F_EMPTY;
+    else if (!ambit_interval_is_bounded(out[i]))
+      flags |= AMBIT_F_UNBOUNDED;
+  }
+  return flags;
+}
+
+static void fill_report(const job *j, double start, double built, ambit_report *report) {
+  if (!report) return;
+  *report = (ambit_report) { 0 };
+  snprintf(report->arithmetic, sizeof report->arithmetic, "%.31s", j->q->arithmetic);
+  report->expressions = (uint32_t)j->q->nexpr;
+  report->graph_nodes = ambit_graph_count(j->q->graph);
+  report->tape_slots = j->tape->nslot;
+  report->tape_constants = j->tape->nconst;
+  report->tape_instructions = j->tape->ninstr;
+  report->tape_runs = j->tape->nrun;
+  report->unknowns = (uint32_t)j->bound.nunknown;
+  report->seconds_build = built - start;
+  report->seconds_run = ambit_context_seconds() - built;
+}
+
+ambit_status ambit_evaluate(
+    const ambit_evaluate_request *q, ambit_interval *out, uint32_t *flags, ambit_report *report, ambit_failure *f) {
+  job j = { .q = q, .arena = ambit_arena_open() };
+  if (!j.arena) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  double start = ambit_context_seconds();
+  ambit_status status = prepare(&j, f);
+  if (status == AMBIT_OK) {
+    double built = ambit_context_seconds();
+    uint32_t raised = run(&j, out);
+    if (flags) *flags = raised;
+    fill_report(&j, start, built, report);
+  }
+  ambit_block_close(j.block);
+  ambit_context_close(&j.context);
+  ambit_arena_close(j.arena);
+  return status;
+}

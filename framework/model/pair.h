@@ -1,0 +1,12 @@
+/* pair.h -- which arithmetic goes with which solver. */
+#ifndef AMBIT_PAIR_H
+#define AMBIT_PAIR_H
+#include "host/registry.h"
+
+#define AMBIT_NAME_MAX 64
+
+/* The arithmetic that will serve: `wanted`, or (NULL) the solver's default, its name written to `name`. A pair that
+** does not fit is INVALID; the failure names both and lists what fits. */
+ambit_status ambit_pair_choose(ambit_registry *r, const char *solver_name, const ambit_solver *solver,
+    const char *wanted, char name[AMBIT_NAME_MAX], ambit_failure *f);
+#endif

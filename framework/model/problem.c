@@ -1,0 +1,257 @@
+/* problem.c -- which data are parameters, which are unknowns; the tapes over them; the hull of the initial set. */
+#include "model/problem.h"
+#include "graph/tape.h"
+#include "model/hull.h"
+#include "model/unknowns.h"
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+#define NAMES_MAX 256
+
+typedef struct build {
+  const ambit_problem_request *q;
+  ambit_graph *graph;
+  ambit_arena *arena;
+  ambit_failure *f;
+  ambit_expr *rate, *start;  /* [nx] without point unknowns */
+  ambit_expr *input;         /* [nx + np + uses_time] of the right-hand side */
+  ambit_expr *unknown;       /* [nu] */
+  const ambit_tape *initial; /* always sealed, because its hull is needed */
+  ambit_problem *p;
+} build;
+
+static ambit_status no_memory(const build *b) { return ambit_fail(b->f, AMBIT_NOMEM, "out of memory"); }
+
+static void *room(const build *b, size_t n, size_t size) { return ambit_arena_alloc(b->arena, n * size); }
+
+/* -- times */
+
+static ambit_status check_times(const build *b) {
+  const double *t = b->q->time;
+  size_t n = b->q->ntime;
+  if (n < 2) return ambit_fail(b->f, AMBIT_INVALID, "t needs a start and an end");
+  for (size_t i = 0; i < n; i++)
+    if (!isfinite(t[i])) return ambit_fail(b->f, AMBIT_INVALID, "t: instant %zu is not a finite number", i + 1);
+  if (t[0] == t[n - 1])
+    return ambit_fail(b->f, AMBIT_INVALID, "the time span is zero: t starts and ends at %.17g s", t[0]);
+  bool backwards = t[n - 1] < t[0];
+  for (size_t i = 1; i < n; i++)
+    if (backwards ? t[i] >= t[i - 1] : t[i] <= t[i - 1])
+      return ambit_fail(b->f, AMBIT_INVALID, "t: the instants must %s strictly, but %.17g is followed by %.17g",
+          backwards ? "descend" : "ascend", t[i - 1], t[i]);
+  return AMBIT_OK;
+}
+
+/* -- expressions */
+
+static ambit_status copy_expressions(build *b) {
+  const ambit_system *s = b->q->system;
+  if (s->nx == 0) return ambit_fail(b->f, AMBIT_INVALID, "the system has no states");
+  for (size_t i = 0; i < s->nx; i++) {
+    if (b->q->initial[i] == AMBIT_NO_EXPR)
+      return ambit_fail(b->f, AMBIT_INVALID, "state `%s` has no initial value", s->name[i]);
+    if (s->rate[i] == AMBIT_NO_EXPR) return ambit_fail(b->f, AMBIT_INVALID, "state `%s` has no equation", s->name[i]);
+  }
+  b->rate = room(b, s->nx, sizeof *b->rate);
+  b->start = room(b, s->nx, sizeof *b->start);
+  if (!b->rate || !b->start) return no_memory(b);
+  memcpy(b->rate, s->rate, s->nx * sizeof *b->rate);
+  memcpy(b->start, b->q->initial, s->nx * sizeof *b->start);
+  ambit_status status = ambit_unknowns_fold_points(b->graph, b->arena, s->nx, b->rate, b->f);
+  return status == AMBIT_OK ? ambit_unknowns_fold_points(b->graph, b->arena, s->nx, b->start, b->f) : status;
+}
+
+/* How many leaves below e[0..ne) are neither unknowns nor allowed, and their names. */
+static ambit_status find_strangers(const build *b, size_t ne, const ambit_expr *e, size_t nallowed,
+    const ambit_expr *allowed, size_t *strangers, char name[NAMES_MAX]) {
+  size_t n;
+  ambit_expr *leaf;
+  ambit_status status = ambit_unknowns_leaves(b->graph, b->arena, ne, e, &n, &leaf, b->f);
+  if (status == AMBIT_OK)
+    *strangers = ambit_unknowns_name_others(b->graph, n, leaf, nallowed, allowed, name, NAMES_MAX);
+  return status;
+}
+
+/* All e[i] together reach only unknowns and the allowed leaves; otherwise the failure says which one does not. */
+static ambit_status check_leaves(const build *b, const ambit_expr *e, const char *what, size_t nallowed,
+    const ambit_expr *allowed, const char *hint) {
+  const ambit_system *s = b->q->system;
+  char name[NAMES_MAX];
+  size_t strangers;
+  ambit_status status = find_strangers(b, s->nx, e, nallowed, allowed, &strangers, name);
+  if (status != AMBIT_OK || strangers == 0) return status;
+  for (size_t i = 0; i < s->nx; i++) {
+    status = find_strangers(b, 1, &e[i], nallowed, allowed, &strangers, name);
+    if (status != AMBIT_OK) return status;
+    if (strangers)
+      return ambit_fail(b->f, AMBIT_INVALID, "the %s of state `%s` depends on %s%s", what, s->name[i], name, hint);
+  }
+  return AMBIT_OK;
+}
+
+static ambit_status check_reach(const build *b) {
+  const ambit_system *s = b->q->system;
+  ambit_expr *allowed = room(b, s->nx + 1, sizeof *allowed);
+  if (!allowed) return no_memory(b);
+  memcpy(allowed, s->state, s->nx * sizeof *allowed);
+  allowed[s->nx] = ambit_graph_time(b->graph);
+  ambit_status status =
+      check_leaves(b, b->rate, "right-hand side", s->nx + 1, allowed, ", which is neither a state nor a parameter");
+  if (status != AMBIT_OK) return status;
+  return check_leaves(b, b->start, "initial value", 0, NULL, ", but it may use numbers and uncertain data only");
+}
+
+/* -- parameters and unknowns */
+
+static const char *parameter_name(const build *b, ambit_expr e, size_t number) {
+  const ambit_node *node = ambit_graph_node(b->graph, e);
+  if (node->text) return ambit_arena_text(b->arena, node->text);
+  char name[32];
+  snprintf(name, sizeof name, "p%zu", number + 1);
+  return ambit_arena_text(b->arena, name);
+}
+
+/* Inputs of the right-hand side: states, then the unknowns it reaches, then time if it is used. */
+static ambit_status find_parameters(build *b) {
+  const ambit_system *s = b->q->system;
+  size_t n;
+  ambit_expr *leaf;
+  ambit_status status = ambit_unknowns_leaves(b->graph, b->arena, s->nx, b->rate, &n, &leaf, b->f);
+  if (status != AMBIT_OK) return status;
+  b->input = room(b, s->nx + n + 1, sizeof *b->input);
+  const char **name = room(b, s->nx + n, sizeof *name);
+  if (!b->input || !name) return no_memory(b);
+  for (size_t i = 0; i < s->nx; i++) {
+    b->input[i] = s->state[i];
+    name[i] = ambit_arena_text(b->arena, s->name[i]);
+    if (!name[i]) return no_memory(b);
+  }
+  for (size_t i = 0; i < n; i++) {
+    uint32_t op = ambit_graph_node(b->graph, leaf[i])->op;
+    if (op == AMBIT_LEAF_TIME) b->p->uses_time = 1;
+    if (op != AMBIT_LEAF_UNKNOWN) continue;
+    size_t k = s->nx + b->p->np;
+    b->input[k] = leaf[i];
+    name[k] = parameter_name(b, leaf[i], b->p->np++);
+    if (!name[k]) return no_memory(b);
+  }
+  if (b->p->uses_time) b->input[s->nx + b->p->np] = ambit_graph_time(b->graph);
+  b->p->name = name;
+  return AMBIT_OK;
+}
+
+/* The tape from the unknowns to x(t0) and p; an unknown that several of them share is one input. */
+static ambit_status seal_initial(build *b) {
+  size_t nx = b->q->system->nx, np = b->p->np, nu;
+  ambit_expr *out = room(b, nx + np, sizeof *out);
+  if (!out) return no_memory(b);
+  memcpy(out, b->start, nx * sizeof *out);
+  memcpy(out + nx, b->input + nx, np * sizeof *out);
+  ambit_status status = ambit_unknowns_leaves(b->graph, b->arena, nx + np, out, &nu, &b->unknown, b->f);
+  if (status != AMBIT_OK) return status;
+  b->p->nu = (uint32_t)nu;
+  return ambit_tape_seal(
+      b->graph, b->arena, nx + np, out, nu, b->unknown, 0, AMBIT_TAPE_SERIES | b->q->seal, &b->initial, b->f);
+}
+
+/* -- hulls */
+
+static double *split(const build *b, size_t n, const ambit_interval *x, double **hi) {
+  double *lo = room(b, n, sizeof *lo);
+  *hi = room(b, n, sizeof **hi);
+  for (size_t i = 0; lo && *hi && i < n; i++) {
+    lo[i] = x[i].lo;
+    (*hi)[i] = x[i].hi;
+  }
+  return lo && *hi ? lo : NULL;
+}
+
+static ambit_status check_hull(const build *b, uint32_t flags, const ambit_interval *x) {
+  const ambit_problem *p = b->p;
+  for (size_t i = 0; i < p->nx + p->np; i++) {
+    const char *what = i < p->nx ? "the initial value of state" : "the range of parameter";
+    if (ambit_interval_is_empty(x[i])) return ambit_fail(b->f, AMBIT_INVALID, "%s `%s` is empty", what, p->name[i]);
+    if (!ambit_interval_is_bounded(x[i]))
+      return ambit_fail(b->f, AMBIT_INVALID, "%s `%s` is not bounded: [%g, %g]", what, p->name[i], x[i].lo, x[i].hi);
+  }
+  if (flags & (AMBIT_F_PARTIAL | AMBIT_F_EMPTY))
+    return ambit_fail(b->f, AMBIT_INVALID, "the initial values are not defined for all values of their uncertain data");
+  return AMBIT_OK;
+}
+
+static ambit_status find_hulls(build *b) {
+  ambit_problem *p = b->p;
+  ambit_interval *range = room(b, p->nu, sizeof *range), *slot = room(b, b->initial->nslot, sizeof *slot);
+  ambit_interval *x = room(b, (size_t)p->nx + p->np, sizeof *x);
+  if (!range || !slot || !x) return no_memory(b);
+  for (uint32_t i = 0; i < p->nu; i++) range[i] = ambit_graph_node(b->graph, b->unknown[i])->value;
+  uint32_t flags = ambit_hull(b->initial, range, slot);
+  for (uint32_t i = 0; i < p->nx + p->np; i++) x[i] = slot[b->initial->out[i]];
+  ambit_status status = check_hull(b, flags, x);
+  if (status != AMBIT_OK) return status;
+  double *x_hi, *p_hi, *u_hi;
+  p->x0_lo = split(b, p->nx, x, &x_hi);
+  p->p_lo = split(b, p->np, x + p->nx, &p_hi);
+  p->u_lo = split(b, p->nu, range, &u_hi);
+  p->x0_hi = x_hi;
+  p->p_hi = p_hi;
+  p->u_hi = u_hi;
+  return p->x0_lo && p->p_lo && p->u_lo ? AMBIT_OK : no_memory(b);
+}
+
+/* -- what the solver wants */
+
+static size_t count_inputs(const build *b) { return (size_t)b->p->nx + b->p->np + b->p->uses_time; }
+
+static ambit_status seal_rhs(build *b) {
+  uint32_t series = b->q->want & AMBIT_WANT_SERIES ? AMBIT_TAPE_SERIES : 0;
+  return ambit_tape_seal(b->graph, b->arena, b->p->nx, b->rate, count_inputs(b), b->input, b->p->nx,
+      series | b->q->seal, &b->p->rhs, b->f);
+}
+
+static ambit_status seal_jacobian(build *b) {
+  size_t nx = b->p->nx;
+  ambit_expr *entry = room(b, nx * nx, sizeof *entry);
+  if (!entry) return no_memory(b);
+  for (size_t i = 0; i < nx; i++)
+    for (size_t j = 0; j < nx; j++) {
+      ambit_failure why = { 0 };
+      entry[i * nx + j] = ambit_graph_derivative(b->graph, b->rate[i], b->input[j], &why);
+      if (entry[i * nx + j] == AMBIT_NO_EXPR)
+        return ambit_fail(b->f, why.status == AMBIT_OK ? AMBIT_NOMEM : why.status,
+            "the solver needs the Jacobian, but the right-hand side of state `%s` has no derivative: %s", b->p->name[i],
+            why.message[0] ? why.message : "out of memory");
+    }
+  return ambit_tape_seal(
+      b->graph, b->arena, nx * nx, entry, count_inputs(b), b->input, nx, b->q->seal, &b->p->jacobian, b->f);
+}
+
+static ambit_status seal_wanted(build *b) {
+  uint32_t want = b->q->want;
+  ambit_status status = AMBIT_OK;
+  if (want & (AMBIT_WANT_RHS | AMBIT_WANT_SERIES)) status = seal_rhs(b);
+  if (status == AMBIT_OK && (want & AMBIT_WANT_JACOBIAN)) status = seal_jacobian(b);
+  if (want & AMBIT_WANT_INITIAL) b->p->initial = b->initial;
+  return status;
+}
+
+ambit_status ambit_problem_build(
+    const ambit_problem_request *q, ambit_arena *arena, ambit_problem *p, ambit_failure *f) {
+  *p = (ambit_problem) { .size = sizeof *p, .nx = (uint32_t)q->system->nx, .ntime = (uint32_t)q->ntime };
+  build b = { .q = q, .graph = q->system->graph, .arena = arena, .f = f, .p = p };
+  ambit_status status = check_times(&b);
+  if (status == AMBIT_OK) status = copy_expressions(&b);
+  if (status == AMBIT_OK) status = check_reach(&b);
+  if (status == AMBIT_OK) status = find_parameters(&b);
+  if (status == AMBIT_OK) status = seal_initial(&b);
+  if (status == AMBIT_OK) status = find_hulls(&b);
+  if (status == AMBIT_OK) status = seal_wanted(&b);
+  if (status != AMBIT_OK) return status;
+  double *time = ambit_arena_alloc(arena, q->ntime * sizeof *time);
+  if (!time) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  memcpy(time, q->time, q->ntime * sizeof *time);
+  p->time = time;
+  return AMBIT_OK;
+}

@@ -1,0 +1,22 @@
+/* problem.h -- from a system and its initial expressions to the tapes and hulls that a solver wants, and nothing
+** else. */
+#ifndef AMBIT_PROBLEM_H
+#define AMBIT_PROBLEM_H
+#include "model/system.h"
+#include <ambit/solver.h>
+
+typedef struct ambit_problem_request {
+  const ambit_system *system;
+  const ambit_expr *initial; /* [nx] over unknowns */
+  size_t ntime;
+  const double *time;
+  uint32_t want; /* AMBIT_WANT_* */
+  uint32_t seal; /* AMBIT_SEAL_KEEP or 0 */
+} ambit_problem_request;
+
+/* Fills everything but arithmetic and actx; all of it lives in the arena. Parameters are the unknowns that the
+** right-hand sides reach; unknowns are those that initial values and parameters reach, each once. INVALID: f names
+** the state and what is wrong with it. */
+ambit_status ambit_problem_build(
+    const ambit_problem_request *q, ambit_arena *arena, ambit_problem *p, ambit_failure *f);
+#endif

@@ -1,0 +1,115 @@
+/* elementary_point.h -- enclosures of elementary functions at a point.
+**
+** From h + l with |h + l - f| <= err: f < succ(h) always, and f <= h if l + err <= 0; likewise below. The step is
+** taken on integer bits, so that no rounding enters but that of err = 2^e |h|, which is exact. Not the tightest
+** doubles only if |l| < err.
+**
+** Tiny arguments, |x| < 2^-27, of a function f(x) = x + O(x^3): |f(x) - x| <= x^3/2 is less than the distance from x
+** to its neighbour, which is at least 2^-54 |x|; so the pair is replaced by (x, -+x) with err = 0, which steps on
+** the proper side.
+*/
+#ifndef AMBIT_ELEMENTARY_POINT_H
+#define AMBIT_ELEMENTARY_POINT_H
+#include "num/elementary_composed.h"
+
+typedef struct enclosure {
+  lanes lo, hi;
+  bits declined; /* mask: this lane proves nothing */
+} enclosure;
+
+INLINE lanes step_up(pair y, lanes err) { return choose(less(-err, y.l), next_above(y.h), y.h); }
+INLINE lanes step_down(pair y, lanes err) { return choose(less(y.l, err), next_below(y.h), y.h); }
+INLINE enclosure widen(pair y, double error) {
+  lanes err = magnitude(y.h) * error;
+  return (enclosure) { step_down(y, err), step_up(y, err), all_bits(0) };
+}
+/* odd functions: outward is +1 if |f(x)| > |x| near 0 and -1 if less */
+INLINE enclosure widen_odd(lanes x, pair y, double error, double outward) {
+  bits tiny = less(magnitude(x), all(0x1p-27));
+  pair near_zero = { x, x * outward };
+  y = pair_choose(tiny, near_zero, y);
+  lanes err = choose(tiny, all(0), magnitude(y.h) * error);
+  return (enclosure) { step_down(y, err), step_up(y, err), all_bits(0) };
+}
+INLINE enclosure rescale(enclosure e, bits k) {
+  bits up = shift_left(k, 52);
+  return (enclosure) { to_lanes(to_bits(e.lo) + up), to_lanes(to_bits(e.hi) + up), e.declined };
+}
+INLINE bits outside(lanes x, double lo, double hi) { return ~(less_equal(all(lo), x) & less_equal(x, all(hi))); }
+
+/* e^x is exact at 0 only, where the kernel gives (1, 0); near 0 the pair is 1 + x up to x^2, which steps on the
+** proper side */
+INLINE enclosure exp_at(lanes x) {
+  bits k;
+  pair y = exp_kernel(x, &k);
+  lanes err = choose(less(magnitude(x), all(0x1p-60)), all(0), y.h * AMBIT_ERROR_EXP);
+  enclosure e = rescale((enclosure) { step_down(y, err), step_up(y, err), all_bits(0) }, k);
+  e.declined = outside(x, -708, 0x1.62e42fefa39efp9);
+  return e;
+}
+INLINE enclosure log_at(lanes x) {
+  enclosure e = widen(log_kernel(x), AMBIT_ERROR_LOG);
+  e.declined = outside(x, 0x1p-1074, 0x1.fffffffffffffp1023);
+  return e;
+}
+INLINE enclosure unit(enclosure e) { return (enclosure) { larger(e.lo, all(-1)), smaller(e.hi, all(1)), e.declined }; }
+INLINE enclosure sin_of(lanes x, angle a) {
+  enclosure e = unit(widen_odd(x, sin_kernel(a, 0), AMBIT_ERROR_SIN, -1));
+  e.declined = a.declined;
+  return e;
+}
+INLINE enclosure cos_of(lanes x, angle a) {
+  pair y = sin_kernel(a, 64);
+  lanes err =
+      choose(less_equal(magnitude(x), all(0)), all(0), magnitude(y.h) * AMBIT_ERROR_SIN); /* cos 0 = 1 exactly */
+  enclosure e = unit((enclosure) { step_down(y, err), step_up(y, err), all_bits(0) });
+  e.declined = a.declined;
+  return e;
+}
+INLINE enclosure tan_of(lanes x, angle a) {
+  enclosure e = widen_odd(x, tan_kernel(a), AMBIT_ERROR_TAN, 1);
+  e.declined = a.declined;
+  return e;
+}
+INLINE enclosure asin_at(lanes x) {
+  enclosure e = widen_odd(x, asin_kernel(x), AMBIT_ERROR_ASIN, 1);
+  e.declined = outside(x, -1, 1);
+  return e;
+}
+INLINE enclosure acos_at(lanes x) {
+  enclosure e = widen(acos_kernel(x), AMBIT_ERROR_ACOS);
+  e.declined = outside(x, -1, 1);
+  return e;
+}
+/* infinite x too: past 2^100 the angle changes by less than 2^-100 */
+INLINE enclosure atan_at(lanes x) {
+  bits tiny = less(magnitude(x), all(0x1p-27));
+  pair u = { choose(tiny, all(1), smaller(magnitude(x), all(0x1p100))), all(0) }, one = { all(1), all(0) };
+  return widen_odd(x, pair_flip(atan_kernel(u, one), sign_bit(x)), AMBIT_ERROR_ATAN, -1);
+}
+INLINE bits kernel_range(lanes x) {
+  return ~(less_equal(all(0x1p-400), magnitude(x)) & less_equal(magnitude(x), all(0x1p400)));
+}
+INLINE enclosure atan2_at(lanes y, lanes x) {
+  enclosure e = widen(atan2_kernel(y, x), AMBIT_ERROR_ATAN);
+  e.declined = kernel_range(y) | kernel_range(x);
+  return e;
+}
+INLINE enclosure sinh_at(lanes x) {
+  bits k, tiny = less(magnitude(x), all(0x1p-27));
+  pair y = sinh_kernel(x, &k);
+  enclosure e = rescale(widen_odd(x, y, AMBIT_ERROR_SINH, 1), k & ~tiny);
+  e.declined = outside(x, -709, 709);
+  return e;
+}
+INLINE enclosure cosh_at(lanes x) {
+  bits k;
+  pair y = cosh_kernel(x, &k);
+  lanes err = choose(less_equal(magnitude(x), all(0)), all(0), y.h * AMBIT_ERROR_COSH); /* cosh 0 = 1 exactly */
+  enclosure e = rescale((enclosure) { step_down(y, err), step_up(y, err), all_bits(0) }, k);
+  e.lo = larger(e.lo, all(1));
+  e.declined = outside(x, -709, 709);
+  return e;
+}
+INLINE enclosure tanh_at(lanes x) { return unit(widen_odd(x, tanh_kernel(x), AMBIT_ERROR_TANH, -1)); }
+#endif

@@ -1,0 +1,142 @@
+/* real.c -- plain double precision: fast, rounded to nearest, proves nothing.
+**
+** An element is one double; NaN stands for "no value" (an operand outside the domain, or an empty set), so it travels through every
+** operation and comes out as the empty set, never as a bound. An operation that makes a NaN from numbers raises PARTIAL and EMPTY, one that
+** overflows UNBOUNDED. Elementary functions are those of the C library.
+*/
+#include <ambit/arithmetic.h>
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+static size_t elem(void *ctx) {
+  (void)ctx;
+  return sizeof(double);
+}
+
+/* some number of [lo, hi], the middle if it is bounded */
+static double representative(double lo, double hi) {
+  if (!(lo <= hi) || lo == INFINITY || hi == -INFINITY) return NAN;
+  if (lo == hi) return lo;
+  if (lo == -INFINITY) return hi == INFINITY ? 0 : -DBL_MAX;
+  if (hi == INFINITY) return DBL_MAX;
+  double middle = 0.5 * (lo + hi);
+  return isfinite(middle) ? middle : 0.5 * lo + 0.5 * hi;
+}
+
+static void set(void *ctx, void *dst, size_t n, const double *lo, const double *hi, int32_t var) {
+  (void)ctx, (void)var;
+  double *x = dst;
+  for (size_t i = 0; i < n; i++) x[i] = representative(lo[i], hi[i]);
+}
+
+/* an infinity is "too large for a double" */
+static void bounds(void *ctx, const void *src, size_t n, double *lo, double *hi) {
+  (void)ctx;
+  const double *x = src;
+  for (size_t i = 0; i < n; i++) {
+    lo[i] = isnan(x[i]) ? INFINITY : fmin(x[i], DBL_MAX);
+    hi[i] = isnan(x[i]) ? -INFINITY : fmax(x[i], -DBL_MAX);
+  }
+}
+
+static double root(double x) { return x < 0 ? NAN : sqrt(x); }
+static double quotient(double a, double b) { return b == 0 ? NAN : a / b; }
+static double logarithm(double x) { return x <= 0 ? NAN : log(x); }
+static double smaller(double a, double b) { return a < b || isnan(a) ? a : b; }
+static double larger(double a, double b) { return a > b || isnan(a) ? a : b; }
+/* the sign of a zero is no matter of sets: the angle lies in (-pi, pi] */
+static double angle(double y, double x) { return y == 0 && x == 0 ? NAN : atan2(y + 0.0, x); }
+
+static double power(double x, int32_t n) {
+  if (x == 0 && n < 0) return NAN;
+  double result = 1;
+  for (uint32_t m = n < 0 ? 0u - (uint32_t)n : (uint32_t)n; m; m >>= 1, x *= x)
+    if (m & 1) result *= x;
+  return n < 0 ? 1 / result : result;
+}
+
+/* Flags of one row. z - z is 0 for a number and NaN for the rest, so that the usual case is a short vector loop. */
+static uint32_t inspect(const double *z, const double *x, const double *y, size_t lanes) {
+  uint64_t odd = 0;
+  for (size_t l = 0; l < lanes; l++) {
+    double zero = z[l] - z[l];
+    uint64_t bits;
+    memcpy(&bits, &zero, sizeof bits);
+    odd |= bits;
+  }
+  uint32_t flags = 0;
+  for (size_t l = 0; odd && l < lanes; l++) {
+    if (isnan(z[l])) flags |= AMBIT_F_EMPTY | (isnan(x[l]) || isnan(y[l]) ? 0 : AMBIT_F_PARTIAL);
+    if (isinf(z[l])) flags |= AMBIT_F_UNBOUNDED;
+  }
+  return flags;
+}
+
+/* z over the lanes of each instruction; y is x when unary */
+#define RUN(NAME, other, expression)                                                                                   \
+  static uint32_t run_##NAME(const ambit_arithmetic *self, void *ctx, void *base, size_t pitch, size_t lanes,          \
+      size_t count, const uint32_t *dst, const uint32_t *a, const uint32_t *b) {                                       \
+    (void)self, (void)ctx, (void)b;                                                                                    \
+    uint32_t flags = 0;                                                                                                \
+    for (size_t i = 0; i < count; i++) {                                                                               \
+      double *r = (double *)base + dst[i] * pitch;                                                                     \
+      const double *left = (double *)base + a[i] * pitch, *right = (double *)base + other[i] * pitch;                  \
+      for (size_t l = 0; l < lanes; l++) {                                                                             \
+        double x = left[l], y = right[l];                                                                              \
+        (void)y;                                                                                                       \
+        r[l] = (expression);                                                                                           \
+      }                                                                                                                \
+      flags |= inspect(r, left, right, lanes);                                                                         \
+    }                                                                                                                  \
+    return flags;                                                                                                      \
+  }
+
+RUN(ADD, b, x + y)
+RUN(SUB, b, x - y)
+RUN(NEG, a, -x)
+RUN(MUL, b, x *y)
+RUN(SQR, a, x *x)
+RUN(DIV, b, quotient(x, y))
+RUN(SQRT, a, root(x))
+RUN(EXP, a, exp(x))
+RUN(LOG, a, logarithm(x))
+RUN(SIN, a, sin(x))
+RUN(COS, a, cos(x))
+RUN(TAN, a, tan(x))
+RUN(ASIN, a, asin(x))
+RUN(ACOS, a, acos(x))
+RUN(ATAN, a, atan(x))
+RUN(ATAN2, b, angle(x, y))
+RUN(SINH, a, sinh(x))
+RUN(COSH, a, cosh(x))
+RUN(TANH, a, tanh(x))
+RUN(ABS, a, fabs(x))
+RUN(MIN, b, smaller(x, y))
+RUN(MAX, b, larger(x, y))
+
+static uint32_t run_POWN(const ambit_arithmetic *self, void *ctx, void *base, size_t pitch, size_t lanes, size_t count,
+    const uint32_t *dst, const uint32_t *a, const uint32_t *b) {
+  (void)self, (void)ctx;
+  uint32_t flags = 0;
+  for (size_t i = 0; i < count; i++) {
+    double *r = (double *)base + dst[i] * pitch;
+    const double *x = (double *)base + a[i] * pitch;
+    for (size_t l = 0; l < lanes; l++) r[l] = power(x[l], (int32_t)b[i]);
+    flags |= inspect(r, x, x, lanes);
+  }
+  return flags;
+}
+
+#define ENTRY(NAME, arity, symbol) [AMBIT_OP_##NAME] = run_##NAME,
+static const ambit_arithmetic arithmetic = {
+  .size = sizeof arithmetic, .rigorous = 0, .elem = elem, .set = set, .bounds = bounds, .run = { AMBIT_OPS(ENTRY) } };
+
+static const void *get(const char *interface_id) {
+  return strcmp(interface_id, AMBIT_ARITHMETIC) == 0 ? &arithmetic : NULL;
+}
+
+const ambit_plugin ambit_entry = { sizeof ambit_entry, AMBIT_ABI, "arithmetic.real", "1.0",
+  "Double precision, rounded to nearest: one number for each quantity, the middle of every set. The fastest arithmetic and the one that "
+  "proves nothing; for reference, sampling and plots.",
+  get };

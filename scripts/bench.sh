@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# bench.sh BUILD -- every program whose figures docs/results.md quotes, in one run.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+build=$1
+cmake --build "$build" --target bench >&2
+export AMBIT_PATH="$PWD/$build/plugins"
+for program in "$build"/bench/*; do
+  [ -x "$program" ] && [ -f "$program" ] || continue
+  printf '\n## %s\n\n' "$(basename "$program")"
+  "$program"
+done
+printf '\n## figures\n\n'
+"$build/ambit" run --quiet scripts/bench/figures.lua

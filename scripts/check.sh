@@ -1,0 +1,11 @@
+#!/usr/bin/env bash
+# Formatting and static analysis of the whole tree; prints what is wrong and exits 1.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+mapfile -t sources < <(git ls-files 'framework/*.[ch]' 'plugins/*.[ch]' 'tests/*.[ch]' 'bench/*.[ch]')
+clang-format --dry-run -Werror "${sources[@]}"
+echo "format: ${#sources[@]} files"
+cmake --preset clang -DAMBIT_TESTS=OFF >/dev/null
+mapfile -t units < <(git ls-files 'framework/*.c' 'plugins/*.c')
+printf '%s\n' "${units[@]}" | xargs -P "$(nproc)" -n 4 clang-tidy -p build/clang --quiet 2>/dev/null
+echo "static analysis: ${#units[@]} files"

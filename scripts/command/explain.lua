@@ -1,0 +1,127 @@
+-- explain.lua -- `ambit explain`: what a scene loads, builds and leaves out, in numbers.
+local check = require "ambit.check"
+local core = require "ambit.core"
+local scene = require "ambit.command.scene"
+local session = require "ambit.session"
+
+local command = { scene = true }
+
+command.usage = [[
+usage: ambit explain [--json] SCENE.lua [ARG ...]
+Runs the scene with its output discarded, then prints which plugins and libraries it loaded, which quantities were built
+of those available, and the size of every verb's problem.
+  --json       one object per line instead]]
+
+local function discard_output()
+  local null = io.open("/dev/null", "w")
+  local stdout = io.stdout
+  io.output(null)
+  _G.print = function() end
+  io.stdout = null
+  return function() io.stdout = stdout io.output(stdout) end
+end
+
+local function loaded_plugins()
+  local loaded, left = {}, {}
+  for _, entry in ipairs(core.list()) do
+    local name = entry.kind .. "." .. entry.name
+    if entry.loaded then loaded[#loaded + 1] = name else left[#left + 1] = name end
+  end
+  return loaded, left
+end
+
+local function libraries()
+  local list = {}
+  for _, file in ipairs(core.libraries()) do list[#list + 1] = file:match "[^/]+$" end
+  table.sort(list)
+  return list
+end
+
+local function mechanisms()
+  local list = {}
+  local numbers = check.sorted(session.mechanisms)
+  for _, number in ipairs(numbers) do
+    local m = session.mechanisms[number]
+    local pulled, available = core.pulled(m.handle)
+    list[#list + 1] = { name = m.name, parts = core.part_count(m.handle), pulled = pulled, available = available }
+  end
+  return list
+end
+
+local keys = { "arithmetic", "solver", "expressions", "states", "parameters", "unknowns", "steps", "graph_nodes",
+  "tape_slots",
+  "tape_constants", "tape_instructions", "tape_runs", "constant_slots", "seconds_build", "seconds_run" }
+
+local meaning = {
+  expressions = "asked for", unknowns = "uncertain data that became variables", graph_nodes = "in the whole graph",
+  tape_slots = "slots", tape_constants = "of them constants", tape_instructions = "of them instructions",
+  tape_runs = "runs of one opcode", constant_slots = "slots with one Taylor coefficient instead of all",
+    seconds_build = "s to build",
+  seconds_run = "s to run", parameters = "uncertain parameters", states = "states", steps = "steps",
+}
+
+local function print_text(write, facts)
+  write("loaded plugins:    %s\n", #facts.loaded > 0 and table.concat(facts.loaded, " ") or "none")
+  write("not loaded:        %s\n", table.concat(facts.left, " "))
+  write("shared libraries:  %s\n", table.concat(facts.libraries, " "))
+  for _, m in ipairs(facts.mechanisms) do
+    write("\nmechanism \"%s\": %d parts, %d of %d quantities built\n", m.name, m.parts, m.pulled, m.available)
+  end
+  for i, verb in ipairs(facts.verbs) do
+    write("\n%d. %s (%s)%s%s\n", i, verb.verb, verb.status,
+      verb.report.arithmetic and " in " .. verb.report.arithmetic or "",
+      verb.report.solver and " by " .. verb.report.solver or "")
+    for _, key in ipairs(keys) do
+      local value = verb.report[key]
+      if meaning[key] and value and value ~= 0 then
+        write("   %12s  %s\n", math.type(value) == "float" and ("%.6f"):format(value) or tostring(value), meaning[key])
+      end
+    end
+  end
+  write("\nCPU time of the whole scene: %.4f s\n", facts.seconds)
+end
+
+local function pairs_of(t, order)
+  local list = {}
+  for _, key in ipairs(order) do
+    if t[key] ~= nil then list[#list + 1], list[#list + 2] = key, t[key] end
+  end
+  return list
+end
+
+local function write_json(facts)
+  core.records_open "-"
+  core.record("plugins", { "loaded", table.concat(facts.loaded, " "), "left", table.concat(facts.left, " "),
+    "libraries",
+    table.concat(facts.libraries, " ") })
+  for _, m in ipairs(facts.mechanisms) do core.record("mechanism", pairs_of(m, { "name", "parts", "pulled",
+    "available" })) end
+  for _, verb in ipairs(facts.verbs) do
+    core.record("verb", { "verb", verb.verb, "status", verb.status, "report", pairs_of(verb.report, keys) })
+  end
+  core.record("result", { "verb", "explain", "status", "complete", "cpu_seconds", facts.seconds })
+  core.records_close()
+end
+
+function command.run(list)
+  local options, file, words = scene.arguments(list, { json = false })
+  if not options then return 2, file end
+  session.keep()
+  local restore = discard_output()
+  os.exit = function() error(scene.leave, 0) end -- what the scene loaded is still to be told
+  local start = core.cpu()
+  local good, problem = scene.run(file, words)
+  local facts = { seconds = core.cpu() - start, libraries = libraries(), mechanisms = mechanisms(),
+    verbs = session.verbs }
+  restore()
+  if not good and problem ~= scene.leave then
+    io.stderr:write("ambit: ", tostring(problem), "\n")
+    return 1
+  end
+  facts.loaded, facts.left = loaded_plugins()
+  if options.json then write_json(facts) return 0 end
+  print_text(function(format, ...) io.stdout:write(format:format(...)) end, facts)
+  return 0
+end
+
+return command

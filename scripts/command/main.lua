@@ -1,0 +1,57 @@
+-- main.lua -- the command line: `ambit <command> ...` -> exit code. Data goes to stdout, everything else to stderr.
+local core = require "ambit.core"
+
+local commands = {
+  { "run", "run a scene" },
+  { "explain", "what a scene loads, builds and leaves out" },
+  { "plugins", "list the plugins, or print the manual of one" },
+  { "test", "run scripted test suites (*_spec.lua)" },
+  { "repl", "calculate and build interactively" },
+}
+
+local exit_codes = [[
+exit codes: 0 done and proved, 1 script or input error, 2 wrong usage, 3 ran but could not prove, 130 interrupted]]
+
+local function overview()
+  local lines = { "usage: ambit <command> [options]", "", "commands:" }
+  for _, entry in ipairs(commands) do lines[#lines + 1] = ("  %-9s %s"):format(entry[1], entry[2]) end
+  lines[#lines + 1] = ""
+  lines[#lines + 1] = "`ambit <command> --help` says more; `ambit --version` prints the version."
+  lines[#lines + 1] = exit_codes
+  return table.concat(lines, "\n")
+end
+
+local function usage_error(message, text)
+  io.stderr:write("ambit: ", message, "\n", text, "\n")
+  return 2
+end
+
+local function unknown(name)
+  local names = {}
+  for i, entry in ipairs(commands) do names[i] = entry[1] end
+  local near = core.nearest(name, names)
+  local message = ("unknown %s `%s`%s"):format(name:sub(1, 1) == "-" and "option" or "command", name,
+    near and ("; did you mean `%s`?"):format(near) or "")
+  return usage_error(message, "try `ambit --help`")
+end
+
+return function(argv)
+  local name = argv[1]
+  if name == nil then return usage_error("expected a command", overview()) end
+  if name == "--help" or name == "-h" or name == "help" then return print(overview()) or 0 end
+  if name == "--version" or name == "-V" then return print("ambit " .. core.version) or 0 end
+  for _, entry in ipairs(commands) do
+    if entry[1] == name then
+      local command = require("ambit.command." .. name)
+      local arguments = table.move(argv, 2, #argv, 1, {})
+      for _, word in ipairs(arguments) do
+        if word == "--" or (command.scene and word:sub(1, 1) ~= "-" and word ~= "-") then break end
+        if word == "--help" or word == "-h" then return print(command.usage) or 0 end
+      end
+      local code, message = command.run(arguments)
+      if code == 2 then return usage_error(message, command.usage) end
+      return code
+    end
+  end
+  return unknown(name)
+end

@@ -1,0 +1,53 @@
+-- run.lua -- `ambit run`.
+local core = require "ambit.core"
+local scene = require "ambit.command.scene"
+local session = require "ambit.session"
+
+local command = { scene = true }
+
+command.usage = [[
+usage: ambit run [--json FILE|-] [--quiet] SCENE.lua [ARG ...]
+  --json FILE  also write every record as a line of JSON; `-` is standard output (what the scene prints then goes to
+               standard error)
+  --quiet      no progress bar and no notes
+The words behind the scene are in its table `arg`. Ctrl-C ends a simulation with status "stopped" and keeps what was
+recorded.
+exit: 0 done and proved, 1 error in the scene or its input, 3 a verb ended "unable", 130 interrupted]]
+
+local function complain(message) io.stderr:write("ambit: ", tostring(message), "\n") end
+
+-- With the records on stdout, what the scene prints must not get between them.
+local function print_to_stderr()
+  io.output(io.stderr)
+  function _G.print(...)
+    local words = table.pack(...)
+    for i = 1, words.n do words[i] = tostring(words[i]) end
+    io.stderr:write(table.concat(words, "\t"), "\n")
+  end
+end
+
+local function close_records()
+  local good, problem = pcall(core.records_close)
+  if not good then complain(problem) end
+  return good
+end
+
+function command.run(list)
+  local options, file, words = scene.arguments(list, { json = true, quiet = false })
+  if not options then return 2, file end
+  core.progress(not options.quiet)
+  core.notes(not options.quiet)
+  if options.json then
+    local good, problem = pcall(core.records_open, options.json)
+    if not good then return complain(problem) or 1 end
+    if options.json == "-" then print_to_stderr() end
+  end
+  local good, problem = scene.run(file, words)
+  if not good then complain(problem) end
+  if not close_records() or not good then return 1 end
+  if core.interrupted() then complain "interrupted: what was recorded up to there is kept" end
+  if session.unable then complain "not everything could be proved: see status and reason of the verbs" end
+  return session.unable and 3 or 0
+end
+
+return command

@@ -1,0 +1,40 @@
+-- test.lua -- `ambit test`: busted as a library, inside this command.
+local command = { scene = true }
+
+command.usage = [[
+usage: ambit test [PATH ...] [-- BUSTED-OPTION ...]
+Runs the *_spec.lua files in the given files and directories (default: tests) with busted; `require "ambit"` is this
+command's own.
+exit: 0 all passed, 1 some failed]]
+
+local missing = [[
+ambit: the test runner "busted" is not installed for Lua 5.4
+  Debian, Ubuntu: apt install lua-busted
+  LuaRocks:       luarocks install busted
+]]
+
+function command.run(words)
+  local found, runner = pcall(require, "busted.runner")
+  if not found then
+    io.stderr:write(missing)
+    return 1
+  end
+  local list, rest = {}, false
+  for _, word in ipairs(words) do
+    if word == "--" and not rest then
+      rest = true
+    elseif not rest and word:sub(1, 1) == "-" then
+      return 2, ("unknown option `%s`"):format(word)
+    else
+      list[#list + 1] = word
+    end
+  end
+  if not list[1] or list[1]:sub(1, 1) == "-" then table.insert(list, 1, "tests") end
+  table.insert(list, 1, "--pattern=_spec%.lua$")
+  list[0] = "ambit test"
+  _G.arg = list
+  runner { standalone = false } -- leaves with os.exit(1) if anything failed
+  return 0
+end
+
+return command

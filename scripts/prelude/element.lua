@@ -1,0 +1,109 @@
+-- element.lua -- m:rigid_link { from = frame, offset = { 1, 0, 0 } }: a declared element, checked and added to a
+-- mechanism.
+local check = require "ambit.check"
+local core = require "ambit.core"
+local frame = require "ambit.frame"
+local parameter = require "ambit.parameter"
+
+local element = {}
+
+-- The declaration of an element plugin, with what is looked up often; loads the plugin on first use.
+local declarations = {}
+
+function element.declaration(name)
+  if declarations[name] then return declarations[name] end
+  local d = core.plugin("element", name)
+  d.known, d.outs = { "name" }, {}
+  for i, port in ipairs(d.ports) do
+    port.index = i - 1
+    if port.role == "in" then d.known[#d.known + 1] = port.name else d.outs[#d.outs + 1] = port end
+  end
+  for _, param in ipairs(d.parameters) do
+    d.known[#d.known + 1] = param.name
+    param.what = name .. ": " .. param.name
+  end
+  declarations[name] = d
+  return d
+end
+
+-- A list in the table is the first parameter: m:gravity { 0, "-9.81", 0 }.
+local function take_positional(d, t)
+  local list = {}
+  for i, value in ipairs(t) do list[i] = value end
+  if #list == 0 then return nil end
+  local first = d.parameters[1]
+  if not first then check.fail("%s: takes no list", d.name) end
+  if t[first.name] ~= nil then check.fail("%s: %s is given twice, by name and as a list", d.name, first.name) end
+  return #list == 1 and list[1] or list
+end
+
+-- { part, port, ... } for every port in order; -1: not connected
+local function connections(self, d, t)
+  local list = {}
+  for i, port in ipairs(d.ports) do
+    local part, number = -1, 0
+    if port.role == "in" then
+      local value = t[port.name]
+      if value ~= nil then
+        part, number = frame.place(self, value, port.kind, d.name .. ": " .. port.name)
+      elseif not port.optional then
+        check.fail('%s: port `%s` is not connected (%s)', d.name, port.name, port.doc or port.kind)
+      end
+    end
+    list[2 * i - 1], list[2 * i] = part, number
+  end
+  return list
+end
+
+-- A function as a value is a law: called once with expressions (coordinate, rate of the joint it acts on; time), and
+-- recorded.
+local function law(self, d, t, value, what)
+  local arguments = {}
+  for _, port in ipairs(d.ports) do
+    if port.role == "in" and port.kind == "joint" and t[port.name] ~= nil then
+      local part, number = frame.place(self, t[port.name], "joint", what)
+      local dof = math.max(port.dof, 1)
+      for _, quantity in ipairs { core.COORDINATE, core.RATE } do
+        local list = core.pull(self.handle, part, number, quantity, dof)
+        arguments[#arguments + 1] = dof == 1 and list[1] or list
+      end
+    end
+  end
+  arguments[#arguments + 1] = core.time()
+  local result = value(table.unpack(arguments))
+  if result == nil then check.fail("%s: the function returned nothing", what) end
+  return result
+end
+
+local function parameters(self, d, t)
+  local first = take_positional(d, t)
+  local list = {}
+  for i, param in ipairs(d.parameters) do
+    local value = t[param.name]
+    if i == 1 and first ~= nil then value = first end
+    if type(value) == "function" then value = law(self, d, t, value, param.what) end
+    if value == nil then
+      list[i] = parameter.fallback(param, param.what) or false
+    else
+      list[i] = parameter.express(param, value, param.what)
+    end
+  end
+  return list
+end
+
+-- Adds one element; returns its OUT frames and joints, in the order of their declaration.
+function element.add(self, name, t)
+  local d = element.declaration(name)
+  check.table(t, name)
+  check.keys(t, d.known, name, #t)
+  if t.name ~= nil then check.text(t.name, name .. ": name") end
+  local where = core.where():gsub(": $", "")
+  local links = connections(self, d, t)
+  local part = core.add(self.handle, name, t.name, where, parameters(self, d, t), links)
+  self.declared[part] = d
+  local outs = {}
+  for i, port in ipairs(d.outs) do outs[i] = frame.new(self, part, port) end
+  return table.unpack(outs)
+end
+
+return element

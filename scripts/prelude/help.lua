@@ -1,0 +1,53 @@
+-- help.lua -- ambit.help(name): a function of the API in a few lines, or the manual of a plugin.
+local check = require "ambit.check"
+local manual = require "ambit.manual"
+
+local topics = {
+  around = 'around(c, tolerance): a datum within a tolerance, one fresh unknown: around(2, 0.1), around("35 mm", "1%").',
+  between = "between(lo, hi): a datum somewhere in [lo, hi], one fresh unknown.",
+  number = 'number(x [, unit]): an expression: number "8/3", number("35 mm", "m").',
+  interval = [[
+interval(lo, hi), interval "[0.1, 0.2]": an enclosure to calculate with. It has lo, hi, partial, width(), mid(), rad(),
+mag(), mig(), contains(x), hull(x), intersect(x), text(digits), is_empty(), is_bounded().]],
+  degrees = "degrees(x): x pi/180, exact.",
+  pi = "pi: the constant itself, enclosed by each arithmetic.",
+  time = "time: the time t of a simulation, for given motions and forces.",
+  mechanism = [[
+mechanism { "name", gravity = { 0, 0, "-9.81" } }: parts are added with m:<element> { ... } to m.world and to the frames
+that elements return; m:position(frame), m:orientation(frame), m:velocity(frame), m:angular_velocity(frame),
+m:acceleration(frame), m:energy(), m:coordinates(), m:mass_matrix(), m:generalised_forces(), m:dynamics().]],
+  ode = [[
+ode { states = { "x" }, parameters = { a = 1 }, equations = function(s, p, t) return { x = -p.a * s.x } end }]],
+  evaluate = [[
+evaluate { expression or table of them, at = { name = value }, arithmetic = "interval" }: enclosures in the same shape.]],
+  simulate = [[
+simulate { ode, initial = { x = 1 }, t = { 0, 1 }, solver = "lohner", <options of the solver> }: a run with status, reason,
+t_reached, cpu_seconds, step_count, rigorous, x, :at(t), :steps().]],
+  sample = "sample { expression or ode, n = 1000, seed = 1, ... }: Monte Carlo; proves nothing.",
+  derivative = "derivative(e, x): de/dx for a variable, an unknown or ambit.time.",
+  simplify = "simplify(e): an equal expression with fewer operations, if one is found.",
+  plugins = "plugins([kind]): what there is, without loading it.",
+  plugin = "plugin(kind, name): one plugin, loaded; its exported functions are in .fn.",
+  version = "version: of Ambit.",
+}
+for _, name in ipairs { "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log", "sqrt",
+  "sqr", "abs" } do
+  topics[name] = name .. "(x): of numbers, texts, expressions and enclosures."
+end
+topics.atan2 = "atan2(y, x): the angle of the point (x, y)."
+topics.pow = "pow(a, b), a ^ b: integer b for every a, otherwise exp(b log a)."
+topics.min = "min(a, b, ...): the smaller one."
+topics.max = "max(a, b, ...): the larger one."
+
+-- help() lists the topics, help(name) returns a text.
+return function(name)
+  if name == nil then
+    return "topics: " .. table.concat(check.sorted(topics), ", ") .. "\nand every plugin: see ambit.plugins()"
+  end
+  check.text(name, "help: name")
+  local topic = topics[name]
+  if topic then return "ambit." .. topic end
+  local text, problem = manual.named(name)
+  if not text then check.fail("help: there is no topic and no plugin of that name: %s", problem) end
+  return text
+end

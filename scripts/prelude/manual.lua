@@ -1,0 +1,78 @@
+-- manual.lua -- the manual of a plugin, from what it declares about itself.
+local check = require "ambit.check"
+local core = require "ambit.core"
+local plugin = require "ambit.plugin"
+
+local manual = {}
+
+local shapes = { [""] = "a number", axis = "an axis", flag = "true or false", integer = "an integer" }
+
+local function shape_text(param)
+  if param.shape:find "|" then return (param.shape:gsub("|", " | ")) end
+  return shapes[param.shape] or (param.shape .. " numbers")
+end
+
+local function parameter_line(param)
+  local default = "required"
+  if param.fallback == "" then default = "optional" elseif param.fallback then default = "default " .. param.fallback
+    end
+  local unit = param.unit ~= "1" and " in " .. param.unit or ""
+  return ("  %-14s %s%s, %s\n%17s%s"):format(param.name, shape_text(param), unit, default, "", param.doc or "")
+end
+
+local function port_line(port)
+  local role = port.role == "out" and "returned" or port.optional and "optional" or "required"
+  return ("  %-14s %s, %s\n%17s%s"):format(port.name, port.kind, role, "", port.doc or "")
+end
+
+local function section(lines, title, list, format)
+  if not list or #list == 0 then return end
+  lines[#lines + 1] = ""
+  lines[#lines + 1] = title
+  for _, entry in ipairs(list) do lines[#lines + 1] = format(entry) end
+end
+
+local function usage(p)
+  if p.kind == "element" then return ("m:%s { ... }"):format(p.name) end
+  if p.kind == "solver" then return ('ambit.simulate { ..., solver = "%s" }'):format(p.name) end
+  if p.kind == "arithmetic" then return ('arithmetic = "%s"'):format(p.name) end
+end
+
+-- The manual of one plugin as text; loads it.
+function manual.of(kind, name)
+  local p = plugin.plugin(kind, name)
+  local lines = { ("%s %s, version %s"):format(p.kind, p.name, p.version or "?") }
+  if p.doc then lines[#lines + 1] = p.doc end
+  if usage(p) then
+    lines[#lines + 1] = ""
+    lines[#lines + 1] = "use: " .. usage(p)
+  end
+  if p.rigorous ~= nil then
+    lines[#lines + 1] = p.rigorous and "its results are proved enclosures" or "its results prove nothing"
+  end
+  if p.arithmetics then lines[#lines + 1] = "arithmetics that fit: " .. p.arithmetics end
+  section(lines, "ports", p.ports, port_line)
+  section(lines, p.kind == "element" and "parameters" or "options", p.parameters, parameter_line)
+  local functions = {}
+  for _, key in ipairs(check.sorted(p.functions)) do functions[#functions + 1] = { key, p.functions[key] } end
+  section(lines, "functions (ambit.plugin(kind, name).fn)", functions, function(f)
+    return ("  %-14s %s\n%17s%s"):format(f[1], f[2].signature, "", f[2].doc or "")
+  end)
+  return table.concat(lines, "\n")
+end
+
+-- By name alone: every kind that has one of that name.
+function manual.named(name)
+  local kind, bare = name:match "^(%a+)%.([%w_]+)$"
+  local texts, names = {}, {}
+  for _, entry in ipairs(core.list()) do
+    names[#names + 1] = entry.name
+    if entry.name == (bare or name) and (not kind or entry.kind == kind) then
+      texts[#texts + 1] = manual.of(entry.kind, entry.name)
+    end
+  end
+  if #texts == 0 then return nil, ('there is no plugin `%s`%s'):format(name, check.suggest(name, names)) end
+  return table.concat(texts, "\n\n")
+end
+
+return manual

@@ -1,0 +1,93 @@
+-- run.lua -- what a simulation gives back: status, steps, enclosures at any time.
+local check = require "ambit.check"
+local core = require "ambit.core"
+local instant = require "ambit.instant"
+
+local Run = { __name = "run" }
+local Step = { __name = "step" }
+local run = {}
+
+-- By state name; a wrong name is an error with the nearest one.
+local function strict(values, states)
+  return setmetatable(values, {
+    __index = function(_, key) check.fail('there is no state `%s`%s', tostring(key), check.suggest(key, states)) end,
+  })
+end
+
+local function enclosures(self, i, tube)
+  local values = {}
+  for k, name in ipairs(self.states) do
+    local x = core.track_value(self.track, i, k, tube)
+    if not x then return nil end
+    values[name] = x
+  end
+  return strict(values, self.states)
+end
+
+-- step.x and step.tube are made when they are asked for
+function Step.__index(self, key)
+  if key ~= "x" and key ~= "tube" then return nil end
+  local value = enclosures(self.run, self.number, key == "tube")
+  rawset(self, key, value)
+  return value
+end
+
+function Step.__tostring(self) return ("step to t = %s"):format(tostring(self.t)) end
+
+local function step_of(self, i)
+  local from, to, kind, _, order, has_tube = core.track_step(self.track, i)
+  return setmetatable({ run = self, number = i, t_from = from, t = to, kind = kind, order = order,
+    has_tube = has_tube }, Step)
+end
+
+local methods = {}
+
+-- for step in run:steps() do print(step.t, step.x.beta1) end
+function methods:steps()
+  local i, n = 0, core.track_count(self.track)
+  return function()
+    while i < n do
+      i = i + 1
+      local step = step_of(self, i)
+      if step.kind == "step" then return step end
+    end
+  end
+end
+
+-- The enclosure at a time: of a step's end exactly, otherwise the step's tube, which holds for all its times.
+function methods:at(t)
+  t = instant.of(t, "at: t")
+  if t == self.t_start then return strict(self.initial(), self.states) end
+  local i, is_end = core.track_find(self.track, t)
+  if not i then
+    check.fail("at: t = %s is not within the run, which goes from %s to %s", core.literal(t),
+      core.literal(self.t_start),
+      core.literal(self.t_reached))
+  end
+  local values = enclosures(self, i, not is_end)
+  if not values then
+    check.fail('at: solver `%s` says nothing between its steps; put t into the list of times', self.solver)
+  end
+  return values
+end
+
+function Run.__index(self, key)
+  if methods[key] then return methods[key] end
+  if key ~= "x" then return nil end
+  local n = core.track_count(self.track)
+  local value = n > 0 and enclosures(self, n, false) or strict(self.initial(), self.states)
+  rawset(self, "x", value)
+  return value
+end
+
+function Run.__tostring(self)
+  local text = ("%s at t = %s after %d steps"):format(self.status, core.literal(self.t_reached), self.step_count)
+  return self.status == "complete" and text or text .. ": " .. self.reason
+end
+
+-- facts: status, reason, t_reached, cpu_seconds, step_count, rigorous; initial(): enclosures at the start by name
+function run.new(facts)
+  return setmetatable(facts, Run)
+end
+
+return run

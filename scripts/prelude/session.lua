@@ -1,0 +1,42 @@
+-- session.lua -- what happened in this Lua state: asked for by `ambit explain` and by the exit code of `ambit run`.
+local core = require "ambit.core"
+
+local weak = { __mode = "v" }
+
+local session = {
+  verbs = {},                             -- { verb, status, report } in order
+  mechanisms = setmetatable({}, weak),    -- by number; only what is still alive
+  odes = setmetatable({}, weak),
+  unable = false,                         -- did a verb end without a proof?
+}
+
+local count = 0
+
+-- Remembers a mechanism or an ode.
+function session.add(list, value)
+  count = count + 1
+  list[count] = value
+end
+
+-- For `ambit explain`: from now on nothing is forgotten.
+function session.keep()
+  setmetatable(session.mechanisms, nil)
+end
+
+-- Called once at the end of every verb: remembers it and writes its `result` record.
+function session.finish(verb, result, report, settings)
+  session.verbs[#session.verbs + 1] = { verb = verb, status = result.status, report = report }
+  if result.status == "unable" then session.unable = true end
+  if not core.recording() then return end
+  local fields = { "verb", verb, "status", result.status }
+  local function add(key, value)
+    if value ~= nil and value ~= "" then fields[#fields + 1], fields[#fields + 2] = key, value end
+  end
+  add("reason", result.status ~= "complete" and result.reason or nil)
+  add("t_reached", result.t_reached)
+  add("cpu_seconds", result.cpu_seconds or report.seconds_run)
+  add("settings", settings)
+  core.record("result", fields)
+end
+
+return session

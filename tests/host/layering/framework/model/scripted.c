@@ -1,0 +1,3 @@
+/* scripted.c -- wrong on purpose: model does not know Lua. */
+#include "graph/graph.h"
+#include <lua.h>

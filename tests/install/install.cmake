@@ -1,0 +1,11 @@
+find_program(LUA_INTERPRETER NAMES lua5.4 lua54 lua)
+set(install_flags "")
+set(install_lua ${LUA_INTERPRETER})
+if(AMBIT_SANITIZE) # a stock interpreter cannot load a sanitized module without help
+  set(install_flags "-fsanitize=address,undefined")
+  set(install_lua "")
+endif()
+add_test(NAME install COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -DSOURCE=${PROJECT_SOURCE_DIR}/tests/install
+  -DWORK=${PROJECT_BINARY_DIR}/tests/install -DC_COMPILER=${CMAKE_C_COMPILER} "-DC_FLAGS=${install_flags}" -DLUA=${install_lua}
+  -P ${PROJECT_SOURCE_DIR}/cmake/check_install.cmake)
+set_tests_properties(install PROPERTIES TIMEOUT 120)

@@ -1,0 +1,17 @@
+# The counting malloc: always in the test that counts; in libambit itself when AMBIT_COUNT_ALLOCATIONS is on, so that all tests and scenes run with it.
+# A sanitizer's malloc cannot be replaced, so there both are left out.
+if(AMBIT_COUNT_ALLOCATIONS AND AMBIT_SANITIZE)
+  message(FATAL_ERROR "AMBIT_COUNT_ALLOCATIONS and AMBIT_SANITIZE both replace malloc: choose one")
+endif()
+if(AMBIT_COUNT_ALLOCATIONS)
+  target_sources(libambit PRIVATE ${PROJECT_SOURCE_DIR}/tests/kit/allocations.c)
+  target_include_directories(libambit PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  target_compile_definitions(libambit PRIVATE AMBIT_COUNT_ALLOCATIONS)
+  target_compile_definitions(test.model.allocations PRIVATE AMBIT_COUNT_ALLOCATIONS)
+elseif(TARGET test.model.allocations AND NOT AMBIT_SANITIZE)
+  target_sources(test.model.allocations PRIVATE ${PROJECT_SOURCE_DIR}/tests/kit/allocations.c)
+endif()
+if(AMBIT_SANITIZE AND TARGET test.model.allocations)
+  set_tests_properties(model.allocations PROPERTIES DISABLED TRUE)
+  set_target_properties(test.model.allocations PROPERTIES EXCLUDE_FROM_ALL TRUE)
+endif()

@@ -1,0 +1,45 @@
+/* arithmetic_loader.h -- an arithmetic plugin for a test, straight from its file. */
+#ifndef AMBIT_ARITHMETIC_LOADER_H
+#define AMBIT_ARITHMETIC_LOADER_H
+#include "graph/interpreter.h"
+#include "host/services.h"
+#include <dlfcn.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+typedef struct arithmetic_loader {
+  void *library;
+  const ambit_arithmetic *plugin; /* as exported */
+  ambit_arithmetic full;          /* completed */
+  ambit_lease *lease;
+  void *ctx;
+} arithmetic_loader;
+
+/* NULL, or what went wrong. `interface_id` is AMBIT_ARITHMETIC, or one that the plugin offers besides. */
+static inline const char *arithmetic_load_as(arithmetic_loader *l, const char *name, const char *interface_id) {
+  *l = (arithmetic_loader) { 0 };
+  char file[4096];
+  const char *path = getenv("AMBIT_PATH");
+  snprintf(file, sizeof file, "%s/arithmetic/%s.so", path ? path : ".", name);
+  l->library = dlopen(file, RTLD_NOW | RTLD_LOCAL);
+  if (!l->library) return dlerror();
+  const ambit_plugin *entry = dlsym(l->library, "ambit_entry");
+  l->plugin = entry ? entry->get(interface_id) : NULL;
+  if (!l->plugin) return "no arithmetic in this file";
+  if (ambit_arithmetic_complete(l->plugin, &l->full, NULL) != AMBIT_OK) return "incomplete arithmetic";
+  if (ambit_lease_open(&l->lease, NULL, NULL) != AMBIT_OK) return "out of memory";
+  l->ctx = NULL;
+  if (l->plugin->open && l->plugin->open(&l->lease->host, NULL, 0, &l->ctx) != AMBIT_OK) return l->lease->failure.message;
+  return NULL;
+}
+
+static inline const char *arithmetic_load(arithmetic_loader *l, const char *name) {
+  return arithmetic_load_as(l, name, AMBIT_ARITHMETIC);
+}
+
+static inline void arithmetic_unload(arithmetic_loader *l) {
+  if (l->plugin && l->plugin->close) l->plugin->close(l->ctx);
+  ambit_lease_close(l->lease); /* NULL is allowed */
+  if (l->library) dlclose(l->library);
+}
+#endif

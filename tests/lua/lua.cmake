@@ -1,0 +1,35 @@
+# The Lua side: the specs under stock busted (the module ambit.so) and under `ambit test`; the scenes.
+add_library(test_callbacks MODULE ${CMAKE_CURRENT_LIST_DIR}/plugins/callbacks.c)
+target_link_libraries(test_callbacks PRIVATE ambit_flags)
+set_target_properties(test_callbacks PROPERTIES PREFIX "" OUTPUT_NAME callbacks
+  LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests/lua/plugins/service)
+
+set(lua_environment "AMBIT_PATH=${PROJECT_BINARY_DIR}/tests/lua/plugins:${PROJECT_BINARY_DIR}/plugins"
+  "LUA_CPATH=${PROJECT_BINARY_DIR}/lua/?.so\\;\\;" "AMBIT_COMMAND=$<TARGET_FILE:ambit>" "NO_COLOR=1")
+
+add_test(NAME lua.specs.command COMMAND ambit test tests/lua WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+set_tests_properties(lua.specs.command PROPERTIES TIMEOUT 300 ENVIRONMENT "${lua_environment}")
+
+find_program(BUSTED busted)
+if(BUSTED)
+  set(busted_environment ${lua_environment})
+  if(AMBIT_SANITIZE) # the interpreter is not sanitized: its runtime comes first, and its own leaks are not ours
+    execute_process(COMMAND ${CMAKE_C_COMPILER} -print-file-name=libasan.so OUTPUT_VARIABLE asan OUTPUT_STRIP_TRAILING_WHITESPACE)
+    list(APPEND busted_environment "LD_PRELOAD=${asan}" "ASAN_OPTIONS=detect_leaks=0")
+  endif()
+  add_test(NAME lua.specs.busted COMMAND ${BUSTED} --pattern=_spec%.lua$ tests/lua WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  set_tests_properties(lua.specs.busted PROPERTIES TIMEOUT 300 ENVIRONMENT "${busted_environment}")
+endif()
+
+# A scene must end with this exit code and say this.
+function(ambit_scene name exit_code expected)
+  add_test(NAME scene.${name} COMMAND ${CMAKE_COMMAND} -DCOMMAND=$<TARGET_FILE:ambit> -DSCENE=${PROJECT_SOURCE_DIR}/scripts/${name}.lua
+    -DEXIT_CODE=${exit_code} "-DEXPECTED=${expected}" -P ${PROJECT_SOURCE_DIR}/cmake/check_scene.cmake)
+  set_tests_properties(scene.${name} PROPERTIES TIMEOUT 60 ENVIRONMENT "${lua_environment}")
+endfunction()
+ambit_scene(manipulator 0 "interval .*0\\.3[0-9]* +0\\.2[0-9]*\n")
+ambit_scene(manipulator_mobile 0 "width 1\\.047 m\n.*width 1\\.041 m\n")
+ambit_scene(double_pendulum 0 "\n0\\.6 .*complete at t = 0\\.6 ")
+ambit_scene(simple_pendulum 0 "\n100 .*complete at t = 100 ")
+ambit_scene(lorenz 0 "\n20 .*complete at t = 20 ")
+ambit_scene(van_der_pol 0 "complete at t = 20 .*complete at t = 2 ")
