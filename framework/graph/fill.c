@@ -32,7 +32,7 @@ static void write_bounds(const call *c, uint32_t slot, size_t lane, size_t n, co
   c->self->set(c->ctx, element(c, slot, lane), n, lo, hi, -1);
 }
 
-/* lanes [lane, lane + width) of the instructions [0, count) with count * width <= CHUNK; exponent: of POWN, count == 1 */
+/* Lanes [lane, lane + width) of instructions [0, count), count * width <= CHUNK. Exponent: of POWN, then count is 1. */
 static uint32_t fill_chunk(const call *c, uint32_t op, size_t lane, size_t width, size_t count, const uint32_t *dst,
     const uint32_t *a, const uint32_t *b, int32_t exponent) {
   ambit_interval x[CHUNK], y[CHUNK], r[CHUNK];
@@ -82,7 +82,9 @@ ambit_status ambit_arithmetic_complete(const ambit_arithmetic *plugin, ambit_ari
   memcpy(full, plugin, size);
   full->size = sizeof *full;
   const char *missing = !full->elem ? "elem" : !full->set ? "set" : !full->bounds ? "bounds" : NULL;
-  if (missing) return ambit_fail(f, AMBIT_INVALID, "the arithmetic has no function '%s'; elem, set and bounds are required", missing);
+  if (missing)
+    return ambit_fail(
+        f, AMBIT_INVALID, "the arithmetic has no function '%s'; elem, set and bounds are required", missing);
   for (uint32_t op = 0; op < AMBIT_OP_COUNT; op++)
     if (!full->run[op]) full->run[op] = fallback[op];
   return AMBIT_OK;

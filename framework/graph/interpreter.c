@@ -1,6 +1,6 @@
 /* interpreter.c -- a tape over a block of elements: constants once, then run by run.
 **
-** The result of a run is sound because every run function encloses the exact image of its operands and operands precede.
+** The result is sound because every run function encloses the exact image of its operands, and operands precede.
 */
 #include "graph/interpreter.h"
 #include <stdlib.h>
@@ -25,15 +25,15 @@ static ambit_status allocate(ambit_block *block, ambit_failure *f) {
   size_t slots = block->tape->nslot, lanes = block->lanes, elem = block->elem, count, bytes;
   double need = (double)slots * (double)lanes * (double)elem;
   bool overflow = __builtin_mul_overflow(slots, lanes, &count) || __builtin_mul_overflow(count, elem, &bytes) ||
-      bytes > SIZE_MAX / 2;
+                  bytes > SIZE_MAX / 2;
   if (overflow)
-    return ambit_fail(f, AMBIT_INVALID, "%zu slots in %zu lanes of %zu bytes need %.3g bytes, more than there are addresses",
-        slots, lanes, elem, need);
+    return ambit_fail(f, AMBIT_INVALID,
+        "%zu slots in %zu lanes of %zu bytes need %.3g bytes, more than there are addresses", slots, lanes, elem, need);
   bytes = (bytes / ALIGNMENT + 1) * ALIGNMENT;
   block->base = aligned_alloc(ALIGNMENT, bytes);
   if (!block->base)
-    return ambit_fail(f, AMBIT_NOMEM, "out of memory: %zu slots in %zu lanes of %zu bytes need %.3g bytes", slots, lanes,
-        elem, need);
+    return ambit_fail(
+        f, AMBIT_NOMEM, "out of memory: %zu slots in %zu lanes of %zu bytes need %.3g bytes", slots, lanes, elem, need);
   memset(block->base, 0, bytes);
   ambit_status status = block->arithmetic->init ? block->arithmetic->init(block->ctx, block->base, count) : AMBIT_OK;
   if (status != AMBIT_OK) return ambit_fail(f, status, "the arithmetic could not initialise %zu elements", count);
@@ -54,8 +54,8 @@ static void set_constants(ambit_block *block) {
   }
 }
 
-ambit_status ambit_block_open(const ambit_tape *t, const ambit_arithmetic *full, void *ctx, size_t lanes,
-    ambit_block **block, ambit_failure *f) {
+ambit_status ambit_block_open(
+    const ambit_tape *t, const ambit_arithmetic *full, void *ctx, size_t lanes, ambit_block **block, ambit_failure *f) {
   *block = NULL;
   if (lanes == 0) return ambit_fail(f, AMBIT_INVALID, "a block needs at least one lane");
   size_t elem = full->elem(ctx);

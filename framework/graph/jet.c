@@ -48,7 +48,8 @@ static ambit_status check_tape(const ambit_host *h, const ambit_tape *t) {
     return h->fail(h, AMBIT_INVALID, "power series need a tape sealed with AMBIT_TAPE_SERIES");
   for (uint32_t i = 0; i < t->ninstr; i++) {
     if (!has_series(t->op[i]))
-      return h->fail(h, AMBIT_INVALID, "instruction %u of the tape has opcode %u, which has no power series", i, t->op[i]);
+      return h->fail(
+          h, AMBIT_INVALID, "instruction %u of the tape has opcode %u, which has no power series", i, t->op[i]);
     if (needs_aux(t->op[i]) && t->degree[t->dst[i]] != 0 && t->aux[i] >= t->nslot)
       return h->fail(h, AMBIT_INVALID, "instruction %u of the tape lacks its helper slot", i);
   }
@@ -110,7 +111,8 @@ static void close(ambit_jet *jet) {
 
 /* -- coefficients */
 
-static void put(ambit_jet *jet, uint32_t in, uint32_t k, double mid, double rad, const double *dmid, const double *drad) {
+static void put(
+    ambit_jet *jet, uint32_t in, uint32_t k, double mid, double rad, const double *dmid, const double *drad) {
   if (jet->known > k) jet->known = k;
   jet->jets.put(jet->self, in, k, mid, rad, dmid, drad);
 }

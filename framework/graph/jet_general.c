@@ -1,8 +1,9 @@
 /* jet_general.c -- power series of a tape over any arithmetic: memory, orders, coefficients in and out.
 **
-** Mathematics in jet_value.c and jet_slope.c, proofs in docs/numerics/series.md. Elements are reached through run[] with one lane, an
-** element being a "slot" of a block of pitch 1. Coefficients cross the border as midpoint and radius, rounded outward.
-** Speed is secondary here; an arithmetic that wants the integrators at full speed offers its own ambit_jets.
+** Mathematics in jet_value.c and jet_slope.c, proofs in docs/numerics/series.md. Elements are reached through run[]
+** with one lane, an element being a "slot" of a block of pitch 1. Coefficients cross the border as midpoint and
+** radius, rounded outward. Speed is secondary: an arithmetic that wants the integrators at full speed offers
+** ambit_jets of its own.
 */
 #include "graph/jet_general.h"
 #include "num/rounding.h"
@@ -20,7 +21,9 @@ ambit_row ambit_series_weighted(const ambit_series *s, uint32_t slot, uint32_t c
   return ambit_series_row(s, slot, s->columns + column);
 }
 
-uint32_t ambit_series_at(const ambit_series *s, ambit_row a, uint32_t k) { return k < a.length ? a.first + k : s->zero; }
+uint32_t ambit_series_at(const ambit_series *s, ambit_row a, uint32_t k) {
+  return k < a.length ? a.first + k : s->zero;
+}
 
 ambit_interval ambit_series_bounds(const ambit_series *s, uint32_t element) {
   ambit_interval x;
@@ -171,15 +174,16 @@ static void put_element(ambit_series *s, uint32_t in, uint32_t column, uint32_t 
   ambit_rounding old = ambit_round_up();
   ball(mid, rad, &x);
   ambit_rounding_restore(old);
-  if (k < s->length[slot]) ambit_series_set(s, ambit_series_row(s, slot, column).first + k, x);
-  else if (k <= s->order && !(x.lo == 0 && x.hi == 0)) s->refused = AMBIT_F_UNBOUNDED;
+  if (k < s->length[slot])
+    ambit_series_set(s, ambit_series_row(s, slot, column).first + k, x);
+  else if (k <= s->order && !(x.lo == 0 && x.hi == 0))
+    s->refused = AMBIT_F_UNBOUNDED;
 }
 
 static void put(void *self, uint32_t in, uint32_t k, double mid, double rad, const double *dmid, const double *drad) {
   ambit_series *s = self;
   put_element(s, in, 0, k, mid, rad);
-  for (uint32_t d = 0; d < s->ndir; d++)
-    put_element(s, in, s->slope + d, k, dmid ? dmid[d] : 0, drad ? drad[d] : 0);
+  for (uint32_t d = 0; d < s->ndir; d++) put_element(s, in, s->slope + d, k, dmid ? dmid[d] : 0, drad ? drad[d] : 0);
 }
 
 static ambit_interval coefficient(const ambit_series *s, uint32_t slot, uint32_t column, uint32_t k) {
@@ -190,8 +194,8 @@ static ambit_interval coefficient(const ambit_series *s, uint32_t slot, uint32_t
 static void get(const void *self, uint32_t slot, uint32_t k, double *mid, double *rad, double *dmid, double *drad) {
   const ambit_series *s = self;
   ambit_interval x = coefficient(s, slot, 0, k);
-  if (mid) *mid = ambit_interval_mid(x);
-  if (rad) *rad = ambit_interval_rad(x);
+  *mid = ambit_interval_mid(x);
+  *rad = ambit_interval_rad(x);
   for (uint32_t d = 0; d < s->ndir && (dmid || drad); d++) {
     x = coefficient(s, slot, s->slope + d, k);
     if (dmid) dmid[d] = ambit_interval_mid(x);
@@ -258,10 +262,11 @@ static ambit_status allocate(const ambit_host *h, ambit_series *s) {
   mark_weighted(s);
   size_t bytes;
   if (!lay_out(s) || __builtin_mul_overflow(s->count, s->elem, &bytes))
-    return h->fail(h, AMBIT_INVALID, "power series to order %u with %u directions of %u slots are too many elements", s->order,
-        s->ndir, t->nslot);
+    return h->fail(h, AMBIT_INVALID, "power series to order %u with %u directions of %u slots are too many elements",
+        s->order, s->ndir, t->nslot);
   s->base = h->alloc(h, bytes);
-  if (!s->base) return h->fail(h, AMBIT_NOMEM, "out of memory: power series of %u slots need %zu bytes", t->nslot, bytes);
+  if (!s->base)
+    return h->fail(h, AMBIT_NOMEM, "out of memory: power series of %u slots need %zu bytes", t->nslot, bytes);
   ambit_status status = s->arithmetic->init ? s->arithmetic->init(s->ctx, s->base, s->count) : AMBIT_OK;
   if (status != AMBIT_OK) return h->fail(h, status, "the arithmetic could not initialise %zu elements", s->count);
   return AMBIT_OK;
@@ -289,12 +294,20 @@ static ambit_status open(const ambit_host *h, void *ctx, const ambit_tape *t, ui
   const ambit_series *middle = centre;
   *self = NULL;
   if (middle && (middle->tape != t || middle->order < order || middle->arithmetic != source->arithmetic))
-    return h->fail(h, AMBIT_INVALID, "the centre of slopes must hold series of the same tape and arithmetic to order %u", order);
+    return h->fail(
+        h, AMBIT_INVALID, "the centre of slopes must hold series of the same tape and arithmetic to order %u", order);
   ambit_series *s = h->alloc(h, sizeof *s);
   if (!s) return h->fail(h, AMBIT_NOMEM, "out of memory for power series");
   uint32_t mean = centre ? 1 : 0;
-  *s = (ambit_series) { .tape = t, .arithmetic = source->arithmetic, .ctx = source->actx, .centre = centre, .order = order,
-    .ndir = ndir, .mean = mean, .slope = mean + 1, .columns = mean + 1 + ndir };
+  *s = (ambit_series) { .tape = t,
+    .arithmetic = source->arithmetic,
+    .ctx = source->actx,
+    .centre = centre,
+    .order = order,
+    .ndir = ndir,
+    .mean = mean,
+    .slope = mean + 1,
+    .columns = mean + 1 + ndir };
   s->elem = s->arithmetic->elem(s->ctx);
   ambit_status status = allocate(h, s);
   if (status != AMBIT_OK) return status;

@@ -1,8 +1,8 @@
 /* jet_general.h -- inside of the general jets: power series as rows of elements in one block.
 **
-** Column 0 of a slot is its value series; with a centre, column 1 is the mean series (u(X) + u(c)) / 2; then one column per slope
-** direction. Without a centre the mean is the value itself. A slot that some recursion needs in the form k u_k has every
-** column a second time, weighted by k. A row is as long as the slot's degree in time allows.
+** Column 0 of a slot is its value series; with a centre, column 1 is the mean series (u(X) + u(c)) / 2; then one
+** column per slope direction. Without a centre the mean is the value itself. A slot that some recursion needs in the
+** form k u_k has every column a second time, weighted by k. A row is as long as the slot's degree in time allows.
 */
 #ifndef AMBIT_JET_GENERAL_H
 #define AMBIT_JET_GENERAL_H
@@ -20,9 +20,9 @@ struct ambit_series {
   uint32_t order, ndir, mean, slope, columns; /* numbers of the mean's and the first slope's column; columns per slot */
   size_t elem, count;                         /* bytes per element, elements in all */
   char *base;
-  uint32_t *first, *length; /* [nslot] first element, coefficients per row */
-  uint8_t *weighted;        /* [nslot] */
-  int8_t *branch;           /* [ninstr] of ABS, MIN, MAX: +1 as is or first, -1 negated or second, 0 undecided */
+  uint32_t *first, *length;    /* [nslot] first element, coefficients per row */
+  uint8_t *weighted;           /* [nslot] */
+  int8_t *branch;              /* [ninstr] of ABS, MIN, MAX: +1 as is or first, -1 negated or second, 0 undecided */
   uint32_t zero, half, number; /* elements: 0, 1/2; number + k: k, k <= order */
   uint32_t factor;             /* two elements: slope factors of an elementary function */
   uint32_t scratch, used, room;
@@ -37,7 +37,8 @@ typedef struct ambit_row {
 
 ambit_row ambit_series_row(const ambit_series *s, uint32_t slot, uint32_t column);
 ambit_row ambit_series_weighted(const ambit_series *s, uint32_t slot, uint32_t column);
-uint32_t ambit_series_at(const ambit_series *s, ambit_row a, uint32_t k); /* the element of a_k; that of 0 beyond the row */
+/* the element of a_k; that of 0 beyond the row */
+uint32_t ambit_series_at(const ambit_series *s, ambit_row a, uint32_t k);
 ambit_interval ambit_series_bounds(const ambit_series *s, uint32_t element);
 void ambit_series_set(ambit_series *s, uint32_t element, ambit_interval x);
 

@@ -1,11 +1,11 @@
 /* jet_slope.c -- slopes: series s_j with u(x) - u(c) = sum_j s_j (x_j - c_j) for every x of the box.
 **
-** One identity carries all bilinear rules: a b - a0 b0 = (a + a0)/2 (b - b0) + (b + b0)/2 (a - a0); the mean series is in the column
-** `mean`. It applies to power series in time, to quotients and roots solved for their result, and to the differential equation
-** y' = v u' of an elementary function. Order 0 of an elementary function takes a slope of the real function: one in f'(U) exists by
-** the mean value theorem, and for f'' = +-f also by Taylor's, in f'(u0) + f''(U)/2 (U - u0); both are the same number, so the sets are
-** intersected. Without a centre the mean is the value, and the same rules are the product rule: derivatives.
-** Proofs in docs/numerics/series.md.
+** One identity carries all bilinear rules: a b - a0 b0 = (a + a0)/2 (b - b0) + (b + b0)/2 (a - a0); the mean series
+** is in the column `mean`. It applies to power series in time, to quotients and roots solved for their result, and to
+** the differential equation y' = v u' of an elementary function. Order 0 of an elementary function takes a slope of
+** the real function: it lies in f'(U) by the mean value theorem, and for f'' = +-f also in f'(u0) + f''(U)/2 (U - u0)
+** by Taylor's; it is one and the same number, so the sets are intersected. Without a centre the mean is the value,
+** and the same rules are the product rule: derivatives. Proofs in docs/numerics/series.md.
 */
 #include "graph/jet_general.h"
 
@@ -13,7 +13,9 @@
 
 static uint32_t add(ambit_series *s, uint32_t a, uint32_t b) { return ambit_series_apply(s, NEW, AMBIT_OP_ADD, a, b); }
 static uint32_t sub(ambit_series *s, uint32_t a, uint32_t b) { return ambit_series_apply(s, NEW, AMBIT_OP_SUB, a, b); }
-static uint32_t divide(ambit_series *s, uint32_t a, uint32_t b) { return ambit_series_apply(s, NEW, AMBIT_OP_DIV, a, b); }
+static uint32_t divide(ambit_series *s, uint32_t a, uint32_t b) {
+  return ambit_series_apply(s, NEW, AMBIT_OP_DIV, a, b);
+}
 
 /* The four rows of an operand in direction d: mean and slope, plain and weighted by k. */
 typedef struct operand {
@@ -147,22 +149,29 @@ static uint32_t scaled(ambit_series *s, uint32_t dst, uint32_t factor, uint32_t 
   return ambit_series_apply(s, dst, AMBIT_OP_MUL, factor, a);
 }
 
-/* | |u| - |u0| | <= |u - u0|, and min, max have slopes (w, 1 - w) with w in [0, 1]: where the branch is unknown but constant in time */
+/* | |u| - |u0| | <= |u - u0|; min and max have slopes (w, 1 - w), 0 <= w <= 1: for operands constant in time */
 static void undecided(ambit_series *s, uint32_t i, uint32_t dst, uint32_t k, uint32_t a, uint32_t b) {
-  if (k > 0) ambit_series_set(s, dst, AMBIT_ENTIRE);
-  else if (s->tape->op[i] == AMBIT_OP_ABS) scaled(s, dst, s->factor, a);
-  else ambit_series_apply(s, dst, AMBIT_OP_ADD, b, scaled(s, NEW, s->factor, sub(s, a, b)));
+  if (k > 0)
+    ambit_series_set(s, dst, AMBIT_ENTIRE);
+  else if (s->tape->op[i] == AMBIT_OP_ABS)
+    scaled(s, dst, s->factor, a);
+  else
+    ambit_series_apply(s, dst, AMBIT_OP_ADD, b, scaled(s, NEW, s->factor, sub(s, a, b)));
 }
 
 static void follow_branch(ambit_series *s, uint32_t i, uint32_t dst, uint32_t k, uint32_t a, uint32_t b) {
-  int branch = s->branch[i];
-  if (branch == 0) undecided(s, i, dst, k, a, b);
-  else if (s->tape->op[i] == AMBIT_OP_ABS && branch < 0) ambit_series_apply(s, dst, AMBIT_OP_NEG, a, a);
-  else ambit_series_apply(s, dst, AMBIT_OP_ADD, branch > 0 ? a : b, s->zero);
+  int8_t branch = s->branch[i];
+  if (branch == 0)
+    undecided(s, i, dst, k, a, b);
+  else if (s->tape->op[i] == AMBIT_OP_ABS && branch < 0)
+    ambit_series_apply(s, dst, AMBIT_OP_NEG, a, a);
+  else
+    ambit_series_apply(s, dst, AMBIT_OP_ADD, branch > 0 ? a : b, s->zero);
 }
 
 /* elementary functions */
-static void function(ambit_series *s, uint32_t i, uint32_t dst, uint32_t k, operand a, operand b, operand y, operand aux) {
+static void function(
+    ambit_series *s, uint32_t i, uint32_t dst, uint32_t k, operand a, operand b, operand y, operand aux) {
   if (k == 0) {
     uint32_t first = scaled(s, s->tape->op[i] == AMBIT_OP_ATAN2 ? NEW : dst, s->factor, a.slope.first);
     if (s->tape->op[i] != AMBIT_OP_ATAN2) return;

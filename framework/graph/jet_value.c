@@ -1,12 +1,13 @@
 /* jet_value.c -- Taylor coefficients of the operations, order by order.
 **
-** Moore, Interval Analysis, 1966; Griewank and Walther, Evaluating Derivatives, 2nd ed., section 13.2. Elementary functions follow
-** from their differential equations: y = exp u from y' = y u', so k y_k = sum j u_j y_(k-j), and likewise
+** Moore, Interval Analysis, 1966; Griewank and Walther, Evaluating Derivatives, 2nd ed., section 13.2. Elementary
+** functions follow from their differential equations: y = exp u from y' = y u', so k y_k = sum j u_j y_(k-j), and
+** likewise
 **   log: y' u = u'            sin, cos: s' = c u', c' = -s u'      sinh, cosh: s' = c u', c' = s u'
 **   atan: y' q = u', q = 1 + u^2                                    atan2: y' q = a' b - a b', q = a^2 + b^2
-** Each is an identity of real numbers for every point of the box, so it holds for any enclosing arithmetic.
-** ABS, MIN and MAX are one of their branches if order 0 tells which one over the whole set; at the branch cut of ATAN2, and where
-** the branch is not known, nothing is proved: AMBIT_F_UNBOUNDED.
+** Each is an identity of real numbers for every point of the box, so it holds for any enclosing arithmetic. ABS, MIN
+** and MAX are one of their branches if order 0 tells which one over the whole set; at the branch cut of ATAN2, and
+** where the branch is not known, nothing is proved: AMBIT_F_UNBOUNDED.
 */
 #include "graph/jet_general.h"
 
@@ -14,7 +15,9 @@
 
 static uint32_t add(ambit_series *s, uint32_t a, uint32_t b) { return ambit_series_apply(s, NEW, AMBIT_OP_ADD, a, b); }
 static uint32_t sub(ambit_series *s, uint32_t a, uint32_t b) { return ambit_series_apply(s, NEW, AMBIT_OP_SUB, a, b); }
-static uint32_t divide(ambit_series *s, uint32_t a, uint32_t b) { return ambit_series_apply(s, NEW, AMBIT_OP_DIV, a, b); }
+static uint32_t divide(ambit_series *s, uint32_t a, uint32_t b) {
+  return ambit_series_apply(s, NEW, AMBIT_OP_DIV, a, b);
+}
 static uint32_t sum(ambit_series *s, ambit_row a, ambit_row b, uint32_t from, uint32_t to, uint32_t k) {
   return ambit_series_convolve(s, NEW, a, b, from, to, k);
 }
@@ -60,7 +63,8 @@ static void logarithm(ambit_series *s, uint32_t dst, uint32_t ak, ambit_row wy, 
 
 static void angle(ambit_series *s, uint32_t i, uint32_t dst, uint32_t k) {
   const ambit_tape *t = s->tape;
-  ambit_row a = ambit_series_row(s, t->a[i], 0), b = ambit_series_row(s, t->b[i], 0), q = ambit_series_row(s, t->aux[i], 0);
+  ambit_row a = ambit_series_row(s, t->a[i], 0), b = ambit_series_row(s, t->b[i], 0),
+            q = ambit_series_row(s, t->aux[i], 0);
   uint32_t cross = sub(s, sum(s, ambit_series_weighted(s, t->a[i], 0), b, 1, k, k),
       sum(s, ambit_series_weighted(s, t->b[i], 0), a, 1, k, k));
   uint32_t rest = sub(s, cross, sum(s, ambit_series_weighted(s, t->dst[i], 0), q, 1, k - 1, k));
@@ -119,6 +123,8 @@ void ambit_series_value(ambit_series *s, uint32_t i, uint32_t k) {
   const ambit_tape *t = s->tape;
   ambit_row a = ambit_series_row(s, t->a[i], 0), b = ambit_series_row(s, t->b[i], 0);
   uint32_t dst = ambit_series_row(s, t->dst[i], 0).first + k;
-  if (k == 0) first_order(s, i, dst, a.first, b.first);
-  else later_order(s, i, dst, a, b, k);
+  if (k == 0)
+    first_order(s, i, dst, a.first, b.first);
+  else
+    later_order(s, i, dst, a, b, k);
 }

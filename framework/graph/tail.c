@@ -1,6 +1,7 @@
 /* tail.c -- the tail pass: memory, magnitudes, powers of the step, the order of things.
 **
-** Magnitudes are fetched once per series and scaled once per step length, so that choosing a step and verifying it cost little.
+** Magnitudes are fetched once per series and scaled once per step length, so that choosing a step and verifying it
+** cost little.
 */
 #include "graph/tail.h"
 #include "num/rounding.h"
@@ -56,7 +57,8 @@ ambit_status ambit_tails_open(
   ambit_tails *t = h->alloc(h, sizeof *t);
   if (!t) return h->fail(h, AMBIT_NOMEM, "out of memory for tails of power series");
   *t = (ambit_tails) { .tape = tape, .order = order, .ndir = ndir, .stride = ((size_t)order / 4 + 1) * 4 };
-  if (!allocate(h, t)) return h->fail(h, AMBIT_NOMEM, "out of memory for tails of power series of %u slots", tape->nslot);
+  if (!allocate(h, t))
+    return h->fail(h, AMBIT_NOMEM, "out of memory for tails of power series of %u slots", tape->nslot);
   for (uint32_t v = 0; v < tape->nslot; v++) t->moving[v] = tape->degree[v] != 0;
   for (uint32_t i = 0; i < tape->ninstr; i++)
     if (t->moving[tape->dst[i]]) t->active[t->nactive++] = i;
@@ -91,7 +93,7 @@ static void fetch_slot(ambit_tails *t, const ambit_jets *jets, const void *self,
   ambit_rounding_restore(old);
   if (t->moving[v]) return;
   t->U[at] = t->sum[v] = mag[0];
-  for (uint32_t d = 0; d < t->ndir; d++) t->V[at * t->ndir + d] = t->vsum[(size_t)v * t->ndir + d] = dmag[d];
+  for (uint32_t d = 0; d < t->ndir && dmag; d++) t->V[at * t->ndir + d] = t->vsum[(size_t)v * t->ndir + d] = dmag[d];
 }
 
 static void fetch(ambit_tails *t, const ambit_jets *jets, const void *self, uint32_t K) {
@@ -124,18 +126,23 @@ static void scale_flow(ambit_tails *t, uint32_t v, uint32_t K) {
   for (size_t i = 1; i <= K; i++) RW[i] = RW[i - 1] + W[K + 1 - i];
 }
 
+/* four directions at a time in registers */
 static void scale_slopes(ambit_tails *t, uint32_t v, uint32_t K) {
-  size_t nd = t->ndir, at = (size_t)v * t->stride * nd;
-  double *restrict V = t->V + at, *restrict sum = t->vsum + (size_t)v * nd;
-  const double *restrict dmag = t->dmag + at;
-  for (size_t d = 0; d < nd; d++) sum[d] = 0;
-  for (size_t k = 0; k <= K; k++) {
-    double power = t->power[k];
-    for (size_t d = 0; d < nd; d++) {
-      double x = dmag[k * nd + d] * power;
-      V[k * nd + d] = x;
-      sum[d] += x;
+  size_t nd = t->ndir, at = (size_t)v * t->stride * nd, d = 0;
+  double *V = t->V + at, *sum = t->vsum + (size_t)v * nd;
+  const double *dmag = t->dmag + at;
+  for (; d + 4 <= nd; d += 4) {
+    ambit_four total = { 0, 0, 0, 0 };
+    for (size_t k = 0; k <= K; k++) {
+      ambit_four x = *(const ambit_four *)(const void *)(dmag + k * nd + d) * t->power[k];
+      *(ambit_four *)(void *)(V + k * nd + d) = x;
+      total += x;
     }
+    *(ambit_four *)(void *)(sum + d) = total;
+  }
+  for (; d < nd; d++) {
+    sum[d] = 0;
+    for (size_t k = 0; k <= K; k++) sum[d] += V[k * nd + d] = dmag[k * nd + d] * t->power[k];
   }
 }
 

@@ -1,16 +1,14 @@
 /* tail_bound.c -- the bounds that the tail rules share: convolutions of magnitudes, spans over the step, denominators.
 **
-** Upward mode. A lower bound is minus the upward-rounded negated value. Infinite magnitudes make NaN in places (inf - inf, 0 inf):
-** comparisons are written so that NaN claims nothing.
+** Upward mode. A lower bound is minus the upward-rounded negated value. Infinite magnitudes make NaN in places (inf -
+** inf, 0 inf): comparisons are written so that NaN claims nothing.
 */
 #include "graph/tail.h"
 #include "num/interval.h"
 
-typedef double lanes __attribute__((vector_size(32), may_alias));
-
 double ambit_tails_dot(const ambit_tails *t, const double *a, const double *r) {
-  const lanes *x = (const lanes *)(const void *)a, *y = (const lanes *)(const void *)r;
-  lanes even = x[0] * y[0], odd = { 0, 0, 0, 0 };
+  const ambit_four *x = (const ambit_four *)(const void *)a, *y = (const ambit_four *)(const void *)r;
+  ambit_four even = x[0] * y[0], odd = { 0, 0, 0, 0 };
   size_t n = t->K / 4 + 1, i = 1;
   for (; i + 1 < n; i += 2) {
     odd += x[i] * y[i];
@@ -66,11 +64,9 @@ double ambit_tails_sqrt_floor(const ambit_tails *t, uint32_t u) {
 }
 
 /* below q_0 - sum_{k>=1} Q_k - excess */
-static double floor_of(const ambit_tails *t, uint32_t q, double excess) {
-  return -(excess + t->swing[q] - t->lo[q]);
-}
+static double floor_of(const ambit_tails *t, uint32_t q, double excess) { return -(excess + t->swing[q] - t->lo[q]); }
 
-/* What q = a^2 can exceed its polynomial by, for every point of the segment: sum_{i+j>K} U_i U_j + tau (2 |U| + tau). */
+/* What a^2 can exceed its polynomial by, all along the segment: sum_{i+j>K} U_i U_j + tau (2 |U| + tau). */
 static double square_excess(const ambit_tails *t, uint32_t a) {
   return ambit_tails_product(t, a, a) + t->tau[a] * (2 * t->sum[a] + t->tau[a]);
 }

@@ -1,8 +1,9 @@
 /* tail_slope.c -- how much a tail changes over the box, per direction; upward mode.
 **
-** |T(x, s) - T(c, s)| <= sum_j sigma_j |x_j - c_j| s^(K+1). Each rule of tail_value.c is an identity of products, so its change follows from
-** a b - a0 b0 = (a + a0)/2 (b - b0) + (b + b0)/2 (a - a0) with magnitudes; an elementary function again as defect of its differential
-** equation plus shift. Only magnitudes of any valid slopes enter, so it does not matter by which rules the slopes were found.
+** |T(x, s) - T(c, s)| <= sum_j sigma_j |x_j - c_j| s^(K+1). Each rule of tail_value.c is an identity of products, so
+** its change follows from a b - a0 b0 = (a + a0)/2 (b - b0) + (b + b0)/2 (a - a0) with magnitudes; an elementary
+** function again as the defect of its differential equation plus a shift. Only magnitudes of any valid slopes enter,
+** so it does not matter by which rules the slopes were found.
 */
 #include "graph/tail.h"
 #include <math.h>
@@ -26,11 +27,22 @@ static void divide(const ambit_tails *t, double *out, double f) {
   for (uint32_t d = 0; d < t->ndir; d++) out[d] = f > 0 ? out[d] / f : INFINITY;
 }
 
-/* out += sum_k w_k V_v,k */
+/* out += sum_k w_k V_v,k, four directions at a time in registers */
 static void dot(const ambit_tails *t, double *out, const double *w, uint32_t v) {
   const double *V = t->V + lane_of(t, v) * t->stride;
-  uint32_t last = t->moving[v] ? t->K : 0;
-  for (uint32_t k = 0; k <= last; k++) add(t, out, w[k], V + (size_t)k * t->ndir);
+  size_t nd = t->ndir, last = t->moving[v] ? t->K : 0, d = 0;
+  for (; d + 4 <= nd; d += 4) {
+    ambit_four *to = (ambit_four *)(void *)(out + d), even = *to, odd = { 0, 0, 0, 0 };
+    size_t k = 0;
+    for (; k < last; k += 2) {
+      even += w[k] * *(const ambit_four *)(const void *)(V + k * nd + d);
+      odd += w[k + 1] * *(const ambit_four *)(const void *)(V + (k + 1) * nd + d);
+    }
+    if (k == last) even += w[k] * *(const ambit_four *)(const void *)(V + k * nd + d);
+    *to = even + odd;
+  }
+  for (; d < nd; d++)
+    for (size_t k = 0; k <= last; k++) out[d] += w[k] * V[k * nd + d];
 }
 
 /* out += sum_k (f R_a,k + g) V_v,k */
@@ -40,7 +52,7 @@ static void rest(const ambit_tails *t, double *out, double f, double g, uint32_t
   dot(t, out, t->weight, v);
 }
 
-/* out += the part of a product's change that b's change makes: [U_a V_b]_{>K} + tau_a |V_b| + (|U_a| + tau_a) sigma_b */
+/* out += what b's change does to a product's tail: [U_a V_b]_{>K} + tau_a |V_b| + (|U_a| + tau_a) sigma_b */
 static void product(const ambit_tails *t, double *out, uint32_t a, uint32_t b) {
   rest(t, out, 1, t->tau[a], a, b);
   add(t, out, t->sum[a] + t->tau[a], t->sigma + lane_of(t, b));
@@ -171,7 +183,7 @@ static void angle(const ambit_tails *t, double *out, uint32_t i, uint32_t a, uin
   uint32_t q = t->tape->aux[i];
   double floor = ambit_tails_atan2_floor(t, i), sum_of_flow = ambit_tails_row(t, t->RW, y)[t->K];
   double defect = ambit_tails_flow(t, a, b) + ambit_tails_flow(t, b, a) + ambit_tails_flow(t, y, q) +
-      sum_of_flow * (ambit_tails_product(t, a, a) + ambit_tails_product(t, b, b));
+                  sum_of_flow * (ambit_tails_product(t, a, a) + ambit_tails_product(t, b, b));
   flow(t, out, a, b), flow(t, out, b, a), flow(t, out, y, q);
   square_part(t, out, y, a), square_part(t, out, y, b);
   square_change(t, out, defect / floor, a), square_change(t, out, defect / floor, b);
@@ -184,8 +196,10 @@ static void angle(const ambit_tails *t, double *out, uint32_t i, uint32_t a, uin
 
 static void follow(const ambit_tails *t, double *out, uint32_t i) {
   uint32_t operand = ambit_tails_branch(t, i);
-  if (operand == AMBIT_NO_SLOT) divide(t, out, 0);
-  else add(t, out, 1, t->sigma + lane_of(t, operand));
+  if (operand == AMBIT_NO_SLOT)
+    divide(t, out, 0);
+  else
+    add(t, out, 1, t->sigma + lane_of(t, operand));
 }
 
 static void slopes(const ambit_tails *t, double *out, uint32_t i) {
@@ -203,13 +217,17 @@ static void slopes(const ambit_tails *t, double *out, uint32_t i) {
   case AMBIT_OP_LOG: logarithm(t, out, a, y); break;
   case AMBIT_OP_SIN:
   case AMBIT_OP_COS: /* the pair shares one bound */
-    if (aux < y) add(t, out, 1, t->sigma + lane_of(t, aux));
-    else turn(t, out, a, y, aux);
+    if (aux < y)
+      add(t, out, 1, t->sigma + lane_of(t, aux));
+    else
+      turn(t, out, a, y, aux);
     break;
   case AMBIT_OP_SINH:
   case AMBIT_OP_COSH:
-    if (aux < y) add(t, out, 1, t->sigma + lane_of(t, aux));
-    else hyperbola(t, out, a, y, aux, op == AMBIT_OP_SINH);
+    if (aux < y)
+      add(t, out, 1, t->sigma + lane_of(t, aux));
+    else
+      hyperbola(t, out, a, y, aux, op == AMBIT_OP_SINH);
     break;
   case AMBIT_OP_ATAN: arc(t, out, i, a, y); break;
   case AMBIT_OP_ATAN2: angle(t, out, i, a, b, y); break;

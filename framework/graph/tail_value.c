@@ -1,9 +1,10 @@
 /* tail_value.c -- the tail of every operation, from magnitudes; upward mode.
 **
-** P is the operand's polynomial, T its tail (continuous, no more), tau bounds it. Products are expanded; c = a/b and y = sqrt u come from
-** the residual, b T_c = T_a - [P_b P_c]_{>K} - T_b P_c. An elementary function splits into f(P + T) - f(P), by the mean
-** value theorem, and f(P) minus its own polynomial, which solves the differential equation of the recursion with a defect of
-** orders >= K only: |E| <= (growth) D s^(K+1) / (K+1). Sine and cosine turn, so their growth is 1; exp, sinh and cosh grow by at most e^swing.
+** P is the operand's polynomial, T its tail (continuous, no more), tau bounds it. Products are expanded; c = a/b and
+** y = sqrt u come from the residual, b T_c = T_a - [P_b P_c]_{>K} - T_b P_c. An elementary function splits into f(P +
+** T) - f(P), by the mean value theorem, and f(P) minus its own polynomial, which solves the differential equation of
+** the recursion with a defect of orders >= K only: |E| <= growth D s^(K+1) / (K+1). Sine and cosine turn, so their
+** growth is 1; exp, sinh and cosh grow by at most e^swing. Proofs: docs/numerics/series.md.
 */
 #include "graph/tail.h"
 #include <math.h>
@@ -69,7 +70,7 @@ static double arc(const ambit_tails *t, uint32_t i, uint32_t u, uint32_t y) {
 static double angle(const ambit_tails *t, uint32_t i, uint32_t a, uint32_t b, uint32_t y) {
   double floor = ambit_tails_atan2_floor(t, i), sum_of_flow = ambit_tails_row(t, t->RW, y)[t->K];
   double defect = ambit_tails_flow(t, a, b) + ambit_tails_flow(t, b, a) + ambit_tails_flow(t, y, t->tape->aux[i]) +
-      sum_of_flow * (ambit_tails_product(t, a, a) + ambit_tails_product(t, b, b));
+                  sum_of_flow * (ambit_tails_product(t, a, a) + ambit_tails_product(t, b, b));
   double shift = sqrt(t->tau[a] * t->tau[a] + t->tau[b] * t->tau[b]);
   if (!(floor > 0)) return INFINITY;
   return defect / next_order(t) / floor + shift / -(-floor / sqrt(floor));

@@ -1,4 +1,298 @@
-/* NOTE FROM THE LEAD TO MODEL: at 10:34 I overwrote your mechanism.c by accident, thinking that you had not started. Please write yours again (sorry).
-** My own spare version of everything (mechanism, dynamics, unit, spatial.h, elements) is in /tmp/lead/model/*.c, /tmp/lead/spatial.h, /tmp/lead/element/*.c:
-** take from it whatever saves you time (it compiles), but you decide; the whole of framework/model/{unit,mechanism,dynamics}.c, spatial.h and
-** plugins/element/* is yours. We are late: get the complete path into the tree in the next ten minutes, please, then tests and kit. */
+/* mechanism.c -- what a mechanism consists of: parts, their names and connections. */
+#include "model/mechanism.h"
+#include "base/vector.h"
+#include "model/parts.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define NAME_MAX_BYTES 100
+
+static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
+
+const char *ambit_part_who(const ambit_part *p, char out[AMBIT_WHO_MAX]) {
+  snprintf(out, AMBIT_WHO_MAX, "%s `%s`%s%s%s", p->type, p->name, p->where ? " (" : "", p->where ? p->where : "", p->where ? ")" : "");
+  return out;
+}
+
+/* -- cells */
+
+const char *ambit_quantity_name(uint32_t quantity) {
+  switch (quantity) {
+  case AMBIT_POSE: return "pose";
+  case AMBIT_TWIST: return "twist";
+  case AMBIT_ACCEL: return "acceleration";
+  case AMBIT_WRENCH: return "wrench";
+  case AMBIT_ENERGY: return "energy";
+  case AMBIT_COORDINATE: return "coordinate";
+  case AMBIT_RATE: return "rate";
+  case AMBIT_RATE2: return "second rate";
+  case AMBIT_EFFORT: return "effort";
+  case AMBIT_BALANCE: return "balance";
+  case AMBIT_FIELD: return "field";
+  default: return "unknown quantity";
+  }
+}
+
+/* Column of the quantity at that kind of port (0: the part as a whole), or AMBIT_COLUMNS. */
+static uint32_t column(uint32_t kind, uint32_t quantity) {
+  if (kind == 0) return quantity == AMBIT_ENERGY ? 0 : quantity == AMBIT_FIELD ? 1 : AMBIT_COLUMNS;
+  uint32_t first = kind == AMBIT_PORT_FRAME ? AMBIT_POSE : AMBIT_COORDINATE;
+  uint32_t last = kind == AMBIT_PORT_FRAME ? AMBIT_WRENCH : AMBIT_BALANCE;
+  return quantity >= first && quantity <= last ? quantity - first : AMBIT_COLUMNS;
+}
+
+ambit_cell *ambit_part_cell(const ambit_part *p, uint32_t port, uint32_t quantity) {
+  uint32_t row = port == AMBIT_NO_PORT ? p->element->nport : port;
+  uint32_t at = column(port == AMBIT_NO_PORT ? 0 : p->element->port[port].kind, quantity);
+  return at < AMBIT_COLUMNS ? &p->cell[row * AMBIT_COLUMNS + at] : NULL;
+}
+
+size_t ambit_quantity_count(const ambit_part *p, uint32_t port, uint32_t quantity) {
+  switch (quantity) {
+  case AMBIT_POSE: return 12;
+  case AMBIT_TWIST:
+  case AMBIT_ACCEL:
+  case AMBIT_WRENCH: return 6;
+  case AMBIT_ENERGY: return 2;
+  case AMBIT_FIELD: return 3;
+  default: return p->element->port[port].dof;
+  }
+}
+
+/* How many (port, quantity) express() may be asked for. */
+static size_t available(const ambit_element *e) {
+  size_t n = 2;
+  for (uint32_t i = 0; i < e->nport; i++) {
+    bool out = e->port[i].role == AMBIT_ROLE_OUT;
+    n += e->port[i].kind == AMBIT_PORT_FRAME ? (out ? 3 : 1) : (out ? 4 : 1);
+  }
+  return n;
+}
+
+static ambit_status make_cells(ambit_mechanism *m, ambit_part *p, uint32_t number, ambit_failure *f) {
+  const ambit_element *e = p->element;
+  p->cell = ambit_arena_alloc(m->arena, (size_t)(e->nport + 1) * AMBIT_COLUMNS * sizeof *p->cell);
+  if (!p->cell) return no_memory(f);
+  for (uint32_t i = 0; i <= e->nport; i++) {
+    bool whole = i == e->nport;
+    uint32_t first = !whole && e->port[i].kind == AMBIT_PORT_FRAME ? AMBIT_POSE : AMBIT_COORDINATE;
+    for (uint32_t k = 0; k < AMBIT_COLUMNS; k++) {
+      ambit_cell *cell = &p->cell[i * AMBIT_COLUMNS + k];
+      cell->part = number;
+      cell->port = whole ? AMBIT_NO_PORT : i;
+      cell->quantity = !whole ? first + k : k == 0 ? AMBIT_ENERGY : AMBIT_FIELD;
+    }
+    if (!whole && e->port[i].role == AMBIT_ROLE_OUT) p->dof += e->port[i].dof;
+  }
+  p->coordinate = ambit_arena_alloc(m->arena, (p->dof + 1) * sizeof *p->coordinate);
+  if (!p->coordinate) return no_memory(f);
+  memset(p->coordinate, 0xff, (p->dof + 1) * sizeof *p->coordinate); /* UINT32_MAX */
+  return AMBIT_OK;
+}
+
+/* What was summed over the attached elements no longer holds. Values that elements made without sums stay, with their unknowns. */
+static void forget_sums(ambit_mechanism *m) {
+  if (m->nopen == 0) return;
+  for (size_t i = 0; i < m->count; i++) {
+    const ambit_part *p = &m->part[i];
+    for (size_t k = 0; k < (p->element->nport + 1) * AMBIT_COLUMNS; k++)
+      if (p->cell[k].open) p->cell[k].state = AMBIT_CELL_EMPTY, p->cell[k].open = false;
+  }
+  m->field.state = m->energy.state = AMBIT_CELL_EMPTY;
+  m->field.open = m->energy.open = false;
+  m->nopen = 0;
+}
+
+/* -- names */
+
+static const ambit_part *find_name(const ambit_mechanism *m, const char *name) {
+  for (size_t i = 0; i < m->count; i++)
+    if (strcmp(m->part[i].name, name) == 0) return &m->part[i];
+  return NULL;
+}
+
+/* beta' and beta'' are the derivatives of beta. */
+static ambit_status check_name(const ambit_mechanism *m, const ambit_part *p, ambit_failure *f) {
+  size_t n = strlen(p->name);
+  char who[AMBIT_WHO_MAX], first[AMBIT_WHO_MAX];
+  ambit_part_who(p, who);
+  if (n == 0) return ambit_fail(f, AMBIT_INVALID, "%s: the name is empty", who);
+  if (n > NAME_MAX_BYTES) return ambit_fail(f, AMBIT_INVALID, "%s: the name is longer than %d bytes", who, NAME_MAX_BYTES);
+  for (size_t i = 0; i < n; i++)
+    if ((unsigned char)p->name[i] < ' ') return ambit_fail(f, AMBIT_INVALID, "%s: the name has a control character", who);
+  if (p->name[n - 1] == '\'')
+    return ambit_fail(f, AMBIT_INVALID, "%s: a name cannot end in `'`: that marks time derivatives", who);
+  const ambit_part *other = find_name(m, p->name);
+  if (other) return ambit_fail(f, AMBIT_INVALID, "%s: the name is taken by the %s", who, ambit_part_who(other, first));
+  return AMBIT_OK;
+}
+
+/* "revolute1", "revolute2", ... */
+static const char *make_name(ambit_mechanism *m, const char *type) {
+  char name[NAME_MAX_BYTES + 24];
+  size_t number = 1;
+  for (size_t i = 0; i < m->count; i++) number += strcmp(m->part[i].type, type) == 0;
+  do snprintf(name, sizeof name, "%.60s%zu", type, number++);
+  while (find_name(m, name));
+  return ambit_arena_text(m->arena, name);
+}
+
+/* -- connections */
+
+static const char *kind_name(uint32_t kind) { return kind == AMBIT_PORT_JOINT ? "joint" : "frame"; }
+
+/* The port that an IN port is to be connected to exists, is made by an element and is of the same kind. */
+static ambit_status check_connection(
+    const ambit_mechanism *m, const ambit_part *p, const ambit_port *own, ambit_frame to, ambit_failure *f) {
+  char who[AMBIT_WHO_MAX];
+  ambit_part_who(p, who);
+  if (to.part == UINT32_MAX)
+    return ambit_fail(f, AMBIT_INVALID, "%s: port `%s` is not connected; it needs a %s", who, own->name, kind_name(own->kind));
+  if (to.part >= m->count)
+    return ambit_fail(f, AMBIT_INVALID, "%s: port `%s` is connected to part %u, which does not exist", who, own->name, to.part);
+  const ambit_part *other = &m->part[to.part];
+  if (to.port >= other->element->nport)
+    return ambit_fail(f, AMBIT_INVALID, "%s: port `%s` is connected to port %u of `%s`, which has %u", who, own->name, to.port,
+        other->name, other->element->nport);
+  const ambit_port *theirs = &other->element->port[to.port];
+  if (theirs->role != AMBIT_ROLE_OUT)
+    return ambit_fail(f, AMBIT_INVALID, "%s: port `%s` is connected to `%s` of `%s`, which is itself to be connected", who, own->name,
+        theirs->name, other->name);
+  if (theirs->kind != own->kind)
+    return ambit_fail(f, AMBIT_INVALID, "%s: port `%s` needs a %s, but `%s` of `%s` is a %s", who, own->name, kind_name(own->kind),
+        theirs->name, other->name, kind_name(theirs->kind));
+  if (own->dof != theirs->dof)
+    return ambit_fail(f, AMBIT_INVALID, "%s: port `%s` needs a joint of %u degrees of freedom, but `%s` of `%s` has %u", who, own->name,
+        own->dof, theirs->name, other->name, theirs->dof);
+  return AMBIT_OK;
+}
+
+static ambit_status connect(ambit_mechanism *m, ambit_part *p, const ambit_frame *to, ambit_failure *f) {
+  ambit_status status = AMBIT_OK;
+  p->joined = ambit_arena_alloc(m->arena, (p->element->nport + 1) * sizeof *p->joined);
+  if (!p->joined) return no_memory(f);
+  for (uint32_t i = 0; status == AMBIT_OK && i < p->element->nport; i++) {
+    const ambit_port *own = &p->element->port[i];
+    ambit_frame other = to && own->role == AMBIT_ROLE_IN ? to[i] : AMBIT_NOWHERE;
+    bool free = own->role == AMBIT_ROLE_OUT || (own->optional && other.part == UINT32_MAX);
+    if (!free) status = check_connection(m, p, own, other, f);
+    p->joined[i] = (ambit_joined) { other.part, other.port, UINT32_MAX, 0 };
+  }
+  return status;
+}
+
+/* Appends the IN port to what is attached to its other end, so that sums have the order in which parts were added. */
+static void attach(ambit_mechanism *m, uint32_t part, uint32_t port) {
+  const ambit_joined *own = &m->part[part].joined[port];
+  if (m->part[part].element->port[port].role != AMBIT_ROLE_IN || own->part == UINT32_MAX) return;
+  ambit_joined *end = &m->part[own->part].joined[own->port];
+  if (end->part == UINT32_MAX) {
+    end->part = part;
+    end->port = port;
+  } else {
+    ambit_joined *last = &m->part[end->next_part].joined[end->next_port];
+    last->next_part = part;
+    last->next_port = port;
+  }
+  end->next_part = part; /* of an OUT port: the last one attached */
+  end->next_port = port;
+}
+
+/* -- parts */
+
+static ambit_status check_element(const ambit_part_spec *spec, ambit_failure *f) {
+  const ambit_element *e = spec->element;
+  for (uint32_t i = 0; i < e->nport; i++) {
+    const ambit_port *p = &e->port[i];
+    bool joint = p->kind == AMBIT_PORT_JOINT, frame = p->kind == AMBIT_PORT_FRAME;
+    bool role = p->role == AMBIT_ROLE_IN || p->role == AMBIT_ROLE_OUT;
+    bool dof = joint ? p->dof > 0 && p->dof <= AMBIT_QUANTITY_MAX : p->dof == 0;
+    if (!p->name || !(joint || frame) || !role || !dof)
+      return ambit_fail(f, AMBIT_INVALID, "element `%s`: its port %u is not declared properly", spec->type, i);
+  }
+  return AMBIT_OK;
+}
+
+static ambit_status fill_part(ambit_mechanism *m, ambit_part *p, const ambit_part_spec *spec, ambit_failure *f) {
+  p->element = spec->element;
+  p->type = ambit_arena_text(m->arena, spec->type);
+  p->where = spec->where && *spec->where ? ambit_arena_text(m->arena, spec->where) : NULL;
+  p->name = spec->name ? ambit_arena_text(m->arena, spec->name) : make_name(m, spec->type);
+  if (!p->type || !p->name) return no_memory(f);
+  ambit_status status = check_name(m, p, f);
+  if (status == AMBIT_OK) status = ambit_part_take_params(m, p, spec->param, f);
+  if (status == AMBIT_OK) status = connect(m, p, spec->connection, f);
+  return status == AMBIT_OK ? make_cells(m, p, (uint32_t)m->count, f) : status;
+}
+
+ambit_status ambit_mechanism_add(ambit_mechanism *m, const ambit_part_spec *spec, uint32_t *number, ambit_failure *f) {
+  ambit_status status = check_element(spec, f);
+  if (status != AMBIT_OK) return status;
+  ambit_part *grown = ambit_vector_reserve(m->part, &m->capacity, m->count + 1, sizeof *grown);
+  if (!grown || m->count >= UINT32_MAX - 1) return no_memory(f);
+  m->part = grown;
+  ambit_part part = { 0 };
+  status = fill_part(m, &part, spec, f);
+  if (status != AMBIT_OK) return status;
+  uint32_t own = (uint32_t)m->count++;
+  m->part[own] = part;
+  for (uint32_t i = 0; i < part.element->nport; i++) attach(m, own, i);
+  m->available += available(part.element);
+  forget_sums(m);
+  if (number) *number = own;
+  return AMBIT_OK;
+}
+
+ambit_mechanism *ambit_mechanism_open(ambit_graph *g, const char *name) {
+  ambit_mechanism *m = calloc(1, sizeof *m);
+  if (!m) return NULL;
+  m->graph = g;
+  m->arena = ambit_arena_open();
+  m->name = m->arena ? ambit_arena_text(m->arena, name ? name : "mechanism") : NULL;
+  m->field.part = m->energy.part = UINT32_MAX;
+  m->field.port = m->energy.port = AMBIT_NO_PORT;
+  m->field.quantity = AMBIT_FIELD;
+  m->energy.quantity = AMBIT_ENERGY;
+  ambit_part_spec world = { .element = &ambit_world_element, .type = "world", .name = "world" };
+  if (m->name && ambit_mechanism_add(m, &world, NULL, NULL) == AMBIT_OK) return m;
+  ambit_mechanism_close(m);
+  return NULL;
+}
+
+void ambit_mechanism_close(ambit_mechanism *m) {
+  if (!m) return;
+  ambit_arena_close(m->arena);
+  free(m->request);
+  free(m->coordinate);
+  free(m->part);
+  free(m);
+}
+
+ambit_graph *ambit_mechanism_graph(ambit_mechanism *m) { return m->graph; }
+uint32_t ambit_mechanism_count(const ambit_mechanism *m) { return (uint32_t)m->count; }
+const char *ambit_mechanism_part_name(const ambit_mechanism *m, uint32_t part) { return m->part[part].name; }
+const ambit_element *ambit_mechanism_part_element(const ambit_mechanism *m, uint32_t part) { return m->part[part].element; }
+
+void ambit_mechanism_pulled(const ambit_mechanism *m, size_t *pulled, size_t *all) {
+  *pulled = m->pulled;
+  *all = m->available;
+}
+
+/* -- coordinates */
+
+size_t ambit_mechanism_coordinates(ambit_mechanism *m, size_t room, ambit_coordinate *out) {
+  size_t n = 0;
+  for (uint32_t i = 0; i < m->count; i++) {
+    const ambit_element *e = m->part[i].element;
+    for (uint32_t port = 0; port < e->nport; port++)
+      if (e->port[port].kind == AMBIT_PORT_JOINT && e->port[port].role == AMBIT_ROLE_OUT)
+        ambit_mechanism_pull(m, (ambit_frame) { i, port }, AMBIT_COORDINATE, NULL);
+    for (uint32_t k = 0; k < m->part[i].dof; k++) {
+      if (m->part[i].coordinate[k] == UINT32_MAX) continue;
+      if (n < room) out[n] = m->coordinate[m->part[i].coordinate[k]];
+      n++;
+    }
+  }
+  return n;
+}

@@ -1,4 +1,5 @@
-/* parts.h -- the inside of a mechanism, shared by mechanism.c (what it consists of), pull.c (demand) and build.c (what elements see).
+/* parts.h -- the inside of a mechanism, shared by mechanism.c and part_data.c (what it consists of), pull.c (demand) and
+** build.c (what elements see).
 **
 ** A cell remembers one (part, port, quantity): what express() wrote, or the sum over everything attached. While it is being
 ** worked out, `next` is the cell that it waits for, so that a loop can be named.
@@ -77,6 +78,8 @@ typedef struct ambit_request {
 /* In pull.c: the value, worked out if need be. NULL: m->failure, m->deferred, or a cell that is DECLINED says why. */
 const ambit_expr *ambit_pull_cell(ambit_mechanism *m, ambit_cell *cell, ambit_cell *asker);
 
+/* In part_data.c: parameters given, or their fallbacks. */
+ambit_status ambit_part_take_params(ambit_mechanism *m, ambit_part *p, const ambit_expr *const *given, ambit_failure *f);
 /* In build.c: calls express() of the cell's element. */
 ambit_status ambit_build_express(ambit_mechanism *m, ambit_cell *cell, ambit_expr *out);
 #endif

@@ -1,7 +1,8 @@
 /* service.c -- the interval functions as plugins see them.
 **
-** Plugins know no ambit_interval: a pair of doubles crosses the border. The struct has the two bounds as its only members, so an
-** array of n of them is an array of 2 n doubles, and each may be accessed as the other (C17 6.5 p7: an aggregate that includes a double).
+** Plugins know no ambit_interval: a pair of doubles crosses the border. The struct has the two bounds as its only
+** members, so an array of n of them is an array of 2 n doubles, and each may be accessed as the other (C17 6.5 p7: an
+** aggregate that includes a double).
 */
 #include "num/service.h"
 #include "num/decimal.h"
@@ -42,4 +43,5 @@ static size_t shortest(char *out, size_t room, double x) {
   return (size_t)length;
 }
 
-const ambit_num_service ambit_num_service_v1 = { sizeof ambit_num_service_v1, map, ambit_elementary, pown, read, shortest };
+const ambit_num_service ambit_num_service_v1 = { sizeof ambit_num_service_v1, map, ambit_elementary, pown, read,
+  shortest };

@@ -1,8 +1,8 @@
 /* real.c -- plain double precision: fast, rounded to nearest, proves nothing.
 **
-** An element is one double; NaN stands for "no value" (an operand outside the domain, or an empty set), so it travels through every
-** operation and comes out as the empty set, never as a bound. An operation that makes a NaN from numbers raises PARTIAL and EMPTY, one that
-** overflows UNBOUNDED. Elementary functions are those of the C library.
+** An element is one double; NaN stands for "no value" (an operand outside the domain, or an empty set), so it travels
+** through every operation and comes out as the empty set, never as a bound. An operation that makes a NaN from
+** numbers raises PARTIAL and EMPTY, one that overflows UNBOUNDED. Elementary functions are those of the C library.
 */
 #include <ambit/arithmetic.h>
 #include <float.h>
@@ -130,13 +130,15 @@ static uint32_t run_POWN(const ambit_arithmetic *self, void *ctx, void *base, si
 
 #define ENTRY(NAME, arity, symbol) [AMBIT_OP_##NAME] = run_##NAME,
 static const ambit_arithmetic arithmetic = {
-  .size = sizeof arithmetic, .rigorous = 0, .elem = elem, .set = set, .bounds = bounds, .run = { AMBIT_OPS(ENTRY) } };
+  .size = sizeof arithmetic, .rigorous = 0, .elem = elem, .set = set, .bounds = bounds, .run = { AMBIT_OPS(ENTRY) }
+};
 
 static const void *get(const char *interface_id) {
   return strcmp(interface_id, AMBIT_ARITHMETIC) == 0 ? &arithmetic : NULL;
 }
 
 const ambit_plugin ambit_entry = { sizeof ambit_entry, AMBIT_ABI, "arithmetic.real", "1.0",
-  "Double precision, rounded to nearest: one number for each quantity, the middle of every set. The fastest arithmetic and the one that "
+  "Double precision, rounded to nearest: one number for each quantity, the middle of every set. The fastest arithmetic "
+  "and the one that "
   "proves nothing; for reference, sampling and plots.",
   get };

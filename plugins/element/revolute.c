@@ -59,7 +59,7 @@ static ambit_status express_wrench(ambit_build *b, ambit_rotation q, ambit_expr 
 
 static ambit_status express(ambit_build *b, uint32_t port, uint32_t quantity, ambit_expr *out) {
   ambit_vector3 n;
-  if (port == JOINT && quantity <= AMBIT_RATE2) {
+  if (port == JOINT && quantity >= AMBIT_COORDINATE && quantity <= AMBIT_RATE2) {
     *out = ambit_joint_coordinate(b, ANGLE, quantity - AMBIT_COORDINATE, "rad");
     return AMBIT_OK;
   }

@@ -1,7 +1,7 @@
 /* series_fixture.h -- for the tests of series and tails: tapes by hand, a smallest arithmetic, a host, and a judge.
 **
-** The judge computes power series in long double by composition with the Taylor coefficients of each function at the first
-** coefficient, f(u) = sum f^(n)(u_0)/n! (u - u_0)^n, which shares nothing with the recursions under test.
+** The judge computes power series in long double by composition with the Taylor coefficients of each function at the
+** first coefficient, f(u) = sum f^(n)(u_0)/n! (u - u_0)^n, which shares nothing with the recursions under test.
 */
 #ifndef AMBIT_TEST_SERIES_FIXTURE_H
 #define AMBIT_TEST_SERIES_FIXTURE_H
@@ -36,8 +36,10 @@ static ambit_status fixture_fail(const ambit_host *h, ambit_status status, const
 }
 
 static inline void fixture_host_open(fixture_host *f) {
-  *f = (fixture_host) { .host = { .size = sizeof(ambit_host), .abi = AMBIT_ABI, .alloc = fixture_alloc, .fail = fixture_fail },
-    .arena = ambit_arena_open() };
+  *f = (fixture_host) {
+    .host = { .size = sizeof(ambit_host), .abi = AMBIT_ABI, .alloc = fixture_alloc, .fail = fixture_fail },
+    .arena = ambit_arena_open()
+  };
 }
 
 static inline void fixture_host_close(fixture_host *f) { ambit_arena_close(f->arena); }
@@ -56,11 +58,14 @@ static void box_set(void *ctx, void *dst, size_t n, const double *lo, const doub
 
 static void box_bounds(void *ctx, const void *src, size_t n, double *lo, double *hi) {
   (void)ctx;
-  for (size_t i = 0; i < n; i++) lo[i] = ((const ambit_interval *)src)[i].lo, hi[i] = ((const ambit_interval *)src)[i].hi;
+  for (size_t i = 0; i < n; i++)
+    lo[i] = ((const ambit_interval *)src)[i].lo, hi[i] = ((const ambit_interval *)src)[i].hi;
 }
 
 static inline ambit_arithmetic fixture_arithmetic(void) {
-  const ambit_arithmetic box = { .size = sizeof box, .rigorous = 1, .elem = box_elem, .set = box_set, .bounds = box_bounds };
+  const ambit_arithmetic box = {
+    .size = sizeof box, .rigorous = 1, .elem = box_elem, .set = box_set, .bounds = box_bounds
+  };
   ambit_arithmetic full;
   ambit_arithmetic_complete(&box, &full, NULL);
   return full;
@@ -81,9 +86,21 @@ typedef struct fixture_tape {
 
 static inline fixture_tape *fixture_tape_open(fixture_host *f) {
   fixture_tape *x = ambit_arena_alloc(f->arena, sizeof *x);
-  x->tape = (ambit_tape) { .size = sizeof(ambit_tape), .flags = AMBIT_TAPE_SERIES, .op = x->op, .dst = x->dst, .a = x->a,
-    .b = x->b, .aux = x->aux, .run = x->run, .lo = x->lo, .hi = x->hi, .text = x->text, .out = x->out, .degree = x->degree,
-    .range_lo = x->range_lo, .range_hi = x->range_hi };
+  x->tape = (ambit_tape) { .size = sizeof(ambit_tape),
+    .flags = AMBIT_TAPE_SERIES,
+    .op = x->op,
+    .dst = x->dst,
+    .a = x->a,
+    .b = x->b,
+    .aux = x->aux,
+    .run = x->run,
+    .lo = x->lo,
+    .hi = x->hi,
+    .text = x->text,
+    .out = x->out,
+    .degree = x->degree,
+    .range_lo = x->range_lo,
+    .range_hi = x->range_hi };
   return x;
 }
 
@@ -117,10 +134,24 @@ static inline uint32_t fixture_degree(uint32_t op, uint32_t a, uint32_t b) {
   }
 }
 
+static inline bool fixture_is_binary(uint32_t op) {
+  switch (op) {
+  case AMBIT_OP_ADD:
+  case AMBIT_OP_SUB:
+  case AMBIT_OP_MUL:
+  case AMBIT_OP_DIV:
+  case AMBIT_OP_ATAN2:
+  case AMBIT_OP_MIN:
+  case AMBIT_OP_MAX: return true;
+  default: return false;
+  }
+}
+
 static inline uint32_t fixture_op(fixture_tape *x, uint32_t op, uint32_t a, uint32_t b) {
+  if (!fixture_is_binary(op)) b = a;
   ambit_interval r;
-  ambit_interval_op(op, &r, (ambit_interval) { x->range_lo[a], x->range_hi[a] },
-      (ambit_interval) { x->range_lo[b], x->range_hi[b] });
+  ambit_interval_op(
+      op, &r, (ambit_interval) { x->range_lo[a], x->range_hi[a] }, (ambit_interval) { x->range_lo[b], x->range_hi[b] });
   uint32_t i = x->tape.ninstr++, v = fixture_slot(x, r.lo, r.hi, fixture_degree(op, x->degree[a], x->degree[b]));
   x->op[i] = op, x->a[i] = a, x->b[i] = b, x->dst[i] = v, x->aux[i] = AMBIT_NO_SLOT;
   x->run[x->tape.nrun++] = (ambit_run) { .op = op, .first = i, .count = 1 };
@@ -129,8 +160,10 @@ static inline uint32_t fixture_op(fixture_tape *x, uint32_t op, uint32_t a, uint
 
 /* An operation with its helper slots behind it; `one`: a constant slot that holds 1. Returns the operation's slot. */
 static inline uint32_t fixture_function(fixture_tape *x, uint32_t op, uint32_t a, uint32_t b, uint32_t one) {
-  static const uint32_t partner[AMBIT_OP_COUNT] = { [AMBIT_OP_SIN] = AMBIT_OP_COS, [AMBIT_OP_COS] = AMBIT_OP_SIN,
-    [AMBIT_OP_SINH] = AMBIT_OP_COSH, [AMBIT_OP_COSH] = AMBIT_OP_SINH };
+  static const uint32_t partner[AMBIT_OP_COUNT] = { [AMBIT_OP_SIN] = AMBIT_OP_COS,
+    [AMBIT_OP_COS] = AMBIT_OP_SIN,
+    [AMBIT_OP_SINH] = AMBIT_OP_COSH,
+    [AMBIT_OP_COSH] = AMBIT_OP_SINH };
   uint32_t i = x->tape.ninstr, y = fixture_op(x, op, a, b);
   if (partner[op]) {
     x->aux[i] = fixture_op(x, partner[op], a, a);
@@ -183,12 +216,16 @@ static inline void judge_taylor(uint32_t op, plane z, plane *g, uint32_t order) 
     if (n) factorial *= n;
     switch (op) {
     case AMBIT_OP_EXP: g[n] = expl(x) / factorial; break;
-    case AMBIT_OP_SIN: g[n] = (n % 4 == 0 ? sinl(x) : n % 4 == 1 ? cosl(x) : n % 4 == 2 ? -sinl(x) : -cosl(x)) / factorial; break;
-    case AMBIT_OP_COS: g[n] = (n % 4 == 0 ? cosl(x) : n % 4 == 1 ? -sinl(x) : n % 4 == 2 ? -cosl(x) : sinl(x)) / factorial; break;
+    case AMBIT_OP_SIN:
+      g[n] = (n % 4 == 0 ? sinl(x) : n % 4 == 1 ? cosl(x) : n % 4 == 2 ? -sinl(x) : -cosl(x)) / factorial;
+      break;
+    case AMBIT_OP_COS:
+      g[n] = (n % 4 == 0 ? cosl(x) : n % 4 == 1 ? -sinl(x) : n % 4 == 2 ? -cosl(x) : sinl(x)) / factorial;
+      break;
     case AMBIT_OP_SINH: g[n] = (n % 2 ? coshl(x) : sinhl(x)) / factorial; break;
     case AMBIT_OP_COSH: g[n] = (n % 2 ? sinhl(x) : coshl(x)) / factorial; break;
     case AMBIT_OP_SQRT: g[n] = n ? g[n - 1] * (1.5L - n) / n / x : sqrtl(x); break;
-    case AMBIT_OP_DIV: g[n] = n ? -g[n - 1] / x : 1 / x; break; /* the reciprocal */
+    case AMBIT_OP_DIV: g[n] = n ? -g[n - 1] / x : 1 / x; break;                 /* the reciprocal */
     default: g[n] = n ? (n % 2 ? 1 : -1) / (n * cpowl(z, n)) : clogl(z); break; /* LOG, also of the plane */
     }
   }
@@ -208,7 +245,8 @@ static inline judge_series judge_part(judge_plane z, bool imaginary) {
 }
 
 /* function of re + i im */
-static inline judge_series judge_function(uint32_t op, judge_series re, judge_series im, bool imaginary, uint32_t order) {
+static inline judge_series judge_function(
+    uint32_t op, judge_series re, judge_series im, bool imaginary, uint32_t order) {
   plane g[JUDGE_ORDER + 1];
   judge_plane z;
   for (uint32_t k = 0; k <= JUDGE_ORDER; k++) z.c[k] = re.c[k] + im.c[k] * I;
@@ -262,10 +300,11 @@ static inline real judge_value(uint32_t op, real a, real b) {
   }
 }
 
-/* Series and values of every slot; series[nslot] with the inputs' set, value[nslot] likewise. Constants at their lower bounds. */
+/* Series and values of every slot, [nslot] with the inputs' set. Constants are at their lower bounds. */
 static inline void judge_tape_series(const ambit_tape *t, judge_series *series, uint32_t order) {
   for (uint32_t v = 0; v < t->nconst; v++) series[v] = (judge_series) { { t->lo[v] } };
-  for (uint32_t i = 0; i < t->ninstr; i++) series[t->dst[i]] = judge_op(t->op[i], series[t->a[i]], series[t->b[i]], order);
+  for (uint32_t i = 0; i < t->ninstr; i++)
+    series[t->dst[i]] = judge_op(t->op[i], series[t->a[i]], series[t->b[i]], order);
 }
 
 static inline void judge_tape_values(const ambit_tape *t, real *value) {

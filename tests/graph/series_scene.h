@@ -1,14 +1,14 @@
 /* series_scene.h -- random problems for the tests of series and tails.
 **
-** Input i is sum_k X_ik t^k with X_ik = mid_ik + sum_d slope_ikd xi_d, |xi_d| <= radius_d: a box with its centre at xi = 0 and known,
-** constant slopes. The judge knows every slot's series at any xi.
+** Input i is sum_k X_ik t^k with X_ik = mid_ik + sum_d slope_ikd xi_d, |xi_d| <= radius_d: a box with its centre at
+** xi = 0 and known, constant slopes. The judge knows every slot's series at any xi.
 */
 #ifndef AMBIT_TEST_SERIES_SCENE_H
 #define AMBIT_TEST_SERIES_SCENE_H
 #include "graph/series_fixture.h"
 
 #define SCENE_INPUTS 3
-#define SCENE_DIRECTIONS 2
+#define SCENE_DIRECTIONS 5 /* a group of four and a rest */
 
 typedef struct scene {
   fixture_tape *x;
@@ -17,12 +17,12 @@ typedef struct scene {
   double radius[SCENE_DIRECTIONS];
 } scene;
 
-static const uint32_t series_op[] = { AMBIT_OP_ADD, AMBIT_OP_SUB, AMBIT_OP_NEG, AMBIT_OP_MUL, AMBIT_OP_SQR, AMBIT_OP_DIV,
-  AMBIT_OP_SQRT, AMBIT_OP_EXP, AMBIT_OP_LOG, AMBIT_OP_SIN, AMBIT_OP_COS, AMBIT_OP_ATAN, AMBIT_OP_ATAN2, AMBIT_OP_SINH,
-  AMBIT_OP_COSH, AMBIT_OP_ABS, AMBIT_OP_MIN, AMBIT_OP_MAX };
+static const uint32_t series_op[] = { AMBIT_OP_ADD, AMBIT_OP_SUB, AMBIT_OP_NEG, AMBIT_OP_MUL, AMBIT_OP_SQR,
+  AMBIT_OP_DIV, AMBIT_OP_SQRT, AMBIT_OP_EXP, AMBIT_OP_LOG, AMBIT_OP_SIN, AMBIT_OP_COS, AMBIT_OP_ATAN, AMBIT_OP_ATAN2,
+  AMBIT_OP_SINH, AMBIT_OP_COSH, AMBIT_OP_ABS, AMBIT_OP_MIN, AMBIT_OP_MAX };
 #define SERIES_OPS (sizeof series_op / sizeof *series_op)
 
-/* A tape of three inputs u, v (functions of time) and p (a parameter) and operation op of u and v, of u and p, of p and u. */
+/* Inputs u, v (functions of time), p (a parameter); operation op of u and v, of u and p, of p and u, and so on. */
 static inline fixture_tape *scene_single(fixture_host *host, uint32_t op) {
   fixture_tape *x = fixture_tape_open(host);
   uint32_t one = fixture_constant(x, 1, 1);
@@ -36,16 +36,18 @@ static inline fixture_tape *scene_single(fixture_host *host, uint32_t op) {
   return x;
 }
 
-/* A random program over u, v, p that is defined everywhere: arguments of sqrt, log and divisors get a sum of squares. */
+/* A random program over u, v, p that is defined everywhere: sqrt, log and divisors get 1 plus a square. */
 static inline fixture_tape *scene_random(fixture_host *host, uint64_t *state, uint32_t length) {
   static const uint32_t op[] = { AMBIT_OP_ADD, AMBIT_OP_SUB, AMBIT_OP_NEG, AMBIT_OP_MUL, AMBIT_OP_SQR, AMBIT_OP_DIV,
-    AMBIT_OP_SQRT, AMBIT_OP_LOG, AMBIT_OP_SIN, AMBIT_OP_COS, AMBIT_OP_ATAN, AMBIT_OP_SINH, AMBIT_OP_COSH, AMBIT_OP_EXP };
+    AMBIT_OP_SQRT, AMBIT_OP_LOG, AMBIT_OP_SIN, AMBIT_OP_COS, AMBIT_OP_ATAN, AMBIT_OP_SINH, AMBIT_OP_COSH,
+    AMBIT_OP_EXP };
   fixture_tape *x = fixture_tape_open(host);
   uint32_t one = fixture_constant(x, 1, 1), tenth = fixture_constant(x, 0.125, 0.125);
   for (int i = 0; i < SCENE_INPUTS; i++) fixture_input(x, i < 2 ? AMBIT_DEGREE_ANY : 0);
   for (uint32_t n = 0; n < length; n++) {
     uint32_t o = op[oracle_random(state) % (sizeof op / sizeof *op)];
-    uint32_t a = 2 + (uint32_t)(oracle_random(state) % (x->tape.nslot - 2)), b = 2 + (uint32_t)(oracle_random(state) % (x->tape.nslot - 2));
+    uint32_t a = 2 + (uint32_t)(oracle_random(state) % (x->tape.nslot - 2)),
+             b = 2 + (uint32_t)(oracle_random(state) % (x->tape.nslot - 2));
     if (o == AMBIT_OP_SQRT || o == AMBIT_OP_LOG || o == AMBIT_OP_DIV) {
       b = fixture_op(x, AMBIT_OP_ADD, one, fixture_op(x, AMBIT_OP_SQR, b, b));
       if (o != AMBIT_OP_DIV) a = b;
@@ -71,7 +73,7 @@ static inline void scene_fill(scene *s, uint64_t *state, double level, double wi
       s->mid[i][k] = k == 0 ? size * oracle_uniform(state, 0.7, 1.3) : size * oracle_uniform(state, -0.5, 0.5);
       for (int d = 0; d < SCENE_DIRECTIONS; d++) s->slope[i][k][d] = size * oracle_uniform(state, -1, 1);
     }
-  for (int d = 0; d < SCENE_DIRECTIONS; d++) s->radius[d] = width * oracle_uniform(state, 0.2, 1);
+  for (int d = 0; d < SCENE_DIRECTIONS; d++) s->radius[d] = width / 2 * oracle_uniform(state, 0, 1);
 }
 
 static inline void scene_point(const scene *s, uint64_t *state, double *xi) {

@@ -49,8 +49,10 @@ static void check_runs(fixture_host *host, const ambit_arithmetic *full, size_t 
   for (uint32_t i = 0; i < x->tape.ninstr; i++)
     for (size_t l = 0; l < lanes; l++) {
       ambit_interval r, got = ambit_block_get(block, x->dst[i], l);
-      if (x->op[i] == AMBIT_OP_POWN) expected |= ambit_interval_pown(&r, A[l], (int32_t)x->b[i]);
-      else expected |= ambit_interval_op(x->op[i], &r, A[l], B[l]);
+      if (x->op[i] == AMBIT_OP_POWN)
+        expected |= ambit_interval_pown(&r, A[l], (int32_t)x->b[i]);
+      else
+        expected |= ambit_interval_op(x->op[i], &r, A[l], B[l]);
       if (got.lo != r.lo || got.hi != r.hi)
         fail_msg("op %u lane %zu: [%a, %a], expected [%a, %a]", x->op[i], l, got.lo, got.hi, r.lo, r.hi);
     }

@@ -1,22 +1,22 @@
-/* Tails: the true functions, sampled over the step, must lie within the polynomial and the tail; changes of the tail over the
-** box within its slopes. Without the tail the check must fail. */
+/* Tails: the true functions, sampled over the step, must lie within the polynomial and the tail; changes of the tail
+** over the box within its slopes. Without the tail the check must fail. */
 #include "graph/series_scene.h"
 #include <setjmp.h>
 #include <stddef.h>
-#include <time.h>
 #include <cmocka.h>
 
 static const ambit_jet_service *const service = &ambit_jet_service_v1;
 
 /* One step of one scene: tails of the inputs, and what came out for every slot. */
 typedef struct step {
-  double h, weight[SCENE_INPUTS], lean[SCENE_INPUTS][SCENE_DIRECTIONS]; /* T_i = (weight + sum lean xi) wave(s) s^(K+1) */
+  double h;
+  double weight[SCENE_INPUTS], lean[SCENE_INPUTS][SCENE_DIRECTIONS]; /* T_i = (weight + sum lean xi) wave(s) s^(K+1) */
   double tail_in[SCENE_INPUTS], dtail_in[SCENE_INPUTS * SCENE_DIRECTIONS];
   double tail[FIXTURE_MAX], dtail[FIXTURE_MAX * SCENE_DIRECTIONS];
 } step;
 
 typedef struct tally {
-  int points, needed; /* checked with a finite tail; of these beyond the polynomial by far more than rounding */
+  int points, needed;     /* checked with a finite tail; of these beyond the polynomial by far more than rounding */
   real closest, steepest; /* largest part of the tail, of its slopes, that was used */
 } tally;
 
@@ -39,13 +39,15 @@ static void fill_step(const scene *s, step *p, uint64_t *state, double h, double
 static real wave(real s) { return s < 0.7L ? 1 : 1 - fabsl(sinl(40 * (s - 0.7L))); }
 
 /* value of every slot minus its polynomial, at s of the step, for the point xi */
-static void true_tails(const scene *s, const step *p, const double *xi, real at, const judge_series *series, real *tail, real *scale) {
+static void true_tails(
+    const scene *s, const step *p, const double *xi, real at, const judge_series *series, real *tail, real *scale) {
   const ambit_tape *t = &s->x->tape;
   static real value[FIXTURE_MAX];
   real time = at * p->h, top = powl(at, s->K + 1);
   for (uint32_t v = 0; v < t->nslot; v++) {
     tail[v] = scale[v] = 0;
-    for (uint32_t k = s->K + 1; k-- > 0;) tail[v] = tail[v] * time + series[v].c[k], scale[v] = scale[v] * fabsl(time) + fabsl(series[v].c[k]);
+    for (uint32_t k = s->K + 1; k-- > 0;)
+      tail[v] = tail[v] * time + series[v].c[k], scale[v] = scale[v] * fabsl(time) + fabsl(series[v].c[k]);
   }
   for (uint32_t i = 0; i < s->nin; i++) {
     real push = p->weight[i];
@@ -86,13 +88,14 @@ static void check_step(const scene *s, const step *p, uint64_t *state, uint32_t 
       true_tails(s, p, xi, at, here, tail, scale);
       true_tails(s, p, zero, at, middle, tail0, scale0);
       real slack = 0;
-      for (uint32_t v = 0; v < s->x->tape.nslot; v++) slack = fmaxl(slack, 1e-17L * (scale[v] + scale0[v])); /* the judge's */
+      for (uint32_t v = 0; v < s->x->tape.nslot; v++)
+        slack = fmaxl(slack, 1e-17L * (scale[v] + scale0[v])); /* the judge's */
       for (uint32_t v = 0; v < s->x->tape.nslot; v++) {
         real change = 0;
         bool input = v < s->x->tape.nconst + s->nin;
         tally unused = { 0 };
         check_value(op, v, tail[v], p->tail[v] * top, slack, input ? &unused : sum);
-        for (int d = 0; d < SCENE_DIRECTIONS; d++) 
+        for (int d = 0; d < SCENE_DIRECTIONS; d++)
           if (xi[d] != 0) change += p->dtail[v * SCENE_DIRECTIONS + (uint32_t)d] * (real)fabs(xi[d]);
         check_change(op, v, tail[v] - tail0[v], change * top, slack, input ? &unused : sum);
       }
@@ -101,13 +104,16 @@ static void check_step(const scene *s, const step *p, uint64_t *state, uint32_t 
 }
 
 /* Opens, runs and tails a scene for several steps; false if the coefficients prove nothing. */
-static bool check_scene(fixture_host *host, const scene *s, uint64_t *state, uint32_t op, double h, double size, bool centred, tally *sum) {
+static bool check_scene(
+    fixture_host *host, const scene *s, uint64_t *state, uint32_t op, double h, double size, bool centred, tally *sum) {
   ambit_arithmetic full = fixture_arithmetic();
   ambit_jet *centre, *jet;
   step p;
   assert_int_equal(service->open(&host->host, &s->x->tape, &full, NULL, s->K, 0, NULL, &centre), AMBIT_OK);
   if (scene_run(s, centre, false)) return false;
-  assert_int_equal(service->open(&host->host, &s->x->tape, &full, NULL, s->K, SCENE_DIRECTIONS, centred ? centre : NULL, &jet), AMBIT_OK);
+  assert_int_equal(
+      service->open(&host->host, &s->x->tape, &full, NULL, s->K, SCENE_DIRECTIONS, centred ? centre : NULL, &jet),
+      AMBIT_OK);
   if (scene_run(s, jet, true)) return false;
   for (int turn = 0; turn < 2; turn++) { /* twice on the same coefficients: nothing stale */
     fill_step(s, &p, state, turn ? -h / 2 : h, turn ? 0 : size);
@@ -130,16 +136,20 @@ static void every_operation(void **unused) {
     for (int round = 0; round < 500; round++) {
       fixture_host host;
       fixture_host_open(&host);
-      scene s = { .x = scene_single(&host, series_op[o]), .nin = 3, .K = (uint32_t)(oracle_random(&state) % (round % 2 ? 3 : 9)) };
+      scene s = {
+        .x = scene_single(&host, series_op[o]), .nin = 3, .K = (uint32_t)(oracle_random(&state) % (round % 2 ? 3 : 9))
+      };
       scene_fill(&s, &state, level[round % 5], width[oracle_random(&state) % 4]);
       double h = oracle_uniform(&state, 0.05, round % 7 ? 0.8 : 2) * (round % 2 ? 1 : -1);
-      check_scene(&host, &s, &state, series_op[o], h, fabs(level[round % 5]) * size[oracle_random(&state) % 4], round % 3, &sum);
+      check_scene(&host, &s, &state, series_op[o], h, fabs(level[round % 5]) * size[oracle_random(&state) % 4],
+          round % 3, &sum);
       fixture_host_close(&host);
     }
     if (sum.points < 15000) fail_msg("op %u: only %d points had a finite tail", series_op[o], sum.points);
     if (sum.needed < 2500) fail_msg("op %u: without a tail only %d points would have failed", series_op[o], sum.needed);
     if (!(sum.closest > 0.9L)) fail_msg("op %u: tails at least %Lg times too wide", series_op[o], 1 / sum.closest);
-    if (!(sum.steepest > 0.9L)) fail_msg("op %u: slopes of tails at least %Lg times too wide", series_op[o], 1 / sum.steepest);
+    if (!(sum.steepest > 0.9L))
+      fail_msg("op %u: slopes of tails at least %Lg times too wide", series_op[o], 1 / sum.steepest);
   }
 }
 
@@ -152,10 +162,12 @@ static void random_programs(void **unused) {
     fixture_host_open(&host);
     scene s = { .x = scene_random(&host, &state, 10), .nin = 3, .K = 3 + (uint32_t)round % 5 };
     scene_fill(&s, &state, round % 2 ? 0.7 : -0.4, round % 3 ? 0.01 : 0);
-    check_scene(&host, &s, &state, AMBIT_OP_COUNT, oracle_uniform(&state, -0.4, 0.4), round % 4 ? 1e-4 : 0, round % 2, &sum);
+    check_scene(
+        &host, &s, &state, AMBIT_OP_COUNT, oracle_uniform(&state, -0.4, 0.4), round % 4 ? 1e-4 : 0, round % 2, &sum);
     fixture_host_close(&host);
   }
-  if (sum.points < 150000 || sum.needed < 80000) fail_msg("%d points, %d of them prove something", sum.points, sum.needed);
+  if (sum.points < 150000 || sum.needed < 80000)
+    fail_msg("%d points, %d of them prove something", sum.points, sum.needed);
 }
 
 /* -- edges of domains: a tail is finite only if the step provably keeps off the edge */
@@ -165,7 +177,8 @@ static double tail_of(uint32_t op, double start, double speed, double h, double 
   fixture_host_open(&host);
   ambit_arithmetic full = fixture_arithmetic();
   fixture_tape *x = fixture_tape_open(&host);
-  uint32_t one = fixture_constant(x, 1, 1), c = fixture_constant(x, other, other), u = fixture_input(x, AMBIT_DEGREE_ANY);
+  uint32_t one = fixture_constant(x, 1, 1), c = fixture_constant(x, other, other),
+           u = fixture_input(x, AMBIT_DEGREE_ANY);
   uint32_t v = positive_range ? fixture_op(x, AMBIT_OP_ADD, one, fixture_op(x, AMBIT_OP_SQR, u, u)) : u;
   bool divides = op == AMBIT_OP_DIV;
   fixture_output(x, fixture_function(x, op, divides ? one : v, divides ? v : c, one));
@@ -240,7 +253,7 @@ static void refusals(void **unused) {
   fixture_host_close(&host);
 }
 
-/* Picard's inclusion: x' = x^2, x = 1/(1 - t), and the pendulum against its energy; the step's remainder holds the solution. */
+/* Picard's inclusion: x' = x^2, x = 1/(1 - t): the step's remainder holds the solution. */
 static void picard(void **unused) {
   (void)unused;
   fixture_host host;

@@ -40,8 +40,9 @@ double kit_uniform(kit_state *s, double lo, double hi) {
 }
 
 static double any_double(kit_state *s) {
-  static const double nasty[] = { 0.0, -0.0, 1, -1, 0.5, 2, DBL_MIN, -0x1p-1074, 0x1p-1074, DBL_MAX, -DBL_MAX, 0x1p53, 1e300, 1e-300,
-    0x1.921fb54442d18p+0, 0x1.921fb54442d18p+1, 0x1.fffffffffffffp-1, 0x1.0000000000001p0, 709.78, -745.2 };
+  static const double nasty[] = { 0.0, -0.0, 1, -1, 0.5, 2, DBL_MIN, -0x1p-1074, 0x1p-1074, DBL_MAX, -DBL_MAX, 0x1p53,
+    1e300, 1e-300, 0x1.921fb54442d18p+0, 0x1.921fb54442d18p+1, 0x1.fffffffffffffp-1, 0x1.0000000000001p0, 709.78,
+    -745.2 };
   uint64_t r = kit_random(s);
   if (r % 6 == 0) return nasty[(r >> 8) % (sizeof nasty / sizeof *nasty)];
   if (r % 6 == 1) return ldexp(kit_uniform(s, -1, 1), (int)((r >> 8) % 2098) - 1074);
@@ -74,9 +75,7 @@ static double point_of(kit_state *s, kit_set x) {
 
 /* -- a block of three slots: a, b, r */
 
-void *kit_at(const kit_state *s, uint32_t slot, size_t lane) {
-  return s->block + (slot * s->pitch + lane) * s->elem;
-}
+void *kit_at(const kit_state *s, uint32_t slot, size_t lane) { return s->block + (slot * s->pitch + lane) * s->elem; }
 
 void kit_set_element(kit_state *s, uint32_t slot, size_t lane, kit_set x) {
   s->full->set(s->ctx, kit_at(s, slot, lane), 1, &x.lo, &x.hi, -1);
@@ -110,9 +109,11 @@ static void check_elements(kit_state *s) {
     kit_set_element(s, 1, 0, x);
     inside = kit_bounds_of(s, 1, 0);
     if (s->full->leave) s->full->leave(s->ctx);
-    if (!is_whole(outside)) kit_find(s, "bounds", "set [%a, %a] has bounds [%a, %a]", x.lo, x.hi, outside.lo, outside.hi);
+    if (!is_whole(outside))
+      kit_find(s, "bounds", "set [%a, %a] has bounds [%a, %a]", x.lo, x.hi, outside.lo, outside.hi);
     else if (s->rigorous && !(outside.lo <= x.lo && x.hi <= outside.hi))
-      kit_find(s, "bounds", "set [%a, %a] has bounds [%a, %a], which do not contain it", x.lo, x.hi, outside.lo, outside.hi);
+      kit_find(
+          s, "bounds", "set [%a, %a] has bounds [%a, %a], which do not contain it", x.lo, x.hi, outside.lo, outside.hi);
     if (inside.lo > outside.lo && s->rigorous && inside.lo > x.lo)
       kit_find(s, "bounds", "set [%a, %a] between enter and leave loses its lower end: %a", x.lo, x.hi, inside.lo);
   }
@@ -130,19 +131,20 @@ static bool is_near(kit_set r, double lo, double hi) {
   return r.lo <= hi + room && r.hi >= lo - room;
 }
 
-static void judge(kit_state *s, uint32_t op, int32_t n, kit_set a, kit_set b, double x, double y, kit_set r, uint32_t flags) {
+static void judge(
+    kit_state *s, uint32_t op, int32_t n, kit_set a, kit_set b, double x, double y, kit_set r, uint32_t flags) {
   if (!s->rigorous && (a.lo < a.hi || b.lo < b.hi)) return; /* it computes with one number of each */
   double lo = s->kit->oracle(op, x, y, n, false), hi = s->kit->oracle(op, x, y, n, true);
   if (isnan(lo)) {
     if (!(flags & AMBIT_F_PARTIAL))
-      kit_find(s, "partial", "%s over [%a, %a], [%a, %a], n = %d leaves the domain at (%a, %a) without PARTIAL", op_name[op], a.lo, a.hi,
-          b.lo, b.hi, n, x, y);
+      kit_find(s, "partial", "%s over [%a, %a], [%a, %a], n = %d leaves the domain at (%a, %a) without PARTIAL",
+          op_name[op], a.lo, a.hi, b.lo, b.hi, n, x, y);
     return;
   }
   bool ok = s->rigorous ? r.lo <= lo && hi <= r.hi : is_near(r, lo, hi);
   if (!ok)
-    kit_find(s, "inclusion", "%s over [%a, %a], [%a, %a], n = %d is [%a, %a], but at (%a, %a) it is in [%a, %a]", op_name[op], a.lo,
-        a.hi, b.lo, b.hi, n, r.lo, r.hi, x, y, lo, hi);
+    kit_find(s, "inclusion", "%s over [%a, %a], [%a, %a], n = %d is [%a, %a], but at (%a, %a) it is in [%a, %a]",
+        op_name[op], a.lo, a.hi, b.lo, b.hi, n, r.lo, r.hi, x, y, lo, hi);
 }
 
 static void judge_lane(kit_state *s, uint32_t op, uint32_t word, kit_set a, kit_set b, kit_set r, uint32_t flags) {
@@ -150,8 +152,7 @@ static void judge_lane(kit_state *s, uint32_t op, uint32_t word, kit_set a, kit_
   if (is_empty(r) && !(flags & AMBIT_F_EMPTY)) kit_find(s, "flags", "%s is empty without EMPTY", op_name[op]);
   bool unbounded = !is_empty(r) && (r.lo == -INFINITY || r.hi == INFINITY);
   if (unbounded && !(flags & AMBIT_F_UNBOUNDED)) kit_find(s, "flags", "%s is unbounded without UNBOUNDED", op_name[op]);
-  for (int i = 0; i < 4; i++)
-    judge(s, op, exponent_of(op, word), a, b, point_of(s, a), point_of(s, b), r, flags);
+  for (int i = 0; i < 4; i++) judge(s, op, exponent_of(op, word), a, b, point_of(s, a), point_of(s, b), r, flags);
 }
 
 static void check_padding(kit_state *s, uint32_t op, size_t lanes) {
@@ -217,14 +218,16 @@ static kit_set subset_of(kit_state *s, kit_set x) {
 static void check_isotonic(kit_state *s, uint32_t op) {
   for (int round = 0; round < 200; round++) {
     kit_set a = kit_any_set(s), b = kit_any_set(s);
-    uint32_t word = op == AMBIT_OP_POWN ? (uint32_t)((int32_t)(kit_random(s) % 13) - 6) : op_arity[op] == 2 ? KIT_B : KIT_A;
+    uint32_t word = op == AMBIT_OP_POWN ? (uint32_t)((int32_t)(kit_random(s) % 13) - 6)
+                    : op_arity[op] == 2 ? KIT_B
+                                        : KIT_A;
     kit_set_element(s, KIT_A, 0, a), kit_set_element(s, KIT_B, 0, b);
     kit_set_element(s, KIT_A, 1, subset_of(s, a)), kit_set_element(s, KIT_B, 1, subset_of(s, b));
     kit_apply(s, op, KIT_R, KIT_A, word, 2);
     kit_set whole = kit_bounds_of(s, KIT_R, 0), part = kit_bounds_of(s, KIT_R, 1);
     if (!is_empty(part) && !(whole.lo <= part.lo && part.hi <= whole.hi))
-      kit_find(s, "isotonicity", "%s of a part of [%a, %a], [%a, %a] is [%a, %a], outside [%a, %a]", op_name[op], a.lo, a.hi, b.lo, b.hi,
-          part.lo, part.hi, whole.lo, whole.hi);
+      kit_find(s, "isotonicity", "%s of a part of [%a, %a], [%a, %a] is [%a, %a], outside [%a, %a]", op_name[op], a.lo,
+          a.hi, b.lo, b.hi, part.lo, part.hi, whole.lo, whole.hi);
   }
 }
 

@@ -1,7 +1,7 @@
 /* arithmetic_kit.h -- the conformance kit of "ambit.arithmetic/1": any arithmetic plugin can be put through it.
 **
-** It knows no test framework: what it finds goes to a callback, so that tests and `ambit check` can share it. The judge of
-** enclosures is a callback too (MPFR in the tests).
+** It knows no test framework: what it finds goes to a callback, so that tests and `ambit check` can share it. The
+** judge of enclosures is a callback too (MPFR in the tests).
 */
 #ifndef AMBIT_ARITHMETIC_KIT_H
 #define AMBIT_ARITHMETIC_KIT_H
@@ -12,8 +12,8 @@ typedef struct arithmetic_kit {
   const ambit_arithmetic *plugin; /* as exported: what it offers itself */
   const ambit_arithmetic *full;   /* completed by ambit_arithmetic_complete */
   const ambit_host *host;         /* contexts are opened on it */
-  bool isotonic;                  /* also require that a subset has an image within the image (plain interval arithmetics) */
-  uint64_t seed;                  /* not 0 */
+  bool isotonic; /* also require that a subset has an image within the image (plain interval arithmetics) */
+  uint64_t seed; /* not 0 */
   /* op(x, y), or x^n for POWN, rounded to a double downward or upward; NaN outside the domain; x, y finite. [ctx] */
   double (*oracle)(uint32_t op, double x, double y, int32_t n, bool up);
   /* a broken promise: which check, and one sentence with the numbers. At most 5 for each check */

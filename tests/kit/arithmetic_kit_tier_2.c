@@ -16,13 +16,14 @@ static void check_dot(kit_state *s, int backwards) {
   for (uint32_t j = 0; j < TERMS; j++)
     for (size_t l = 0; l < LANES; l++) {
       double x = (double)(kit_random(s) % 200) - 100, y = (double)(kit_random(s) % 200) - 100;
-      a[j][l] = (kit_set) { x, x + (double)(kit_random(s) % 5) }, b[j][l] = (kit_set) { y, y + (double)(kit_random(s) % 5) };
+      a[j][l] = (kit_set) { x, x + (double)(kit_random(s) % 5) },
+      b[j][l] = (kit_set) { y, y + (double)(kit_random(s) % 5) };
       kit_set_element(s, KIT_T + j, l, a[j][l]), kit_set_element(s, KIT_T + TERMS + j, l, b[j][l]);
     }
   ptrdiff_t stride = (ptrdiff_t)s->pitch;
   const void *right = kit_at(s, KIT_T + TERMS + (backwards ? TERMS - 1 : 0), 0);
-  uint32_t flags =
-      s->full->dot(s->ctx, kit_at(s, KIT_R, 0), kit_at(s, KIT_T, 0), stride, right, backwards ? -stride : stride, TERMS, LANES);
+  uint32_t flags = s->full->dot(
+      s->ctx, kit_at(s, KIT_R, 0), kit_at(s, KIT_T, 0), stride, right, backwards ? -stride : stride, TERMS, LANES);
   if (flags) kit_find(s, "dot", "flags %u for bounded operands", flags);
   for (size_t l = 0; l < LANES; l++) {
     kit_set r = kit_bounds_of(s, KIT_R, l);
@@ -40,13 +41,15 @@ static void check_dot(kit_state *s, int backwards) {
 static void check_dot_specials(kit_state *s) {
   const kit_set none = { INFINITY, -INFINITY }, all = { -INFINITY, INFINITY }, zero = { 0, 0 };
   kit_set_element(s, KIT_A, 0, none), kit_set_element(s, KIT_A, 1, zero), kit_set_element(s, KIT_A, 2, all);
-  kit_set_element(s, KIT_B, 0, all), kit_set_element(s, KIT_B, 1, all), kit_set_element(s, KIT_B, 2, (kit_set) { 1, 2 });
+  kit_set_element(s, KIT_B, 0, all), kit_set_element(s, KIT_B, 1, all),
+      kit_set_element(s, KIT_B, 2, (kit_set) { 1, 2 });
   uint32_t flags = s->full->dot(s->ctx, kit_at(s, KIT_R, 0), kit_at(s, KIT_A, 0), 1, kit_at(s, KIT_B, 0), 1, 1, 3);
   kit_set r = kit_bounds_of(s, KIT_R, 0), z = kit_bounds_of(s, KIT_R, 1), w = kit_bounds_of(s, KIT_R, 2);
   if (!(r.lo > r.hi)) kit_find(s, "dot", "an empty factor gives [%a, %a]", r.lo, r.hi);
   if (!(z.lo <= 0 && z.hi >= 0)) kit_find(s, "dot", "zero times the line gives [%a, %a]", z.lo, z.hi);
   if (w.lo != -INFINITY || w.hi != INFINITY) kit_find(s, "dot", "the line times [1, 2] gives [%a, %a]", w.lo, w.hi);
-  if (!(flags & AMBIT_F_EMPTY) || !(flags & AMBIT_F_UNBOUNDED)) kit_find(s, "dot", "flags %u lack EMPTY or UNBOUNDED", flags);
+  if (!(flags & AMBIT_F_EMPTY) || !(flags & AMBIT_F_UNBOUNDED))
+    kit_find(s, "dot", "flags %u lack EMPTY or UNBOUNDED", flags);
   flags = s->full->dot(s->ctx, kit_at(s, KIT_R, 0), kit_at(s, KIT_A, 0), 1, kit_at(s, KIT_B, 0), 1, 0, 3);
   z = kit_bounds_of(s, KIT_R, 2);
   if (z.lo != 0 || z.hi != 0 || flags) kit_find(s, "dot", "an empty sum is [%a, %a], flags %u", z.lo, z.hi, flags);
@@ -56,7 +59,8 @@ static void check_dot_specials(kit_state *s) {
 
 static const ambit_tape *every_rule(tape_builder *t) {
   tape_begin(t);
-  uint32_t one = tape_constant(t, 1, 1), three = tape_constant(t, 3, 3), tenth = tape_constant(t, 0x1.9999999999999p-4, 0.1);
+  uint32_t one = tape_constant(t, 1, 1), three = tape_constant(t, 3, 3),
+           tenth = tape_constant(t, 0x1.9999999999999p-4, 0.1);
   uint32_t x = tape_input(t, AMBIT_DEGREE_ANY), y = tape_input(t, AMBIT_DEGREE_ANY), time = tape_input(t, 1);
   uint32_t parameter = tape_input(t, 0);
   uint32_t sum = tape_op(t, AMBIT_OP_ADD, x, three), low = tape_op(t, AMBIT_OP_SUB, y, three);
@@ -96,7 +100,8 @@ static void check_eval_tape(kit_state *s, const ambit_tape *t) {
     for (uint32_t slot = 0; slot < t->nslot; slot++)
       for (size_t l = 0; l < 2; l++) {
         kit_set r = kit_bounds_of(s, slot, l);
-        if (fused && !meet(r, want[slot][l])) kit_find(s, "eval_tape", "slot %u: [%a, %a] is not the same set", slot, r.lo, r.hi);
+        if (fused && !meet(r, want[slot][l]))
+          kit_find(s, "eval_tape", "slot %u: [%a, %a] is not the same set", slot, r.lo, r.hi);
         want[slot][l] = r;
       }
   }
@@ -134,7 +139,8 @@ static uint32_t run_jet(jet_run r, const curve *c, const ambit_tape *t, int box,
     for (uint32_t i = 0; i < NIN; i++) {
       if (k > t->degree[t->nconst + i]) continue;
       double x = c->at[i][k], rad = 0;
-      for (int d = 0; d < NDIR; d++) x += scale * c->slope[i][k][d] * c->delta[d], rad += fabs(c->slope[i][k][d]) * c->radius;
+      for (int d = 0; d < NDIR; d++)
+        x += scale * c->slope[i][k][d] * c->delta[d], rad += fabs(c->slope[i][k][d]) * c->radius;
       r.jets->put(r.self, i, k, x, box ? rad : 0, box ? c->slope[i][k] : NULL, box ? none : NULL);
     }
     flags |= r.jets->advance(r.self, k);
@@ -148,15 +154,18 @@ static kit_set coefficient(jet_run r, uint32_t slot, uint32_t k, double *dmid, d
   return (kit_set) { nextafter(mid - rad, -INFINITY), nextafter(mid + rad, INFINITY) };
 }
 
-static void compare(kit_state *s, const ambit_tape *t, const curve *c, jet_run centre, jet_run box, jet_run at, jet_run there) {
+static void compare(
+    kit_state *s, const ambit_tape *t, const curve *c, jet_run centre, jet_run box, jet_run at, jet_run there) {
   double dmid[NDIR], drad[NDIR], mag[ORDER + 1], dmag[(ORDER + 1) * NDIR];
   for (uint32_t slot = 0; slot < t->nslot; slot++) {
     box.jets->magnitude(box.self, slot, ORDER + 1, mag, dmag);
     for (uint32_t k = 0; k <= ORDER; k++) {
       kit_set u = coefficient(box, slot, k, dmid, drad), mine = coefficient(centre, slot, k, NULL, NULL);
       kit_set at_centre = coefficient(at, slot, k, NULL, NULL), at_point = coefficient(there, slot, k, NULL, NULL);
-      if (!meet(mine, at_centre)) kit_find(s, "jets", "slot %u order %u at a point: [%a, %a]", slot, k, mine.lo, mine.hi);
-      if (!meet(u, at_centre) || !meet(u, at_point)) kit_find(s, "jets", "slot %u order %u over the box: [%a, %a]", slot, k, u.lo, u.hi);
+      if (!meet(mine, at_centre))
+        kit_find(s, "jets", "slot %u order %u at a point: [%a, %a]", slot, k, mine.lo, mine.hi);
+      if (!meet(u, at_centre) || !meet(u, at_point))
+        kit_find(s, "jets", "slot %u order %u over the box: [%a, %a]", slot, k, u.lo, u.hi);
       kit_set change = { at_point.lo - at_centre.hi, at_point.hi - at_centre.lo }, linear = { 0, 0 };
       double size = fmax(fabs(at_point.lo), fabs(at_centre.lo));
       for (int d = 0; d < NDIR; d++) {
@@ -164,16 +173,18 @@ static void compare(kit_state *s, const ambit_tape *t, const curve *c, jet_run c
         linear.hi += dmid[d] * c->delta[d] + drad[d] * fabs(c->delta[d]);
         size = fmax(size, (fabs(dmid[d]) + drad[d]) * fabs(c->delta[d]));
         if (!(dmag[k * NDIR + (uint32_t)d] >= fabs(dmid[d]) + drad[d] - 0x1p-50 * (fabs(dmid[d]) + drad[d])))
-          kit_find(s, "jets", "magnitude of slope %d of slot %u order %u is %a", d, slot, k, dmag[k * NDIR + (uint32_t)d]);
+          kit_find(
+              s, "jets", "magnitude of slope %d of slot %u order %u is %a", d, slot, k, dmag[k * NDIR + (uint32_t)d]);
       }
       double room = 0x1p-48 * size; /* this comparison is made in plain doubles */
       linear.lo -= room, linear.hi += room;
       if (!meet(change, linear))
-        kit_find(s, "jets", "slot %u order %u: slopes allow [%a, %a], the change is in [%a, %a]", slot, k, linear.lo, linear.hi, change.lo,
-            change.hi);
+        kit_find(s, "jets", "slot %u order %u: slopes allow [%a, %a], the change is in [%a, %a]", slot, k, linear.lo,
+            linear.hi, change.lo, change.hi);
       double mid, rad;
       box.jets->get(box.self, slot, k, &mid, &rad, NULL, NULL);
-      if (!(mag[k] >= (fabs(mid) + rad) * (1 - 0x1p-50))) kit_find(s, "jets", "magnitude of slot %u order %u is %a", slot, k, mag[k]);
+      if (!(mag[k] >= (fabs(mid) + rad) * (1 - 0x1p-50)))
+        kit_find(s, "jets", "magnitude of slot %u order %u is %a", slot, k, mag[k]);
     }
   }
 }
@@ -182,7 +193,8 @@ static void check_jets(kit_state *s, const ambit_tape *t, int slopes) {
   const ambit_host *h = s->kit->host;
   ambit_jet_source source = { s->full, s->ctx };
   jet_run centre = { s->full->jets, NULL }, box = centre, at = { &ambit_jets_general, NULL }, there = at;
-  if (centre.jets->open(h, s->ctx, t, ORDER, 0, NULL, &centre.self) || at.jets->open(h, &source, t, ORDER, 0, NULL, &at.self) ||
+  if (centre.jets->open(h, s->ctx, t, ORDER, 0, NULL, &centre.self) ||
+      at.jets->open(h, &source, t, ORDER, 0, NULL, &at.self) ||
       box.jets->open(h, s->ctx, t, ORDER, NDIR, slopes ? centre.self : NULL, &box.self) ||
       there.jets->open(h, &source, t, ORDER, 0, NULL, &there.self)) {
     kit_find(s, "jets", "open fails");

@@ -29,7 +29,8 @@ static inline const char *arithmetic_load_as(arithmetic_loader *l, const char *n
   if (ambit_arithmetic_complete(l->plugin, &l->full, NULL) != AMBIT_OK) return "incomplete arithmetic";
   if (ambit_lease_open(&l->lease, NULL, NULL) != AMBIT_OK) return "out of memory";
   l->ctx = NULL;
-  if (l->plugin->open && l->plugin->open(&l->lease->host, NULL, 0, &l->ctx) != AMBIT_OK) return l->lease->failure.message;
+  if (l->plugin->open && l->plugin->open(&l->lease->host, NULL, 0, &l->ctx) != AMBIT_OK)
+    return l->lease->failure.message;
   return NULL;
 }
 

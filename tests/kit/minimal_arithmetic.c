@@ -1,4 +1,5 @@
-/* minimal_arithmetic.c -- the smallest arithmetic: what an element is, and how to get in and out. The kernel does the rest. */
+/* minimal_arithmetic.c -- the smallest arithmetic: what an element is, and how to get in and out. The kernel does the
+** rest. */
 #include <ambit/arithmetic.h>
 #include <string.h>
 
@@ -18,6 +19,9 @@ static void bounds(void *ctx, const void *src, size_t n, double *lo, double *hi)
   (void)ctx;
 }
 
-static const ambit_arithmetic arithmetic = { .size = sizeof arithmetic, .rigorous = 1, .elem = elem, .set = set, .bounds = bounds };
+static const ambit_arithmetic arithmetic = {
+  .size = sizeof arithmetic, .rigorous = 1, .elem = elem, .set = set, .bounds = bounds
+};
 static const void *get(const char *id) { return strcmp(id, AMBIT_ARITHMETIC) == 0 ? &arithmetic : NULL; }
-const ambit_plugin ambit_entry = { sizeof ambit_entry, AMBIT_ABI, "arithmetic.minimal", "1.0", "Pairs of bounds.", get };
+const ambit_plugin ambit_entry = { sizeof ambit_entry, AMBIT_ABI, "arithmetic.minimal", "1.0", "Pairs of bounds.",
+  get };

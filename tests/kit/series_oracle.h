@@ -1,7 +1,9 @@
-/* series_oracle.h -- Taylor coefficients of every slot of a SERIES tape in 300-bit arithmetic (MPFR), as the judge of jets.
+/* series_oracle.h -- Taylor coefficients of every slot of a SERIES tape in 300-bit arithmetic (MPFR), as the judge of
+** jets.
 **
-** Written from the textbook recursions [Griewank & Walther, table 13.2], term by term, with none of the shortcuts of the code under
-** test: no degrees, no helper slots, every logarithmic or inverse function from its own differential equation.
+** Written from the textbook recursions [Griewank & Walther, table 13.2], term by term, with none of the shortcuts of
+** the code under test: no degrees, no helper slots, every logarithmic or inverse function from its own differential
+** equation.
 */
 #ifndef AMBIT_SERIES_ORACLE_H
 #define AMBIT_SERIES_ORACLE_H
@@ -19,7 +21,9 @@ typedef struct series_oracle {
   mpfr_t sum, term; /* scratch */
 } series_oracle;
 
-static inline mpfr_t *series_u(series_oracle *s, uint32_t slot, uint32_t k) { return &s->u[(size_t)slot * (s->order + 1) + k]; }
+static inline mpfr_t *series_u(series_oracle *s, uint32_t slot, uint32_t k) {
+  return &s->u[(size_t)slot * (s->order + 1) + k];
+}
 static inline mpfr_t *series_partner(series_oracle *s, uint32_t i, uint32_t k) {
   return &s->partner[(size_t)i * (s->order + 1) + k];
 }
@@ -45,8 +49,8 @@ static inline void series_close(series_oracle *s) {
 }
 
 /* sum := sum + factor * sum_{j=from}^{to} w(j) a_j b_(k-j), w(j) = j if weighted */
-static inline void series_add(series_oracle *s, mpfr_t *a, mpfr_t *b, uint32_t k, uint32_t from, uint32_t to, int weighted,
-    long factor) {
+static inline void series_add(
+    series_oracle *s, mpfr_t *a, mpfr_t *b, uint32_t k, uint32_t from, uint32_t to, int weighted, long factor) {
   for (uint32_t j = from; j <= to && to != UINT32_MAX; j++) {
     mpfr_mul(s->term, a[j], b[k - j], MPFR_RNDN);
     mpfr_mul_si(s->term, s->term, factor * (weighted ? (long)j : 1), MPFR_RNDN);
@@ -60,7 +64,8 @@ static inline void series_divide(series_oracle *s, mpfr_t r, mpfr_t d, uint32_t 
   mpfr_div_ui(r, s->term, scale, MPFR_RNDN);
 }
 
-static inline void series_circular(series_oracle *s, mpfr_t *sine, mpfr_t *cosine, mpfr_t *a, uint32_t k, int hyperbolic) {
+static inline void series_circular(
+    series_oracle *s, mpfr_t *sine, mpfr_t *cosine, mpfr_t *a, uint32_t k, int hyperbolic) {
   if (k == 0) {
     (hyperbolic ? mpfr_sinh : mpfr_sin)(sine[0], a[0], MPFR_RNDN);
     (hyperbolic ? mpfr_cosh : mpfr_cos)(cosine[0], a[0], MPFR_RNDN);
@@ -138,9 +143,12 @@ static inline void series_quotient(series_oracle *s, mpfr_t *r, mpfr_t *a, mpfr_
 
 static inline void series_choice(uint32_t op, mpfr_t *r, mpfr_t *a, mpfr_t *b, uint32_t k) {
   int first = op == AMBIT_OP_ABS ? mpfr_sgn(a[0]) >= 0 : (mpfr_cmp(a[0], b[0]) >= 0) == (op == AMBIT_OP_MAX);
-  if (first) mpfr_set(r[k], a[k], MPFR_RNDN);
-  else if (op == AMBIT_OP_ABS) mpfr_neg(r[k], a[k], MPFR_RNDN);
-  else mpfr_set(r[k], b[k], MPFR_RNDN);
+  if (first)
+    mpfr_set(r[k], a[k], MPFR_RNDN);
+  else if (op == AMBIT_OP_ABS)
+    mpfr_neg(r[k], a[k], MPFR_RNDN);
+  else
+    mpfr_set(r[k], b[k], MPFR_RNDN);
 }
 
 static inline void series_instruction(series_oracle *s, uint32_t i, uint32_t k) {

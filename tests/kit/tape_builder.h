@@ -1,7 +1,7 @@
 /* tape_builder.h -- small tapes written by hand, so that tests of arithmetics need no expression graph.
 **
-** Constants first, then inputs, then instructions; each function returns a slot. Degrees in time follow from the operands.
-** `tape_seal` sets runs (one per instruction), helper slots and outputs (every slot is one).
+** Constants first, then inputs, then instructions; each function returns a slot. Degrees in time follow from the
+** operands. `tape_seal` sets runs (one per instruction), helper slots and outputs (every slot is one).
 */
 #ifndef AMBIT_TAPE_BUILDER_H
 #define AMBIT_TAPE_BUILDER_H
@@ -93,7 +93,8 @@ static inline const ambit_tape *tape_seal(tape_builder *t, uint32_t one) {
   for (uint32_t s = 0; s < p->nslot; s++) t->out[s] = s, t->range_lo[s] = -INFINITY, t->range_hi[s] = INFINITY;
   for (uint32_t i = 0; i < p->ninstr; i++) t->run[i] = (ambit_run) { t->op[i], i, 1, 0 };
   p->nout = p->nslot, p->nrun = p->ninstr;
-  p->op = t->op, p->dst = t->dst, p->a = t->a, p->b = t->b, p->aux = t->aux, p->run = t->run, p->lo = t->lo, p->hi = t->hi;
+  p->op = t->op, p->dst = t->dst, p->a = t->a, p->b = t->b, p->aux = t->aux, p->run = t->run, p->lo = t->lo,
+  p->hi = t->hi;
   p->text = t->text, p->out = t->out, p->degree = t->degree, p->range_lo = t->range_lo, p->range_hi = t->range_hi;
   return p;
 }

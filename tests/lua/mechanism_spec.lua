@@ -51,7 +51,7 @@ describe("a mechanism", function()
     local m = ambit.mechanism "spring"
     local at = m:prismatic { from = m.world, axis = "x", name = "s" }
     m:point_mass { at = at, mass = 2 }
-    m:joint_torque { joint = at, torque = function(s, v) return -8 * s - 2 * v end }
+    m:joint_torque { joint = at, force = function(s, v) return -8 * s - 2 * v end }
     near(value(m:dynamics():rate "s'", { s = 1, ["s'"] = 3 }), -7)
   end)
 
@@ -59,7 +59,7 @@ describe("a mechanism", function()
     local m = ambit.mechanism "spring"
     local at = m:prismatic { from = m.world, axis = "x", name = "s" }
     local _, problem = pcall(function()
-      m:joint_torque { joint = at, torque = function() error "the law broke" end }
+      m:joint_torque { joint = at, force = function() error "the law broke" end }
     end)
     assert.truthy(problem:find "mechanism_spec.lua:%d+: the law broke")
   end)

@@ -27,8 +27,15 @@ static inline void case_fallback(void *user, const char *operation) {
 /* The number of findings; *fallbacks: operations left to the kernel. */
 static inline size_t case_run(const arithmetic_loader *l, bool isotonic, size_t *fallbacks) {
   *fallbacks = 0;
-  arithmetic_kit kit = { .plugin = l->plugin, .full = &l->full, .host = &l->lease->host, .isotonic = isotonic, .seed = 4711,
-    .oracle = case_oracle, .finding = case_finding, .fallback = case_fallback, .user = fallbacks };
+  arithmetic_kit kit = { .plugin = l->plugin,
+    .full = &l->full,
+    .host = &l->lease->host,
+    .isotonic = isotonic,
+    .seed = 4711,
+    .oracle = case_oracle,
+    .finding = case_finding,
+    .fallback = case_fallback,
+    .user = fallbacks };
   return arithmetic_kit_run(&kit);
 }
 

@@ -1,4 +1,5 @@
-/* The interval plugin, with and without vector extensions: conformance, equality with the kernel's functions, IEEE 1788's special sets. */
+/* The interval plugin, with and without vector extensions: conformance, equality with the kernel's functions, IEEE
+** 1788's special sets. */
 #include "arithmetic_case.h"
 #include "num/interval.h"
 
@@ -26,7 +27,8 @@ typedef struct element { /* opaque */
   double half[2];
 } element;
 
-static uint32_t apply(const arithmetic_loader *l, uint32_t op, int32_t n, ambit_interval a, ambit_interval b, ambit_interval *r) {
+static uint32_t apply(
+    const arithmetic_loader *l, uint32_t op, int32_t n, ambit_interval a, ambit_interval b, ambit_interval *r) {
   element block[3];
   const double lo[2] = { a.lo, b.lo }, hi[2] = { a.hi, b.hi };
   const uint32_t dst = 2, x = 0, y = op == AMBIT_OP_POWN ? (uint32_t)n : 1;
@@ -53,7 +55,8 @@ static ambit_interval any_set(uint64_t *state) {
   }
 }
 
-/* The kernel's functions are tested against MPFR for inclusion and tightness (tests/num); these must be the same, flags included. */
+/* The kernel's functions are tested against MPFR for inclusion and tightness (tests/num); these must be the same,
+** flags included. */
 static void equals_the_kernel(void **state) {
   (void)state;
   for (int v = 0; v < 2; v++) {
@@ -67,8 +70,8 @@ static void equals_the_kernel(void **state) {
         uint32_t flags = op == AMBIT_OP_POWN ? ambit_interval_pown(&want, a, n) : ambit_interval_op(op, &want, a, b);
         uint32_t got = apply(&l, op, n, a, b, &r);
         if (r.lo != want.lo || r.hi != want.hi || got != flags)
-          fail_msg("%s: op %u of [%a, %a], [%a, %a], n = %d: [%a, %a] flags %u, the kernel has [%a, %a] flags %u", variant[v], op, a.lo, a.hi,
-              b.lo, b.hi, n, r.lo, r.hi, got, want.lo, want.hi, flags);
+          fail_msg("%s: op %u of [%a, %a], [%a, %a], n = %d: [%a, %a] flags %u, the kernel has [%a, %a] flags %u",
+              variant[v], op, a.lo, a.hi, b.lo, b.hi, n, r.lo, r.hi, got, want.lo, want.hi, flags);
       }
     arithmetic_unload(&l);
   }
@@ -81,7 +84,8 @@ static void expect(uint32_t op, ambit_interval a, ambit_interval b, ambit_interv
     load_variant(&l, v);
     uint32_t flags = apply(&l, op, 0, a, b, &r);
     if (r.lo != want.lo || r.hi != want.hi || flags != want_flags)
-      fail_msg("op %u: [%a, %a] flags %u, expected [%a, %a] flags %u", op, r.lo, r.hi, flags, want.lo, want.hi, want_flags);
+      fail_msg(
+          "op %u: [%a, %a] flags %u, expected [%a, %a] flags %u", op, r.lo, r.hi, flags, want.lo, want.hi, want_flags);
     arithmetic_unload(&l);
   }
 }

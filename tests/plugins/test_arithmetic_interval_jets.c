@@ -1,4 +1,5 @@
-/* The interval plugin's own Taylor series against 300-bit series: values, slopes and derivatives over random tapes, and tightness. */
+/* The interval plugin's own Taylor series against 300-bit series: values, slopes and derivatives over random tapes,
+** and tightness. */
 #include "kit/arithmetic_loader.h"
 #include "kit/series_oracle.h"
 #include "kit/tape_builder.h"
@@ -33,17 +34,20 @@ static int unload(void **state) {
 
 /* A random tape over three states, time and a parameter whose values stay where all functions are defined. */
 static const ambit_tape *random_tape(tape_builder *t, uint64_t *state) {
-  static const uint32_t any[] = { AMBIT_OP_ADD, AMBIT_OP_SUB, AMBIT_OP_NEG, AMBIT_OP_MUL, AMBIT_OP_MUL, AMBIT_OP_SQR, AMBIT_OP_SIN,
-    AMBIT_OP_COS, AMBIT_OP_ATAN };
+  static const uint32_t any[] = { AMBIT_OP_ADD, AMBIT_OP_SUB, AMBIT_OP_NEG, AMBIT_OP_MUL, AMBIT_OP_MUL, AMBIT_OP_SQR,
+    AMBIT_OP_SIN, AMBIT_OP_COS, AMBIT_OP_ATAN };
   tape_begin(t);
-  uint32_t one = tape_constant(t, 1, 1), four = tape_constant(t, 4, 4), third = tape_constant(t, 1.0 / 3, nextafter(1.0 / 3, 1));
+  uint32_t one = tape_constant(t, 1, 1), four = tape_constant(t, 4, 4),
+           third = tape_constant(t, 1.0 / 3, nextafter(1.0 / 3, 1));
   for (int i = 0; i < NIN; i++) tape_input(t, AMBIT_DEGREE_ANY);
   tape_input(t, 1), tape_input(t, 0);
   for (int i = 0; i < 10; i++) {
     uint32_t a = (uint32_t)(oracle_random(state) % t->tape.nslot), b = (uint32_t)(oracle_random(state) % t->tape.nslot);
     uint32_t op = any[oracle_random(state) % (sizeof any / sizeof *any)];
-    if (op == AMBIT_OP_ADD || op == AMBIT_OP_SUB || op == AMBIT_OP_MUL) b = tape_op(t, op, a, b);
-    else b = tape_unary(t, op, a);
+    if (op == AMBIT_OP_ADD || op == AMBIT_OP_SUB || op == AMBIT_OP_MUL)
+      b = tape_op(t, op, a, b);
+    else
+      b = tape_unary(t, op, a);
     uint32_t tame = tape_op(t, AMBIT_OP_MUL, tape_unary(t, AMBIT_OP_SIN, b), third); /* within 1/3 */
     uint32_t positive = tape_op(t, AMBIT_OP_ADD, tame, one);
     switch (oracle_random(state) % 8) {
@@ -52,9 +56,13 @@ static const ambit_tape *random_tape(tape_builder *t, uint64_t *state) {
     case 2: tape_unary(t, AMBIT_OP_LOG, positive); break;
     case 3: tape_op(t, AMBIT_OP_ATAN2, tame, positive); break;
     case 4: tape_unary(t, AMBIT_OP_EXP, tame), tape_unary(t, AMBIT_OP_SINH, tame); break;
-    case 5: tape_unary(t, AMBIT_OP_ABS, tape_unary(t, AMBIT_OP_NEG, positive)), tape_unary(t, AMBIT_OP_COSH, tame); break;
+    case 5:
+      tape_unary(t, AMBIT_OP_ABS, tape_unary(t, AMBIT_OP_NEG, positive)), tape_unary(t, AMBIT_OP_COSH, tame);
+      break;
     case 6: tape_op(t, AMBIT_OP_MIN, positive, four), tape_op(t, AMBIT_OP_MAX, tame, four); break;
-    default: tape_op(t, AMBIT_OP_DIV, tape_op(t, AMBIT_OP_ATAN2, positive, tame), tape_unary(t, AMBIT_OP_NEG, positive)); break;
+    default:
+      tape_op(t, AMBIT_OP_DIV, tape_op(t, AMBIT_OP_ATAN2, positive, tame), tape_unary(t, AMBIT_OP_NEG, positive));
+      break;
     }
     if (t->tape.nslot > TAPE_ROOM / 3) break; /* sealing adds helpers */
   }
@@ -71,7 +79,10 @@ typedef struct family {
 } family;
 
 static void random_family(family *f, const ambit_tape *t, uint64_t *state) {
-  for (uint32_t d = 0; d < f->ndir; d++) f->delta[d] = f->radius * oracle_uniform(state, -1, 1);
+  static const double extreme[] = { -1, 1 };
+  for (uint32_t d = 0; d < f->ndir; d++)
+    f->delta[d] =
+        f->radius * (oracle_random(state) % 4 ? extreme[oracle_random(state) % 2] : oracle_uniform(state, -1, 1));
   for (uint32_t i = 0; i < t->nin; i++)
     for (uint32_t k = 0; k <= f->order; k++) {
       int vanishes = k > t->degree[t->nconst + i];
@@ -89,8 +100,8 @@ static void put(void *jets, const family *f, const ambit_tape *t, uint32_t k, in
   for (uint32_t d = 0; d < f->ndir; d++) spread[d] = f->slope_rad;
   for (uint32_t i = 0; i < t->nin; i++) {
     int vanishes = k > t->degree[t->nconst + i];
-    loader.plugin->jets->put(jets, i, k, f->centre[i][k], box ? f->width[i][k] : 0, box && !vanishes ? f->slope[i][k] : NULL,
-        box && !vanishes ? spread : NULL);
+    loader.plugin->jets->put(jets, i, k, f->centre[i][k], box ? f->width[i][k] : 0,
+        box && !vanishes ? f->slope[i][k] : NULL, box && !vanishes ? spread : NULL);
   }
 }
 
@@ -127,7 +138,8 @@ static void check_value(const void *jets, series_oracle *truth, const ambit_tape
     loader.plugin->jets->get(jets, s, k, &mid, &rad, NULL, NULL);
     if (!inside(*series_u(truth, s, k), mid, rad))
       fail_msg("slot %u (op %u) order %u: %a +- %a misses %a", s,
-          s >= t->nconst + t->nin ? t->op[s - t->nconst - t->nin] : 99, k, mid, rad, mpfr_get_d(*series_u(truth, s, k), MPFR_RNDN));
+          s >= t->nconst + t->nin ? t->op[s - t->nconst - t->nin] : 99, k, mid, rad,
+          mpfr_get_d(*series_u(truth, s, k), MPFR_RNDN));
   }
 }
 
@@ -148,9 +160,11 @@ static void check_slope(const void *jets, const family *f, series_oracle *x, ser
     assert_true(dmag[k * f->ndir + d] >= fabs(dmid[d]) && dmag[k * f->ndir + d] >= drad[d]);
   }
   assert_true(mag[k] >= fabs(mid) && mag[k] >= rad);
-  mpfr_mul_2si(x->term, room, -200, MPFR_RNDN), mpfr_add(room, room, x->term, MPFR_RNDN); /* the oracle's own rounding */
+  mpfr_mul_2si(x->term, room, -200, MPFR_RNDN),
+      mpfr_add(room, room, x->term, MPFR_RNDN); /* the oracle's own rounding */
   if (mpfr_cmpabs(rest, room) > 0)
-    fail_msg("slope of slot %u order %u: off by %g, allowed %g", s, k, mpfr_get_d(rest, MPFR_RNDN), mpfr_get_d(room, MPFR_RNDN));
+    fail_msg("slope of slot %u order %u: off by %g, allowed %g", s, k, mpfr_get_d(rest, MPFR_RNDN),
+        mpfr_get_d(room, MPFR_RNDN));
   mpfr_clear(rest), mpfr_clear(room);
 }
 
@@ -164,7 +178,8 @@ static void twin_open(twin *w, const ambit_tape *t, const family *f, int slopes)
   const ambit_jets *jets = loader.plugin->jets;
   assert_int_equal(ambit_lease_open(&w->lease, NULL, NULL), AMBIT_OK);
   assert_int_equal(jets->open(&w->lease->host, loader.ctx, t, f->order, 0, NULL, &w->centre), AMBIT_OK);
-  assert_int_equal(jets->open(&w->lease->host, loader.ctx, t, f->order, f->ndir, slopes ? w->centre : NULL, &w->box), AMBIT_OK);
+  assert_int_equal(
+      jets->open(&w->lease->host, loader.ctx, t, f->order, f->ndir, slopes ? w->centre : NULL, &w->box), AMBIT_OK);
   series_open(&w->at_centre, t, f->order), series_open(&w->at_point, t, f->order);
 }
 
@@ -263,8 +278,10 @@ static void assert_lost(single *s, uint32_t from, uint32_t order) {
     double mid, rad, dmid, drad, mag[8], dmag[8];
     loader.plugin->jets->get(s->jets, s->slot, k, &mid, &rad, &dmid, &drad);
     loader.plugin->jets->magnitude(s->jets, s->slot, k + 1, mag, dmag);
-    if (k >= from) assert_true(mid == 0 && rad == INFINITY && dmid == 0 && drad == INFINITY);
-    else assert_true(isfinite(mid) && isfinite(rad) && isfinite(dmid) && isfinite(drad));
+    if (k >= from)
+      assert_true(mid == 0 && rad == INFINITY && dmid == 0 && drad == INFINITY);
+    else
+      assert_true(isfinite(mid) && isfinite(rad) && isfinite(dmid) && isfinite(drad));
     assert_true((mag[k] == INFINITY) == (k >= from) && (dmag[k] == INFINITY) == (k >= from));
   }
 }
@@ -278,19 +295,32 @@ static void what_cannot_be_bounded_is_said(void **state) {
     double x, xr, y, yr;
     uint32_t from, flags; /* first order that is lost, flags that must be among those returned */
   } cases[] = {
-    { AMBIT_OP_DIV, 1, 0, 0, 0.5, 0, P | U }, { AMBIT_OP_DIV, 1, 0, 0, 0, 0, P | U }, { AMBIT_OP_SQRT, 0.1, 0.2, 0, 0, 0, P },
-    { AMBIT_OP_SQRT, 0, 0, 0, 0, 0, U }, { AMBIT_OP_LOG, 0, 0, 0, 0, 0, P }, { AMBIT_OP_LOG, 1, 2, 0, 0, 0, P },
-    { AMBIT_OP_ABS, 0.1, 0.2, 0, 0, 0, U }, { AMBIT_OP_ABS, 0, 0, 0, 0, 0, U }, { AMBIT_OP_MIN, 1, 0.5, 1.5, 0.5, 0, U },
-    { AMBIT_OP_ATAN2, 0, 1, -1, 0, 0, U }, { AMBIT_OP_ATAN2, 0, 0, -1, 0, 0, U }, { AMBIT_OP_ATAN2, 0, 0, 0, 0, 0, P },
-    { AMBIT_OP_EXP, 1000, 0, 0, 0, 0, U }, { AMBIT_OP_MUL, 1e200, 0, 1e200, 0, 0, U }, { AMBIT_OP_MUL, 1, INFINITY, 1, 0, 0, U },
-    { AMBIT_OP_MUL, NAN, 0, 1, 0, 0, U }, { AMBIT_OP_MUL, 1, NAN, 1, 0, 0, U }, { AMBIT_OP_MUL, 1, -1, 1, 0, 0, U },
+    { AMBIT_OP_DIV, 1, 0, 0, 0.5, 0, P | U },
+    { AMBIT_OP_DIV, 1, 0, 0, 0, 0, P | U },
+    { AMBIT_OP_SQRT, 0.1, 0.2, 0, 0, 0, P },
+    { AMBIT_OP_SQRT, 0, 0, 0, 0, 0, U },
+    { AMBIT_OP_LOG, 0, 0, 0, 0, 0, P },
+    { AMBIT_OP_LOG, 1, 2, 0, 0, 0, P },
+    { AMBIT_OP_ABS, 0.1, 0.2, 0, 0, 0, U },
+    { AMBIT_OP_ABS, 0, 0, 0, 0, 0, U },
+    { AMBIT_OP_MIN, 1, 0.5, 1.5, 0.5, 0, U },
+    { AMBIT_OP_ATAN2, 0, 1, -1, 0, 0, U },
+    { AMBIT_OP_ATAN2, 0, 0, -1, 0, 0, U },
+    { AMBIT_OP_ATAN2, 0, 0, 0, 0, 0, P },
+    { AMBIT_OP_EXP, 1000, 0, 0, 0, 0, U },
+    { AMBIT_OP_MUL, 1e200, 0, 1e200, 0, 0, U },
+    { AMBIT_OP_MUL, 1, INFINITY, 1, 0, 0, U },
+    { AMBIT_OP_MUL, NAN, 0, 1, 0, 0, U },
+    { AMBIT_OP_MUL, 1, NAN, 1, 0, 0, U },
+    { AMBIT_OP_MUL, 1, -1, 1, 0, 0, U },
   };
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     single s;
     single_open(&s, cases[i].op, 4);
     single_put(&s, 0, cases[i].x, cases[i].xr, cases[i].y, cases[i].yr);
     uint32_t flags = loader.plugin->jets->advance(s.jets, 0);
-    if ((flags & cases[i].flags) != cases[i].flags) fail_msg("case %zu: flags %u lack some of %u", i, flags, cases[i].flags);
+    if ((flags & cases[i].flags) != cases[i].flags)
+      fail_msg("case %zu: flags %u lack some of %u", i, flags, cases[i].flags);
     for (uint32_t k = 1; k <= 4; k++) {
       single_put(&s, k, any, 0, any, 0);
       assert_int_equal(loader.plugin->jets->advance(s.jets, k), flags);
@@ -330,7 +360,8 @@ static void failure_is_forgotten(void **state) {
   for (uint32_t k = 0; k <= 4; k++) single_put(&used, k, DBL_MAX, INFINITY, k ? DBL_MAX : 2, k ? INFINITY : 0);
   for (uint32_t k = 0; k <= 4; k++) assert_true(loader.plugin->jets->advance(used.jets, k) & AMBIT_F_UNBOUNDED);
   for (uint32_t k = 0; k <= 4; k++) {
-    single_put(&used, k, 1.0 / (k + 3), 0x1p-30, 1.0 / (k + 2), 0), single_put(&fresh, k, 1.0 / (k + 3), 0x1p-30, 1.0 / (k + 2), 0);
+    single_put(&used, k, 1.0 / (k + 3), 0x1p-30, 1.0 / (k + 2), 0),
+        single_put(&fresh, k, 1.0 / (k + 3), 0x1p-30, 1.0 / (k + 2), 0);
     assert_int_equal(loader.plugin->jets->advance(used.jets, k), 0);
     assert_int_equal(loader.plugin->jets->advance(fresh.jets, k), 0);
     double a[4], b[4];
@@ -355,7 +386,8 @@ static void a_lost_centre_is_no_centre(void **state) {
   single_close(&s);
 }
 
-/* x' = x^2, x(0) = 1: all coefficients of 1 / (1 - t) are 1, and those of its derivative by x(0), 1 / (1 - t)^2, are k + 1. */
+/* x' = x^2, x(0) = 1: all coefficients of 1 / (1 - t) are 1, and those of its derivative by x(0), 1 / (1 - t)^2, are
+** k + 1. */
 static void solves_a_riccati_equation(void **state) {
   (void)state;
   single s;
@@ -406,11 +438,52 @@ static void refuses_a_shorter_centre(void **state) {
   single_close(&s);
 }
 
+static void put_point(void *jets, uint32_t k, double x, double slope) {
+  const double none = 0;
+  loader.plugin->jets->put(jets, 0, k, x, 0, &slope, &none);
+}
+
+static void assert_holds(const void *jets, uint32_t slot, uint32_t k, long double value, long double slope) {
+  double mid, rad, dmid, drad;
+  loader.plugin->jets->get(jets, slot, k, &mid, &rad, &dmid, &drad);
+  if (!(fabsl(value - mid) <= rad)) fail_msg("%La is not within %a +- %a", value, mid, rad);
+  if (!(fabsl(slope - dmid) <= drad)) fail_msg("slope %La is not within %a +- %a", slope, dmid, drad);
+}
+
+/* The rows k u_k and (u(X) + u(c)) / 2 are rounded themselves. Points for which everything else is exact show it:
+** with u = v t^3, exp(u) has coefficient 3 v; and the square's slope between the points x and c is x + c. */
+static void copies_are_rounded_outward(void **state) {
+  (void)state;
+  uint64_t random = 21;
+  single exponential, square;
+  void *exponential_box, *square_box;
+  single_open(&exponential, AMBIT_OP_EXP, 3), single_open(&square, AMBIT_OP_SQR, 0);
+  const ambit_jets *j = loader.plugin->jets;
+  assert_int_equal(
+      j->open(&exponential.lease->host, loader.ctx, exponential.tape, 3, 1, exponential.jets, &exponential_box), 0);
+  assert_int_equal(j->open(&square.lease->host, loader.ctx, square.tape, 0, 1, square.jets, &square_box), 0);
+  for (int i = 0; i < 3000; i++) {
+    double v = oracle_uniform(&random, 1, 2), w = oracle_uniform(&random, 1, 2), d = oracle_uniform(&random, 1, 2);
+    for (uint32_t k = 0; k <= 3; k++) {
+      put_point(exponential.jets, k, k == 3 ? v : 0, k == 3 ? d : 0);
+      put_point(exponential_box, k, k == 3 ? w : 0, k == 0);
+      j->advance(exponential.jets, k), j->advance(exponential_box, k);
+    }
+    assert_holds(exponential.jets, exponential.slot, 3, v, d);
+    assert_holds(exponential_box, exponential.slot, 3, w, ((long double)v + w) / 2);
+    put_point(square.jets, 0, v, 0), put_point(square_box, 0, w, 1);
+    j->advance(square.jets, 0), j->advance(square_box, 0);
+    assert_holds(square_box, square.slot, 0, (long double)w * w, (long double)v + w);
+  }
+  j->close(exponential_box), j->close(square_box);
+  single_close(&exponential), single_close(&square);
+}
+
 /* thin operands stay thin: a relative radius of a few units in the last place for each order */
 static void points_stay_thin(void **state) {
   (void)state;
-  static const uint32_t op[] = { AMBIT_OP_MUL, AMBIT_OP_SQR, AMBIT_OP_DIV, AMBIT_OP_SQRT, AMBIT_OP_EXP, AMBIT_OP_LOG, AMBIT_OP_SIN,
-    AMBIT_OP_COS, AMBIT_OP_ATAN, AMBIT_OP_ATAN2, AMBIT_OP_SINH, AMBIT_OP_COSH };
+  static const uint32_t op[] = { AMBIT_OP_MUL, AMBIT_OP_SQR, AMBIT_OP_DIV, AMBIT_OP_SQRT, AMBIT_OP_EXP, AMBIT_OP_LOG,
+    AMBIT_OP_SIN, AMBIT_OP_COS, AMBIT_OP_ATAN, AMBIT_OP_ATAN2, AMBIT_OP_SINH, AMBIT_OP_COSH };
   for (size_t i = 0; i < sizeof op / sizeof *op; i++) {
     single s;
     single_open(&s, op[i], 4);
@@ -436,6 +509,7 @@ int main(void) {
     cmocka_unit_test(solves_a_riccati_equation),
     cmocka_unit_test(refuses_other_tapes),
     cmocka_unit_test(refuses_a_shorter_centre),
+    cmocka_unit_test(copies_are_rounded_outward),
     cmocka_unit_test(points_stay_thin),
   };
   int failed = cmocka_run_group_tests_name("interval jets", tests, load, unload);

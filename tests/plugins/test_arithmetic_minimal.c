@@ -1,4 +1,5 @@
-/* The smallest arithmetic plugin passes the kit with every operation left to the kernel; and the kit finds what is broken. */
+/* The smallest arithmetic plugin passes the kit with every operation left to the kernel; and the kit finds what is
+** broken. */
 #include "arithmetic_case.h"
 #include <ambit/rounding.h>
 #include <string.h>
@@ -23,26 +24,26 @@ static void quiet(void *user, const char *check, const char *message) {
 
 static const ambit_arithmetic *sound; /* the completed minimal arithmetic */
 
-static uint32_t inward_add(const ambit_arithmetic *self, void *ctx, void *base, size_t pitch, size_t lanes, size_t count,
-    const uint32_t *dst, const uint32_t *a, const uint32_t *b) {
+static uint32_t inward_add(const ambit_arithmetic *self, void *ctx, void *base, size_t pitch, size_t lanes,
+    size_t count, const uint32_t *dst, const uint32_t *a, const uint32_t *b) {
   uint32_t flags = sound->run[AMBIT_OP_ADD](self, ctx, base, pitch, lanes, count, dst, a, b);
   double *r = (double *)base + 2 * pitch * dst[0];
   if (r[0] < r[1]) r[1] = nextafter(r[1], -INFINITY);
   return flags;
 }
 
-static uint32_t silent_sqrt(const ambit_arithmetic *self, void *ctx, void *base, size_t pitch, size_t lanes, size_t count,
-    const uint32_t *dst, const uint32_t *a, const uint32_t *b) {
+static uint32_t silent_sqrt(const ambit_arithmetic *self, void *ctx, void *base, size_t pitch, size_t lanes,
+    size_t count, const uint32_t *dst, const uint32_t *a, const uint32_t *b) {
   return sound->run[AMBIT_OP_SQRT](self, ctx, base, pitch, lanes, count, dst, a, b) & ~AMBIT_F_PARTIAL;
 }
 
-static uint32_t greedy_neg(const ambit_arithmetic *self, void *ctx, void *base, size_t pitch, size_t lanes, size_t count,
-    const uint32_t *dst, const uint32_t *a, const uint32_t *b) {
+static uint32_t greedy_neg(const ambit_arithmetic *self, void *ctx, void *base, size_t pitch, size_t lanes,
+    size_t count, const uint32_t *dst, const uint32_t *a, const uint32_t *b) {
   return sound->run[AMBIT_OP_NEG](self, ctx, base, pitch, lanes + 1, count, dst, a, b);
 }
 
-static uint32_t hollow_mul(const ambit_arithmetic *self, void *ctx, void *base, size_t pitch, size_t lanes, size_t count,
-    const uint32_t *dst, const uint32_t *a, const uint32_t *b) {
+static uint32_t hollow_mul(const ambit_arithmetic *self, void *ctx, void *base, size_t pitch, size_t lanes,
+    size_t count, const uint32_t *dst, const uint32_t *a, const uint32_t *b) {
   uint32_t flags = sound->run[AMBIT_OP_MUL](self, ctx, base, pitch, lanes, count, dst, a, b);
   double *r = (double *)base + 2 * pitch * dst[0];
   for (size_t l = 0; l < lanes; l++)
@@ -57,8 +58,14 @@ static void forget_mode(void *ctx) {
 
 static const char *first_finding(const arithmetic_loader *l, const ambit_arithmetic *broken, char check[32]) {
   check[0] = '\0';
-  arithmetic_kit kit = { .plugin = broken, .full = broken, .host = &l->lease->host, .isotonic = true, .seed = 1, .oracle = case_oracle,
-    .finding = quiet, .user = check };
+  arithmetic_kit kit = { .plugin = broken,
+    .full = broken,
+    .host = &l->lease->host,
+    .isotonic = true,
+    .seed = 1,
+    .oracle = case_oracle,
+    .finding = quiet,
+    .user = check };
   return arithmetic_kit_run(&kit) ? check : "nothing";
 }
 

@@ -16,8 +16,8 @@ static void middle_of_a_set(void **state) {
   (void)state;
   static const struct {
     double lo, hi, want;
-  } sets[] = { { 1, 2, 1.5 }, { 0.1, 0.1, 0.1 }, { -INFINITY, INFINITY, 0 }, { -INFINITY, 3, -DBL_MAX }, { 3, INFINITY, DBL_MAX },
-    { -DBL_MAX, DBL_MAX, 0 }, { DBL_MAX / 2, DBL_MAX, 0.75 * DBL_MAX } };
+  } sets[] = { { 1, 2, 1.5 }, { 0.1, 0.1, 0.1 }, { -INFINITY, INFINITY, 0 }, { -INFINITY, 3, -DBL_MAX },
+    { 3, INFINITY, DBL_MAX }, { -DBL_MAX, DBL_MAX, 0 }, { DBL_MAX / 2, DBL_MAX, 0.75 * DBL_MAX } };
   arithmetic_loader l;
   case_load(&l, "real");
   for (size_t i = 0; i < sizeof sets / sizeof *sets; i++) {
@@ -43,9 +43,9 @@ static void outside_the_domain_is_empty(void **state) {
   static const struct {
     uint32_t op;
     double a, b;
-  } cases[] = { { AMBIT_OP_DIV, 1, 0 }, { AMBIT_OP_DIV, 0, 0 }, { AMBIT_OP_SQRT, -1, 0 }, { AMBIT_OP_LOG, 0, 0 }, { AMBIT_OP_LOG, -1, 0 },
-    { AMBIT_OP_ASIN, 2, 0 }, { AMBIT_OP_ACOS, -2, 0 }, { AMBIT_OP_ATAN2, 0, 0 }, { AMBIT_OP_ATAN2, -0.0, -0.0 },
-    { AMBIT_OP_POWN, 0, 0 } };
+  } cases[] = { { AMBIT_OP_DIV, 1, 0 }, { AMBIT_OP_DIV, 0, 0 }, { AMBIT_OP_SQRT, -1, 0 }, { AMBIT_OP_LOG, 0, 0 },
+    { AMBIT_OP_LOG, -1, 0 }, { AMBIT_OP_ASIN, 2, 0 }, { AMBIT_OP_ACOS, -2, 0 }, { AMBIT_OP_ATAN2, 0, 0 },
+    { AMBIT_OP_ATAN2, -0.0, -0.0 }, { AMBIT_OP_POWN, 0, 0 } };
   arithmetic_loader l;
   case_load(&l, "real");
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {

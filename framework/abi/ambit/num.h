@@ -1,7 +1,7 @@
 /* num.h -- service "ambit.num/1": the kernel's interval functions, lent to plugins.
 **
-** All functions: [any], in any rounding mode, which they leave as they found it. An interval is a pair of doubles (lo, hi) as in
-** base.h; results are enclosures of the exact image and never NaN. FLAGS are AMBIT_F_* of arithmetic.h.
+** All functions: [any], in any rounding mode, which they leave as they found it. An interval is a pair of doubles
+** (lo, hi) as in base.h; results are enclosures of the exact image and never NaN. FLAGS are AMBIT_F_* of arithmetic.h.
 */
 #ifndef AMBIT_NUM_H
 #define AMBIT_NUM_H
@@ -11,18 +11,21 @@
 
 typedef struct ambit_num_service {
   uint32_t size;
-  /* n intervals, 2 n doubles each: r[i] := op(a[i], b[i]) for every AMBIT_OP_*; b may be NULL when unary; POWN: a[i]^exponent.
-  ** r may be a or b. + - * / sqr sqrt abs min max are the tightest doubles, the rest at most 1 ulp wider on each side. Returns flags. */
+  /* n intervals, 2 n doubles each: r[i] := op(a[i], b[i]) for every AMBIT_OP_*; b may be NULL when unary; POWN:
+  ** a[i]^exponent. r may be a or b. + - * / sqr sqrt abs min max are the tightest doubles, the rest at most 1 ulp
+  ** wider on each side. Returns flags. */
   uint32_t (*map)(uint32_t op, size_t n, double *r, const double *a, const double *b, int32_t exponent);
-  /* [rlo[i], rhi[i]] := op([alo[i], ahi[i]]) for op in EXP .. TANH (ATAN2: b too), bounds in arrays of their own. Parts outside the
-  ** domain are dropped without a flag. r must not be a or b. */
+  /* [rlo[i], rhi[i]] := op([alo[i], ahi[i]]) for op in EXP .. TANH (ATAN2: b too), bounds in arrays of their own.
+  ** Parts outside the domain are dropped without a flag. r must not be a or b. */
   void (*elementary)(uint32_t op, size_t n, const double *alo, const double *ahi, const double *blo, const double *bhi,
       double *rlo, double *rhi);
   /* [*lo, *hi] := a^n. Returns flags. */
   uint32_t (*pown)(double *lo, double *hi, double alo, double ahi, int32_t n);
-  /* The tightest interval that holds what an IEEE 1788 literal says ("0.1", "[1/3, 2]", "3.56?2"). INVALID: `message` (room bytes) tells why. */
+  /* The tightest interval that holds what an IEEE 1788 literal says ("0.1", "[1/3, 2]", "3.56?2"). INVALID: `message`
+  ** (room bytes) tells why. */
   ambit_status (*read)(const char *text, double *lo, double *hi, char *message, size_t room);
-  /* The shortest text that reads back as x, terminated; returns its length. 64 bytes always suffice; 0 if `room` does not. */
+  /* The shortest text that reads back as x, terminated; returns its length. 64 bytes always suffice; 0 if `room` does
+  ** not. */
   size_t (*shortest)(char *out, size_t room, double x);
 } ambit_num_service;
 #endif

@@ -1,9 +1,9 @@
 /* rounding.h -- the floating-point environment of a kernel call.
 **
-** Compilers move floating-point operations across a change of the rounding mode (gcc does so even with -frounding-math).
-** So the rule of this code base: the mode is changed only in a wrapper that contains no floating-point arithmetic
-** and calls a function marked AMBIT_WORKER, which is never inlined. Each wrapper restores what it found.
-** Setting a mode also clears flush-to-zero and denormals-are-zero that a host program may have set.
+** Compilers move floating-point operations across a change of the rounding mode (gcc does so even with
+** -frounding-math). So the rule of this code base: the mode is changed only in a wrapper that contains no
+** floating-point arithmetic and calls a function marked AMBIT_WORKER, which is never inlined. Each wrapper restores
+** what it found. Setting a mode also clears flush-to-zero and denormals-are-zero that a host program may have set.
 */
 #ifndef AMBIT_ABI_ROUNDING_H
 #define AMBIT_ABI_ROUNDING_H
@@ -27,9 +27,13 @@ static inline ambit_rounding ambit_rounding_set(unsigned control) {
   __asm__ volatile("ldmxcsr %0" : : "m"(control) : "memory");
   return old;
 }
-static inline ambit_rounding ambit_round_nearest(void) { return ambit_rounding_set(0x1f80); } /* all exceptions masked */
+static inline ambit_rounding ambit_round_nearest(void) {
+  return ambit_rounding_set(0x1f80);
+} /* all exceptions masked */
 static inline ambit_rounding ambit_round_up(void) { return ambit_rounding_set(0x5f80); }
-static inline void ambit_rounding_restore(ambit_rounding old) { __asm__ volatile("ldmxcsr %0" : : "m"(old) : "memory"); }
+static inline void ambit_rounding_restore(ambit_rounding old) {
+  __asm__ volatile("ldmxcsr %0" : : "m"(old) : "memory");
+}
 #else
 #include <fenv.h>
 static inline ambit_rounding ambit_rounding_set(int mode) {

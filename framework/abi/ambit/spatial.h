@@ -229,12 +229,38 @@ static inline ambit_expr ambit_joint_coordinate(ambit_build *b, uint32_t given, 
   return e;
 }
 
-/* What AMBIT_EXPORT ambit_entry of an element needs. */
+/* -- masses */
+
+/* A fixed mass that is not certainly negative. */
+static inline ambit_status ambit_check_mass(ambit_build *b, ambit_expr mass) {
+  double lo, hi;
+  b->range(b, mass, &lo, &hi);
+  if (hi < 0) return b->fail(b, AMBIT_INVALID, "the mass is negative: %g kg", hi);
+  return ambit_check_fixed(b, &mass, 1, "mass");
+}
+
+/* Potential energy -m g.r of a mass whose centre is at c of the frame at an IN port; 0 where there is no field, without a pose. */
+static inline ambit_status ambit_potential_energy(ambit_build *b, uint32_t port, ambit_expr mass, ambit_vector3 c, ambit_expr *e) {
+  const ambit_expr *field = b->get(b, AMBIT_NO_PORT, AMBIT_FIELD);
+  *e = 0;
+  if (!field) return AMBIT_INVALID;
+  if (field[0] == 0 && field[1] == 0 && field[2] == 0) return AMBIT_OK;
+  const ambit_expr *at = b->get(b, port, AMBIT_POSE);
+  if (!at) return AMBIT_INVALID;
+  ambit_pose pose = ambit_pose_read(at);
+  ambit_vector3 r = ambit_vector3_add(b, pose.position, ambit_rotation_turn(b, pose.rotation, c));
+  *e = ambit_negate(b, ambit_multiply(b, mass, ambit_vector3_dot(b, ambit_vector3_read(field), r)));
+  return AMBIT_OK;
+}
+
+/* -- the plugin itself */
+
 static inline int32_t ambit_same_text(const char *a, const char *b) {
   while (*a && *a == *b) a++, b++;
   return *a == *b;
 }
 
+/* ambit_entry of a plugin that is one element. */
 #define AMBIT_ELEMENT_ENTRY(name, version, doc, table)                                                                 \
   static const void *get_interface(const char *id) { return ambit_same_text(id, AMBIT_ELEMENT) ? &(table) : NULL; }    \
   const ambit_plugin ambit_entry = { sizeof(ambit_plugin), AMBIT_ABI, "element." name, version, doc, get_interface };

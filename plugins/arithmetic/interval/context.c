@@ -53,6 +53,8 @@ static const void *get(const char *interface_id) {
 }
 
 const ambit_plugin ambit_entry = { sizeof ambit_entry, AMBIT_ABI, "arithmetic.interval", "1.0",
-  "Closed intervals of doubles, rounded outward: every result contains the exact image (IEEE 1788 set-based flavour). Remembers no "
-  "dependence between quantities. Offers fast Taylor series, so it is the arithmetic of choice for the `lohner` solver.",
+  "Closed intervals of doubles, rounded outward: every result contains the exact image (IEEE 1788 set-based flavour). "
+  "Remembers no "
+  "dependence between quantities. Offers fast Taylor series, so it is the arithmetic of choice for the `lohner` "
+  "solver.",
   get };

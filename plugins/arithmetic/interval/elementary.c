@@ -1,7 +1,8 @@
 /* elementary.c -- runs that the kernel's interval functions compute: elementary functions and integer powers.
 **
-** Operands are gathered over instructions and lanes into chunks, so that the kernel's vector code sees long arrays even when there is one
-** lane. The service sets and restores its own rounding mode; here only signs are changed, which is exact.
+** Operands are gathered over instructions and lanes into chunks, so that the kernel's vector code sees long arrays
+** even when there is one lane. The service sets and restores its own rounding mode; here only signs are changed,
+** which is exact.
 */
 #include "interval.h"
 #include <math.h>
@@ -58,11 +59,12 @@ static uint32_t served(void *ctx, uint32_t op, int32_t exponent, cursor at, size
   }
 INTERVAL_SERVED(DEFINE)
 
-uint32_t interval_run_POWN(const ambit_arithmetic *self, void *ctx, void *base, size_t pitch, size_t lanes, size_t count,
-    const uint32_t *dst, const uint32_t *a, const uint32_t *b) {
+uint32_t interval_run_POWN(const ambit_arithmetic *self, void *ctx, void *base, size_t pitch, size_t lanes,
+    size_t count, const uint32_t *dst, const uint32_t *a, const uint32_t *b) {
   (void)self;
   cursor start = { base, pitch, lanes, 0, 0 };
   uint32_t flags = 0;
-  for (size_t i = 0; i < count; i++) flags |= served(ctx, AMBIT_OP_POWN, (int32_t)b[i], start, lanes, dst + i, a + i, NULL);
+  for (size_t i = 0; i < count; i++)
+    flags |= served(ctx, AMBIT_OP_POWN, (int32_t)b[i], start, lanes, dst + i, a + i, NULL);
   return flags;
 }

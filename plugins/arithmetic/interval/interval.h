@@ -1,7 +1,8 @@
 /* interval.h -- what the files of the interval plugin share.
 **
-** An element is 16 bytes, (-lo, hi): in upward mode both are then computed by the same instruction, and negation is a swap. The
-** empty set is (-inf, -inf), and -inf occurs in no other element, so "x == -inf" finds the empty operands half by half.
+** An element is 16 bytes, (-lo, hi): in upward mode both are then computed by the same instruction, and negation is a
+** swap. The empty set is (-inf, -inf), and -inf occurs in no other element, so "x == -inf" finds the empty operands
+** half by half.
 */
 #ifndef INTERVAL_H
 #define INTERVAL_H

@@ -1,10 +1,11 @@
 /* jets.h -- Taylor series of a tape: layout and program.
 **
-** A coefficient is midpoint +- radius. Each slot has its coefficients contiguous by order, and, if it is ever the right factor of a
-** product, a second copy in reversed order: then coefficient k of a product, sum_j a_j b_(k-j), is one dot product of contiguous arrays.
-** All arrays hold finite numbers at all times and zeros behind the last order, so that a dot product may run over the end of its
-** operands to a multiple of the vector width. A coefficient that is not bounded is stored as DBL_MAX and remembered as `failed`.
-** Slopes: for each block of `width` directions, an array by order of `width` midpoints, and one of radii.
+** A coefficient is midpoint +- radius. Each slot has its coefficients contiguous by order, and, if it is ever the
+** right factor of a product, a second copy in reversed order: then coefficient k of a product, sum_j a_j b_(k-j), is
+** one dot product of contiguous arrays. All arrays hold finite numbers at all times and zeros behind the last order,
+** so that a dot product may run over the end of its operands to a multiple of the vector width. A coefficient that is
+** not bounded is stored as DBL_MAX and remembered as `failed`. Slopes: for each block of `width` directions, an array
+** by order of `width` midpoints, and one of radii.
 */
 #ifndef JETS_H
 #define JETS_H
@@ -40,7 +41,7 @@ struct jets {
   const ambit_num_service *num;
   uint32_t order, ndir, width, blocks;
   uint32_t nslot, nsource, nin; /* sources are the constants and inputs, nin of them inputs */
-  uint32_t nstep, nmoving; /* steps whose degree is at least 1 come first in `moving` */
+  uint32_t nstep, nmoving;      /* steps whose degree is at least 1 come first in `moving` */
   slot *slot;
   step *step;
   const step **moving;
@@ -65,8 +66,9 @@ bounds jets_bounds(row u); /* of coefficient 0 */
 bounds jets_intersect(bounds a, bounds b);
 /* order 0 of the functions of a step; any but ADD, SUB, NEG */
 uint32_t jets_start(const jets *j, const step *s, bounds *r, bounds *other);
-/* Intervals that contain the slope of r by its operand and of other by its operand; ATAN2: of r by its first and by its second operand.
-** For LOG, ATAN, ATAN2, EXP, SIN, SINH; ABS, MIN, MAX: only whether the choice holds for the box and the centre. */
+/* Intervals that contain the slope of r by its operand and of other by its operand; ATAN2: of r by its first and by
+** its second operand. For LOG, ATAN, ATAN2, EXP, SIN, SINH; ABS, MIN, MAX: only whether the choice holds for the box
+** and the centre. */
 uint32_t jets_start_slope(const jets *j, const step *s, bounds *first, bounds *second);
 /* ABS, MIN, MAX: 1 if the result is a, -1 if it is b (ABS: -a), 0 if undecided at order 0 */
 int jets_choice(const step *s);

@@ -1,4 +1,5 @@
-/* jets_access.c -- coefficients in and out. From the first order that could not be bounded on, every coefficient reads 0 +- inf. */
+/* jets_access.c -- coefficients in and out. From the first order that could not be bounded on, every coefficient
+** reads 0 +- inf. */
 #include "jets.h"
 #include <float.h>
 #include <math.h>

@@ -35,8 +35,10 @@ static int is_known(uint32_t op) {
 static int needs_aux(uint32_t op) { return is_pair(op) || op == AMBIT_OP_ATAN || op == AMBIT_OP_ATAN2; }
 
 static int is_partner(const ambit_tape *t, uint32_t i) {
-  static const uint8_t partner[AMBIT_OP_COUNT] = { [AMBIT_OP_SIN] = AMBIT_OP_COS, [AMBIT_OP_COS] = AMBIT_OP_SIN,
-    [AMBIT_OP_SINH] = AMBIT_OP_COSH, [AMBIT_OP_COSH] = AMBIT_OP_SINH };
+  static const uint8_t partner[AMBIT_OP_COUNT] = { [AMBIT_OP_SIN] = AMBIT_OP_COS,
+    [AMBIT_OP_COS] = AMBIT_OP_SIN,
+    [AMBIT_OP_SINH] = AMBIT_OP_COSH,
+    [AMBIT_OP_COSH] = AMBIT_OP_SINH };
   uint32_t source = t->nconst + t->nin, aux = t->aux[i];
   return aux >= source && t->op[aux - source] == partner[t->op[i]] && t->a[aux - source] == t->a[i];
 }
@@ -114,7 +116,8 @@ static void trace(const ambit_tape *t, slot *s) {
   for (uint32_t i = 0; i < t->ninstr; i++) s[t->dst[i]].varies = s[t->a[i]].varies | s[t->b[i]].varies;
 }
 
-static void add_step(jets *j, const ambit_tape *t, uint32_t op, uint32_t r, uint32_t other, uint32_t a, uint32_t b, uint32_t aux) {
+static void add_step(
+    jets *j, const ambit_tape *t, uint32_t op, uint32_t r, uint32_t other, uint32_t a, uint32_t b, uint32_t aux) {
   slot *s = j->slot;
   const slot *helper = aux < t->nslot ? &s[aux] : NULL;
   step *at = &j->step[j->nstep++];
@@ -122,19 +125,24 @@ static void add_step(jets *j, const ambit_tape *t, uint32_t op, uint32_t r, uint
   if (at->degree) j->moving[j->nmoving++] = at;
 }
 
-/* A sine and the cosine that names it as its helper are one step, written at the first of the two. A tape may hold the same sine twice: the
-** one that its cosine does not name is a copy of the one it does. */
+/* A sine and the cosine that names it as its helper are one step, written at the first of the two. A tape may hold
+** the same sine twice: the one that its cosine does not name is a copy of the one it does. */
 static void write_pair(jets *j, const ambit_tape *t, uint32_t i) {
   uint32_t r = t->dst[i], partner = t->aux[i], twin = t->aux[partner - j->nsource];
   if (partner < r && twin == r) return;
-  if (partner < r) add_step(j, t, STEP_COPY, r, r, twin, twin, AMBIT_NO_SLOT);
-  else if (is_cosine(t->op[i])) add_step(j, t, t->op[partner - j->nsource], partner, r, t->a[i], t->a[i], AMBIT_NO_SLOT);
-  else add_step(j, t, t->op[i], r, partner, t->a[i], t->a[i], AMBIT_NO_SLOT);
+  if (partner < r)
+    add_step(j, t, STEP_COPY, r, r, twin, twin, AMBIT_NO_SLOT);
+  else if (is_cosine(t->op[i]))
+    add_step(j, t, t->op[partner - j->nsource], partner, r, t->a[i], t->a[i], AMBIT_NO_SLOT);
+  else
+    add_step(j, t, t->op[i], r, partner, t->a[i], t->a[i], AMBIT_NO_SLOT);
 }
 
 static void write_step(jets *j, const ambit_tape *t, uint32_t i) {
-  if (is_pair(t->op[i])) write_pair(j, t, i);
-  else add_step(j, t, t->op[i], t->dst[i], t->dst[i], t->a[i], t->b[i], t->aux[i]);
+  if (is_pair(t->op[i]))
+    write_pair(j, t, i);
+  else
+    add_step(j, t, t->op[i], t->dst[i], t->dst[i], t->a[i], t->b[i], t->aux[i]);
 }
 
 /* upward mode */
@@ -169,8 +177,16 @@ ambit_status jets_open(const ambit_host *h, void *ctx, const ambit_tape *t, uint
   ambit_status status = check(h, t);
   if (status) return status;
   uint32_t blocks = (ndir + width - 1) / width;
-  jets shape = { .num = ((interval_context *)ctx)->num, .order = order, .ndir = ndir, .width = width, .blocks = blocks,
-    .nslot = t->nslot, .nsource = t->nconst + t->nin, .nin = t->nin, .centre = centre, .failed = order + 1 };
+  jets shape = { .num = ((interval_context *)ctx)->num,
+    .order = order,
+    .ndir = ndir,
+    .width = width,
+    .blocks = blocks,
+    .nslot = t->nslot,
+    .nsource = t->nconst + t->nin,
+    .nin = t->nin,
+    .centre = centre,
+    .failed = order + 1 };
   if (shape.centre && (shape.centre->nslot != t->nslot || shape.centre->order < order))
     return h->fail(h, AMBIT_INVALID, "interval: the centre's series are of another tape or a lower order");
   uint8_t *need = h->alloc(h, t->nslot);

@@ -1,11 +1,12 @@
-/* jets_slopes.h -- one order of the slopes of every slot, in upward mode; included once per instruction set after jets_values.h.
+/* jets_slopes.h -- one order of the slopes of every slot, in upward mode; included once per instruction set after
+** jets_values.h.
 **
-** d u = u(x) - u(c) is linear in the slopes. For a bilinear form, a b over x minus a b over c is exactly A db + B da with the means
-** A = (a(x) + a(c)) / 2, B likewise. So every recursion whose equation is bilinear (w r' = u' for a logarithm, r' = c u' for a sine)
-** holds for slopes with means in place of values: c = a / b gives B dc = da - C db; r^2 = u gives 2 R dr = du; and so on
-** [Krawczyk & Neumaier, SIAM J. Numer. Anal. 22 (1985), for slopes; the means make the rule symmetric and halve the radius]. Without
-** a centre both are the same point: the means are the values, the slopes derivatives.
-** Directions are the elements of vectors; values are scalars, spread over all elements.
+** d u = u(x) - u(c) is linear in the slopes. For a bilinear form, a b over x minus a b over c is exactly A db + B da
+** with the means A = (a(x) + a(c)) / 2, B likewise. So every recursion whose equation is bilinear (w r' = u' for a
+** logarithm, r' = c u' for a sine) holds for slopes with means in place of values: c = a / b gives B dc = da - C db;
+** r^2 = u gives 2 R dr = du; and so on [Krawczyk & Neumaier, SIAM J. Numer. Anal. 22 (1985), for slopes; the means
+** make the rule symmetric and halve the radius]. Without a centre both are the same point: the means are the values,
+** the slopes derivatives. Directions are the elements of vectors; values are scalars, spread over all elements.
 */
 typedef struct lanes { /* sets [-(l + r), h + r], a direction in each element */
   vector h, l, r;
@@ -75,14 +76,14 @@ static inline lanes lanes_divide(lanes t, row b, double scale) {
     vector keep_h = h;
     h = l, l = keep_h;
   }
-  h = h / choose((mask)(h > splat(0)), near, far);
-  l = l / choose((mask)(l > splat(0)), near, far);
+  h = h / choose(above(h, splat(0)), near, far);
+  l = l / choose(above(l, splat(0)), near, far);
   return (lanes) { h, l, splat(0) };
 }
 
 static inline void settle_lanes(jets *j, const slot *s, spot at, lanes t) {
   vector mid = splat(0.5) * (t.h - t.l), rad = t.r + larger(t.h - mid, mid + t.l);
-  mask good = (mask)(rad < splat(DBL_MAX)) & (mask)(magnitude(mid) <= splat(DBL_MAX)); /* false for NaN */
+  mask good = above(splat(DBL_MAX), rad); /* see settle */
   if (any(~good)) {
     mid = keep(good, mid), rad = choose(good, rad, splat(DBL_MAX));
     j->flags |= AMBIT_F_UNBOUNDED;
@@ -209,10 +210,14 @@ static inline void slope(jets *j, const step *s, uint32_t k) {
   for (uint32_t block = 0; block < j->blocks; block++) {
     spot at = { j->order, block, k };
     lanes t;
-    if (plain_slope(s, at, &t)) settle_lanes(j, s->r, at, t);
-    else if (k == 0) first_slope(j, s, at, by_a, by_b);
-    else if (s->other != s->r) pair_slope(j, s, at);
-    else settle_lanes(j, s->r, at, later_slope(s, at));
+    if (plain_slope(s, at, &t))
+      settle_lanes(j, s->r, at, t);
+    else if (k == 0)
+      first_slope(j, s, at, by_a, by_b);
+    else if (s->other != s->r)
+      pair_slope(j, s, at);
+    else
+      settle_lanes(j, s->r, at, later_slope(s, at));
   }
 }
 
@@ -242,8 +247,10 @@ static inline void advance_step(jets *j, const step *s, uint32_t k) {
 static AMBIT_WORKER void advance_order(jets *j, uint32_t k) {
   if (j->ndir && j->centre && k >= j->centre->failed) j->flags |= AMBIT_F_UNBOUNDED;
   for (uint32_t i = 0; i < j->nsource; i++)
-    if (k <= j->slot[i].degree) source(j, i, k);
-    else if (j->slot[i].u.rad[k] != 0) j->flags |= AMBIT_F_UNBOUNDED; /* put() was given what the tape excludes */
+    if (k <= j->slot[i].degree)
+      source(j, i, k);
+    else if (j->slot[i].u.rad[k] != 0)
+      j->flags |= AMBIT_F_UNBOUNDED; /* put() was given what the tape excludes */
   if (k == 0)
     for (uint32_t i = 0; i < j->nstep; i++) advance_step(j, &j->step[i], 0);
   else

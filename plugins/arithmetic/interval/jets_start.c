@@ -1,9 +1,10 @@
 /* jets_start.c -- order 0 of a nonlinear step, and the slope of a function of one set; all in upward mode.
 **
-** Slope of f over U about u0: f(u) - f(u0) = s (u - u0) with s in f'(hull of U and u0) (mean value theorem), and, by Taylor's theorem,
-** s in f'(u0) + f''(hull)/2 (U - u0); where f'' costs nothing, both are intersected.
-** A step that depends on a choice (ABS, MIN, MAX) is a power series only as long as the choice stays the same: it must be clear at order 0, with
-** room to spare if the operands move. The same holds for the cut of the angle along the negative x axis.
+** Slope of f over U about u0: f(u) - f(u0) = s (u - u0) with s in f'(hull of U and u0) (mean value theorem), and, by
+** Taylor's theorem, s in f'(u0) + f''(hull)/2 (U - u0); where f'' costs nothing, both are intersected.
+** A step that depends on a choice (ABS, MIN, MAX) is a power series only as long as the choice stays the same: it
+** must be clear at order 0, with room to spare if the operands move. The same holds for the cut of the angle along
+** the negative x axis.
 */
 #include "jets.h"
 #include <math.h>
@@ -70,7 +71,7 @@ static uint32_t divided(bounds a, bounds b, bounds *r) {
 static int touches_cut(bounds y, bounds x) { return y.lo <= 0 && y.hi >= 0 && x.lo <= 0; }
 
 static int decide(const step *s, bounds a, bounds b) {
-  if (s->op == AMBIT_OP_ABS) b = negated(a);           /* |a| is the larger of a and -a */
+  if (s->op == AMBIT_OP_ABS) b = negated(a);                 /* |a| is the larger of a and -a */
   if (s->op == AMBIT_OP_MIN) a = negated(a), b = negated(b); /* now everything is a maximum */
   int still = s->degree == 0;
   if (a.lo > b.hi || (still && a.lo == b.hi)) return 1;

@@ -1,13 +1,15 @@
 /* jets_values.h -- one order of the values of every slot, in upward mode; included once per instruction set.
 **
-** The dot product of two rows in midpoint-radius form [Rump, BIT 39 (1999), 534-554, here two-sided]: with all sums rounded up,
+** The dot product of two rows in midpoint-radius form [Rump, BIT 39 (1999), 534-554, here two-sided]: with all sums
+** rounded up,
 **   H >= sum a b,   L >= sum (-a) b,   R >= sum |a| rb + ra (|b| + rb),
-** so that the set of all sums of products lies in [-(L + R), H + R]. It does not matter in which order terms are added, nor whether a
-** product is rounded before it is added (portable) or not (fused): each step yields a number that is not below the exact one. A product
-** that underflows is rounded up as well: at worst to the least subnormal or to 0 from below.
+** so that the set of all sums of products lies in [-(L + R), H + R]. It does not matter in which order terms are
+** added, nor whether a product is rounded before it is added (portable) or not (fused): each step yields a number
+** that is not below the exact one. A product that underflows is rounded up as well: at worst to the least subnormal
+** or to 0 from below.
 **
-** The recursions are those of Moore 1966 [Griewank & Walther, Evaluating Derivatives, 2nd ed., table 13.2] with t d/dt, whose
-** coefficient k is k u_k.
+** The recursions are those of Moore 1966 [Griewank & Walther, Evaluating Derivatives, 2nd ed., table 13.2] with t
+** d/dt, whose coefficient k is k u_k.
 */
 #include "jets.h"
 #include "vector.h"
@@ -29,7 +31,8 @@ static inline triple times_order(row a, uint32_t k) {
   return (triple) { order * a.mid[k], order * -a.mid[k], order * a.rad[k] };
 }
 
-/* n is rounded up to a multiple of the width: behind one of the rows there are zeros, behind the other finite numbers */
+/* n is rounded up to a multiple of the width: behind one of the rows there are zeros, behind the other finite numbers
+** */
 static inline triple dot_rows(const double *am, const double *ar, const double *bm, const double *br, size_t n) {
   vector h = splat(0), l = h, r = h, q = h;
   for (size_t i = 0; i < n; i += WIDTH) {
@@ -78,10 +81,12 @@ static inline void spread(const slot *s, uint32_t order, uint32_t k) {
   s->moving.rad[k] = (double)k * rad + (up + down);
 }
 
+/* An infinite or undefined midpoint has a radius that is infinite or undefined: h - mid and mid + l cannot both be
+** bounded then. */
 static inline void settle(jets *j, const slot *s, uint32_t k, triple t) {
   double mid = 0.5 * (t.h - t.l), above = t.h - mid, below = mid + t.l;
   double rad = t.r + (above > below ? above : below);
-  if (!(rad < DBL_MAX && fabs(mid) <= DBL_MAX)) { /* also when NaN */
+  if (!(rad < DBL_MAX)) {
     mid = 0, rad = DBL_MAX;
     j->flags |= AMBIT_F_UNBOUNDED;
   }
@@ -122,8 +127,8 @@ static inline triple logarithmic_value(const jets *j, const step *s, const slot 
 /* w r' = b a' - a b' with w = a^2 + b^2 */
 static inline triple angle_value(const jets *j, const step *s, uint32_t k) {
   clear(s->r->moving, k);
-  triple turn = minus(convolve(s->a->moving, s->a->degree, s->b, j->order, k),
-      convolve(s->b->moving, s->b->degree, s->a, j->order, k));
+  triple turn = minus(
+      convolve(s->a->moving, s->a->degree, s->b, j->order, k), convolve(s->b->moving, s->b->degree, s->a, j->order, k));
   triple known = convolve(s->r->moving, s->degree, s->aux, j->order, k);
   return divide_by(minus(turn, known), s->aux->u, k);
 }
@@ -176,7 +181,10 @@ static inline void value(jets *j, const step *s, uint32_t k) {
   case STEP_COPY: settle(j, s->r, k, coefficient(s->a->u, k)); return;
   default: break;
   }
-  if (k == 0) first_value(j, s);
-  else if (s->other != s->r) pair_value(j, s, k);
-  else settle(j, s->r, k, later_value(j, s, k));
+  if (k == 0)
+    first_value(j, s);
+  else if (s->other != s->r)
+    pair_value(j, s, k);
+  else
+    settle(j, s->r, k, later_value(j, s, k));
 }

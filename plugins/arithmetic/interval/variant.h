@@ -1,4 +1,5 @@
-/* variant.h -- the plugin for one instruction set: kernels and series, compiled with the flags of the including file. */
+/* variant.h -- the plugin for one instruction set: kernels and series, compiled with the flags of the including file.
+** */
 #include "kernels.h"
 #include "jets_values.h"
 #include "jets_slopes.h"
@@ -14,9 +15,17 @@ const ambit_arithmetic VARIANT = {
   .leave = interval_leave,
   .set = interval_set,
   .bounds = interval_bounds,
-  .run = { [AMBIT_OP_ADD] = run_add, [AMBIT_OP_SUB] = run_sub, [AMBIT_OP_NEG] = run_neg, [AMBIT_OP_MUL] = run_mul,
-      [AMBIT_OP_SQR] = run_sqr, [AMBIT_OP_DIV] = run_div, [AMBIT_OP_SQRT] = run_sqrt, [AMBIT_OP_ABS] = run_abs,
-      [AMBIT_OP_MIN] = run_min, [AMBIT_OP_MAX] = run_max, INTERVAL_SERVED(INTERVAL_ENTRY) INTERVAL_ENTRY(POWN) },
+  .run = { [AMBIT_OP_ADD] = run_add,
+      [AMBIT_OP_SUB] = run_sub,
+      [AMBIT_OP_NEG] = run_neg,
+      [AMBIT_OP_MUL] = run_mul,
+      [AMBIT_OP_SQR] = run_sqr,
+      [AMBIT_OP_DIV] = run_div,
+      [AMBIT_OP_SQRT] = run_sqrt,
+      [AMBIT_OP_ABS] = run_abs,
+      [AMBIT_OP_MIN] = run_min,
+      [AMBIT_OP_MAX] = run_max,
+      INTERVAL_SERVED(INTERVAL_ENTRY) INTERVAL_ENTRY(POWN) },
   .dot = dot,
   .jets = &jets_interface,
 };

@@ -1,7 +1,7 @@
 /* vector.h -- the few vector operations that the kernels are written in, for the instruction set of the including file.
 **
-** Four doubles with AVX2 and FMA, otherwise two (SSE2 on x86-64, compiler vectors elsewhere). `larger` returns its second operand if
-** the first is NaN, and so loses NaN: kernels remove NaN before.
+** Four doubles with AVX2 and FMA, otherwise two (SSE2 on x86-64, compiler vectors elsewhere). `larger` returns its
+** second operand if the first is NaN, and so loses NaN: kernels remove NaN before.
 */
 #ifndef VECTOR_H
 #define VECTOR_H
@@ -29,7 +29,25 @@ static inline vector load(const double *p) {
 
 static inline void store(double *p, vector v) { memcpy(p, &v, sizeof v); }
 
+/* Intrinsics where there are some: gcc 12 takes compared and combined compiler vectors apart, element by element. */
+#if WIDTH == 4
+static inline mask equal(vector a, vector b) { return (mask)_mm256_cmp_pd(a, b, _CMP_EQ_OQ); }
+static inline mask above(vector a, vector b) { return (mask)_mm256_cmp_pd(a, b, _CMP_GT_OQ); } /* false for NaN */
+static inline mask reaches(vector a, vector b) { return (mask)_mm256_cmp_pd(a, b, _CMP_GE_OQ); }
+static inline vector choose(mask m, vector yes, vector no) { return _mm256_blendv_pd(no, yes, (vector)m); }
+#elif defined(__SSE2__)
+static inline mask equal(vector a, vector b) { return (mask)_mm_cmpeq_pd(a, b); }
+static inline mask above(vector a, vector b) { return (mask)_mm_cmpgt_pd(a, b); } /* false for NaN */
+static inline mask reaches(vector a, vector b) { return (mask)_mm_cmpge_pd(a, b); }
+static inline vector choose(mask m, vector yes, vector no) {
+  return _mm_or_pd(_mm_and_pd((vector)m, yes), _mm_andnot_pd((vector)m, no));
+}
+#else
+static inline mask equal(vector a, vector b) { return (mask)(a == b); }
+static inline mask above(vector a, vector b) { return (mask)(a > b); } /* false for NaN */
+static inline mask reaches(vector a, vector b) { return (mask)(a >= b); }
 static inline vector choose(mask m, vector yes, vector no) { return (vector)((m & (mask)yes) | (~m & (mask)no)); }
+#endif
 static inline vector keep(mask m, vector v) { return (vector)(m & (mask)v); } /* 0 elsewhere */
 
 #if WIDTH == 4
@@ -52,8 +70,8 @@ static inline vector larger(vector a, vector b) { return _mm_max_pd(a, b); }
 static inline vector smaller(vector a, vector b) { return _mm_min_pd(a, b); }
 static inline vector root(vector a) { return _mm_sqrt_pd(a); }
 #else
-static inline vector larger(vector a, vector b) { return choose((mask)(a > b), a, b); }
-static inline vector smaller(vector a, vector b) { return choose((mask)(a < b), a, b); }
+static inline vector larger(vector a, vector b) { return choose(above(a, b), a, b); }
+static inline vector smaller(vector a, vector b) { return choose(above(b, a), a, b); }
 static inline vector root(vector a) { return (vector) { sqrt(a[0]), sqrt(a[1]) }; }
 #endif
 static inline vector multiply_add(vector a, vector b, vector c) { return a * b + c; } /* rounded twice */

@@ -1,0 +1,291 @@
+/* unit.c -- reading units. Every factor is exact: integers, powers of ten and of pi, so that "1 lbf" is enclosed as tightly as its decimal.
+**
+** Definitions: SI brochure (BIPM 2019); international inch and pound (1959): in = 25.4 mm, lb = 0.453 592 37 kg, lbf = lb * 9.806 65 m/s^2.
+*/
+#include "model/unit.h"
+#include "base/names.h"
+#include "num/decimal.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define WORD_MAX 32
+#define TEXT_MAX 256
+#define NESTING_MAX 8
+
+typedef struct entry {
+  const char *name;
+  bool prefix; /* takes SI prefixes */
+  ambit_unit unit;
+} entry;
+
+/*                          m kg  s  A  K mol cd  pi  10^ numerator denominator */
+static const entry known[] = {
+  { "1", false,         { {  0, 0, 0, 0, 0, 0, 0 }, 0,   0, 1, 1 } },
+  { "m", true,          { {  1, 0, 0, 0, 0, 0, 0 }, 0,   0, 1, 1 } },
+  { "g", true,          { {  0, 1, 0, 0, 0, 0, 0 }, 0,  -3, 1, 1 } },
+  { "s", true,          { {  0, 0, 1, 0, 0, 0, 0 }, 0,   0, 1, 1 } },
+  { "A", true,          { {  0, 0, 0, 1, 0, 0, 0 }, 0,   0, 1, 1 } },
+  { "K", true,          { {  0, 0, 0, 0, 1, 0, 0 }, 0,   0, 1, 1 } },
+  { "mol", true,        { {  0, 0, 0, 0, 0, 1, 0 }, 0,   0, 1, 1 } },
+  { "cd", true,         { {  0, 0, 0, 0, 0, 0, 1 }, 0,   0, 1, 1 } },
+  { "rad", true,        { {  0, 0, 0, 0, 0, 0, 0 }, 0,   0, 1, 1 } },
+  { "deg", false,       { {  0, 0, 0, 0, 0, 0, 0 }, 1,   0, 1, 180 } },
+  { "rev", false,       { {  0, 0, 0, 0, 0, 0, 0 }, 1,   0, 2, 1 } },
+  { "rpm", false,       { {  0, 0, -1, 0, 0, 0, 0 }, 1,  0, 1, 30 } },
+  { "Hz", true,         { {  0, 0, -1, 0, 0, 0, 0 }, 0,  0, 1, 1 } },
+  { "N", true,          { {  1, 1, -2, 0, 0, 0, 0 }, 0,  0, 1, 1 } },
+  { "Pa", true,         { { -1, 1, -2, 0, 0, 0, 0 }, 0,  0, 1, 1 } },
+  { "J", true,          { {  2, 1, -2, 0, 0, 0, 0 }, 0,  0, 1, 1 } },
+  { "W", true,          { {  2, 1, -3, 0, 0, 0, 0 }, 0,  0, 1, 1 } },
+  { "C", true,          { {  0, 0, 1, 1, 0, 0, 0 }, 0,   0, 1, 1 } },
+  { "V", true,          { {  2, 1, -3, -1, 0, 0, 0 }, 0, 0, 1, 1 } },
+  { "ohm", true,        { {  2, 1, -3, -2, 0, 0, 0 }, 0, 0, 1, 1 } },
+  { "H", true,          { {  2, 1, -2, -2, 0, 0, 0 }, 0, 0, 1, 1 } },
+  { "Wb", true,         { {  2, 1, -2, -1, 0, 0, 0 }, 0, 0, 1, 1 } },
+  { "T", true,          { {  0, 1, -2, -1, 0, 0, 0 }, 0, 0, 1, 1 } },
+  { "t", false,         { {  0, 1, 0, 0, 0, 0, 0 }, 0,   3, 1, 1 } },
+  { "bar", true,        { { -1, 1, -2, 0, 0, 0, 0 }, 0,  5, 1, 1 } },
+  { "min", false,       { {  0, 0, 1, 0, 0, 0, 0 }, 0,   0, 60, 1 } },
+  { "h", false,         { {  0, 0, 1, 0, 0, 0, 0 }, 0,   0, 3600, 1 } },
+  { "in", false,        { {  1, 0, 0, 0, 0, 0, 0 }, 0,  -4, 254, 1 } },
+  { "ft", false,        { {  1, 0, 0, 0, 0, 0, 0 }, 0,  -4, 3048, 1 } },
+  { "lb", false,        { {  0, 1, 0, 0, 0, 0, 0 }, 0,  -8, 45359237, 1 } },
+  { "lbf", false,       { {  1, 1, -2, 0, 0, 0, 0 }, 0, -13, 44482216152605, 1 } },
+};
+#define KNOWN (sizeof known / sizeof *known)
+
+static const struct {
+  const char *name;
+  int16_t decimal;
+} prefixes[] = { { "n", -9 }, { "u", -6 }, { "\xc2\xb5", -6 }, { "\xce\xbc", -6 }, { "m", -3 }, { "c", -2 }, { "d", -1 }, { "k", 3 },
+  { "M", 6 }, { "G", 9 } };
+
+/* -- exact products */
+
+static uint64_t common_divisor(uint64_t a, uint64_t b) {
+  while (b) {
+    uint64_t rest = a % b;
+    a = b;
+    b = rest;
+  }
+  return a;
+}
+
+/* u := u * v^sign; false: too large to be exact */
+static bool multiply(ambit_unit *u, ambit_unit v, int sign) {
+  uint64_t above = sign > 0 ? v.numerator : v.denominator, below = sign > 0 ? v.denominator : v.numerator;
+  uint64_t p = common_divisor(above, u->denominator), q = common_divisor(below, u->numerator);
+  bool fits = !__builtin_mul_overflow(u->numerator / q, above / p, &u->numerator);
+  fits = !__builtin_mul_overflow(u->denominator / p, below / q, &u->denominator) && fits;
+  for (int i = 0; i < 7; i++) {
+    int power = u->power[i] + sign * v.power[i];
+    fits = fits && power >= -99 && power <= 99;
+    u->power[i] = (int8_t)power;
+  }
+  int pi = u->pi + sign * v.pi, decimal = u->decimal + sign * v.decimal;
+  fits = fits && pi >= -9 && pi <= 9 && decimal >= -300 && decimal <= 300;
+  u->pi = (int8_t)pi;
+  u->decimal = (int16_t)decimal;
+  return fits;
+}
+
+/* -- names */
+
+static const entry *find_entry(const char *name) {
+  for (size_t i = 0; i < KNOWN; i++)
+    if (strcmp(known[i].name, name) == 0) return &known[i];
+  return NULL;
+}
+
+/* A unit by its own name, else a prefix and a unit. */
+static bool find_unit(const char *name, ambit_unit *unit) {
+  const entry *e = find_entry(name);
+  if (e) {
+    *unit = e->unit;
+    return true;
+  }
+  for (size_t i = 0; i < sizeof prefixes / sizeof *prefixes; i++) {
+    size_t n = strlen(prefixes[i].name);
+    if (strncmp(name, prefixes[i].name, n) != 0) continue;
+    e = find_entry(name + n);
+    if (!e || !e->prefix) continue;
+    *unit = e->unit;
+    unit->decimal = (int16_t)(unit->decimal + prefixes[i].decimal);
+    return true;
+  }
+  return false;
+}
+
+/* "Nm": two units without a sign between them */
+static bool find_pair(const char *name, char hint[2 * WORD_MAX]) {
+  ambit_unit unit;
+  for (size_t cut = 1; cut < strlen(name); cut++) {
+    char first[WORD_MAX];
+    snprintf(first, sizeof first, "%.*s", (int)cut, name);
+    if (!find_unit(first, &unit) || !find_unit(name + cut, &unit)) continue;
+    snprintf(hint, 2 * WORD_MAX, "%s %s", first, name + cut);
+    return true;
+  }
+  return false;
+}
+
+static ambit_status fail_unknown(const char *name, ambit_failure *f) {
+  const char *candidate[KNOWN + 6] = { "km", "cm", "mm", "kg", "kN", "ms" };
+  char hint[2 * WORD_MAX];
+  if (strcmp(name, "degC") == 0 || strcmp(name, "degF") == 0)
+    return ambit_fail(f, AMBIT_INVALID, "`%s` has an offset, so it is not a unit here: give temperatures in K", name);
+  for (size_t i = 0; i < KNOWN; i++) candidate[6 + i] = known[i].name;
+  const char *near = find_pair(name, hint) ? hint : ambit_names_nearest(name, candidate, KNOWN + 6);
+  return ambit_fail(f, AMBIT_INVALID, "unknown unit `%s`%s%s%s", name, near ? " (did you mean `" : "", near ? near : "", near ? "`?)" : "");
+}
+
+/* -- grammar: unit := factor { [* . /] factor }; factor := (name | "1" | "(" unit ")") [^ integer] */
+
+typedef struct reader {
+  const char *whole, *at;
+  int nesting;
+  ambit_failure *f;
+} reader;
+
+static ambit_status wrong(reader *r, const char *what) {
+  return ambit_fail(r->f, AMBIT_INVALID, "`%.80s` is not a unit: %s", r->whole, what);
+}
+
+static void skip_blanks(reader *r) {
+  while (*r->at == ' ' || *r->at == '\t') r->at++;
+}
+
+static bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (unsigned char)c >= 0x80; }
+
+static ambit_status read_product(reader *r, ambit_unit *unit);
+
+static ambit_status read_power(reader *r, ambit_unit *unit) {
+  skip_blanks(r);
+  if (*r->at != '^') return AMBIT_OK;
+  char *end;
+  long n = strtol(r->at + 1, &end, 10);
+  if (end == r->at + 1 || n < -9 || n > 9) return wrong(r, "expected an integer from -9 to 9 after ^");
+  r->at = end;
+  ambit_unit base = *unit;
+  *unit = known[0].unit;
+  for (long k = labs(n); k > 0; k--)
+    if (!multiply(unit, base, n > 0 ? 1 : -1)) return wrong(r, "the powers are too large");
+  return AMBIT_OK;
+}
+
+static ambit_status read_factor(reader *r, ambit_unit *unit) {
+  char name[WORD_MAX];
+  size_t n = 0;
+  skip_blanks(r);
+  if (*r->at == '(') {
+    if (r->nesting == NESTING_MAX) return wrong(r, "too many brackets");
+    r->at++;
+    r->nesting++;
+    ambit_status status = read_product(r, unit);
+    r->nesting--;
+    if (status != AMBIT_OK) return status;
+    if (*r->at != ')') return wrong(r, "a bracket is not closed");
+    r->at++;
+    return read_power(r, unit);
+  }
+  if (*r->at == '1') {
+    name[n++] = *r->at++;
+  } else {
+    while (is_letter(r->at[n]) && n < sizeof name - 1) name[n] = r->at[n], n++;
+    r->at += n;
+  }
+  name[n] = '\0';
+  if (n == 0) return wrong(r, "expected the name of a unit");
+  if (!find_unit(name, unit)) return fail_unknown(name, r->f);
+  return read_power(r, unit);
+}
+
+static ambit_status read_product(reader *r, ambit_unit *unit) {
+  *unit = known[0].unit;
+  for (int sign = 1;;) {
+    ambit_unit factor;
+    ambit_status status = read_factor(r, &factor);
+    if (status != AMBIT_OK) return status;
+    if (!multiply(unit, factor, sign)) return wrong(r, "its factor is too large");
+    skip_blanks(r);
+    if (*r->at == '\0' || *r->at == ')') return AMBIT_OK;
+    sign = *r->at == '/' ? -1 : 1;
+    if (*r->at == '*' || *r->at == '.' || *r->at == '/') r->at++;
+    else if (!is_letter(*r->at) && *r->at != '(' && *r->at != '1') return wrong(r, "expected a blank, *, . or / between units");
+  }
+}
+
+ambit_status ambit_unit_read(const char *text, ambit_unit *unit, ambit_failure *f) {
+  reader r = { .whole = text, .at = text, .f = f };
+  *unit = known[0].unit;
+  skip_blanks(&r);
+  if (!*r.at) return AMBIT_OK;
+  ambit_status status = read_product(&r, unit);
+  if (status == AMBIT_OK && *r.at) return wrong(&r, "a bracket is closed but not opened");
+  return status;
+}
+
+/* -- quantities */
+
+/* The literal times 10^decimal: within the text where it is a plain decimal, so that it is rounded once. */
+static ambit_expr read_number(ambit_graph *g, const char *literal, int decimal, ambit_failure *f) {
+  char text[TEXT_MAX];
+  bool plain = strspn(literal, "+-0123456789.eE \t") == strlen(literal);
+  if (decimal == 0) return ambit_graph_decimal(g, literal, f);
+  size_t mantissa = strcspn(literal, plain ? "eE \t" : "");
+  const char *e = literal + strcspn(literal, "eE");
+  long exponent = plain && *e ? strtol(e + 1, NULL, 10) : 0;
+  if (plain && labs(exponent) < 100000 && mantissa > 0) {
+    snprintf(text, sizeof text, "%.*se%ld", (int)mantissa, literal, exponent + decimal);
+    return ambit_graph_decimal(g, text, f);
+  }
+  snprintf(text, sizeof text, "1e%d", decimal);
+  ambit_expr x = ambit_graph_decimal(g, literal, f), ten = ambit_graph_decimal(g, text, f);
+  return x == AMBIT_NO_EXPR || ten == AMBIT_NO_EXPR ? AMBIT_NO_EXPR : ambit_graph_op(g, AMBIT_OP_MUL, x, ten);
+}
+
+static ambit_expr integer(ambit_graph *g, uint64_t n) {
+  char text[32];
+  snprintf(text, sizeof text, "%llu", (unsigned long long)n);
+  return ambit_graph_decimal(g, text, NULL);
+}
+
+/* x in the unit, in SI. 90 deg is exactly pi/2: the rational factor first. */
+static ambit_expr scale(ambit_graph *g, ambit_expr x, const ambit_unit *unit) {
+  x = ambit_graph_op(g, AMBIT_OP_MUL, x, integer(g, unit->numerator));
+  x = ambit_graph_op(g, AMBIT_OP_DIV, x, integer(g, unit->denominator));
+  ambit_expr pi = unit->pi ? ambit_graph_pi(g) : 0;
+  for (int k = unit->pi; k > 0; k--) x = ambit_graph_op(g, AMBIT_OP_MUL, x, pi);
+  for (int k = unit->pi; k < 0; k++) x = ambit_graph_op(g, AMBIT_OP_DIV, x, pi);
+  return x;
+}
+
+static ambit_status fail_dimension(const char *text, const char *unit, const char *wanted, ambit_failure *f) {
+  bool bare = strcmp(wanted, "1") == 0 || !*wanted;
+  return ambit_fail(f, AMBIT_INVALID, "`%.80s` is in %.40s, but %s%.40s is expected", text, unit, bare ? "a number without dimension" : "",
+      bare ? "" : wanted);
+}
+
+ambit_status ambit_unit_quantity(ambit_graph *g, const char *text, const char *wanted, ambit_expr *out, ambit_failure *f) {
+  char literal[TEXT_MAX];
+  ambit_interval x;
+  const char *rest;
+  ambit_unit unit, goal;
+  *out = AMBIT_NO_EXPR;
+  while (*text == ' ' || *text == '\t') text++;
+  ambit_status status = ambit_decimal_read(text, &x, &rest, f);
+  if (status == AMBIT_OK) status = ambit_unit_read(rest, &unit, f);
+  if (status == AMBIT_OK) status = ambit_unit_read(wanted, &goal, f);
+  if (status != AMBIT_OK) return status;
+  while (*rest == ' ' || *rest == '\t') rest++;
+  size_t length = (size_t)(rest - text);
+  if (length >= sizeof literal) return ambit_fail(f, AMBIT_INVALID, "`%.80s...` is too long for a number", text);
+  memcpy(literal, text, length);
+  literal[length] = '\0';
+  if (*rest && memcmp(unit.power, goal.power, sizeof unit.power) != 0) return fail_dimension(text, rest, wanted, f);
+  ambit_expr e = read_number(g, literal, unit.decimal, f);
+  if (e == AMBIT_NO_EXPR) return f && f->status != AMBIT_OK ? f->status : AMBIT_INVALID;
+  *out = scale(g, e, &unit);
+  return *out == AMBIT_NO_EXPR ? ambit_fail(f, AMBIT_NOMEM, "out of memory") : AMBIT_OK;
+}

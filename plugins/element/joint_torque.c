@@ -1,0 +1,25 @@
+/* joint_torque.c -- a generalised force on a joint, positive along its coordinate. A law is an expression in coordinates, rates and time. */
+#include <ambit/spatial.h>
+
+enum { JOINT };
+enum { TORQUE, FORCE };
+
+static const ambit_port ports[] = { { "joint", AMBIT_PORT_JOINT, AMBIT_ROLE_IN, 1, 0, "the joint that is driven" } };
+static const ambit_param params[] = {
+  { "torque", "N m", "", "", "torque on a joint that turns" },
+  { "force", "N", "", "", "force on a joint that slides" },
+  { NULL, NULL, NULL, NULL, NULL },
+};
+
+static ambit_status express(ambit_build *b, uint32_t port, uint32_t quantity, ambit_expr *out) {
+  const ambit_expr *torque = b->param(b, TORQUE), *force = b->param(b, FORCE);
+  if (port != JOINT || quantity != AMBIT_EFFORT) return AMBIT_UNABLE;
+  if (!torque == !force) return b->fail(b, AMBIT_INVALID, "expected either `torque` (N m) or `force` (N)");
+  *out = torque ? *torque : *force;
+  return AMBIT_OK;
+}
+
+static const ambit_element element = { sizeof element, 1, ports, params, express };
+
+AMBIT_ELEMENT_ENTRY("joint_torque", "1.0",
+    "A torque on a joint that turns, or a force on one that slides: a number, an expression of coordinates and time, or a function.", element)
