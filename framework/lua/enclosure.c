@@ -3,7 +3,11 @@
 #include "num/decimal.h"
 #include <string.h>
 
-static const ambit_lua_enclosure *self(lua_State *L) { return luaL_checkudata(L, 1, AMBIT_TYPE_ENCLOSURE); }
+static const ambit_lua_enclosure *self(lua_State *L) {
+  const ambit_lua_enclosure *x = luaL_testudata(L, 1, AMBIT_TYPE_ENCLOSURE);
+  if (!x) ambit_lua_error(L, "expected an enclosure in front of the colon, as in x:width(), got %s", luaL_typename(L, 1));
+  return x;
+}
 
 static int width(lua_State *L) { return lua_pushnumber(L, ambit_interval_width(self(L)->x)), 1; }
 static int rad(lua_State *L) { return lua_pushnumber(L, ambit_interval_rad(self(L)->x)), 1; }

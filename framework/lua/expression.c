@@ -49,7 +49,10 @@ static int derivative(lua_State *L) {
 
 static int simplify(lua_State *L) {
   ambit_expr e = ambit_lua_to_expression(L, 1, NULL, "simplify").e;
-  ambit_lua_push_expression(L, ambit_graph_simplify(AMBIT_LUA(L)->graph, e, (size_t)luaL_optinteger(L, 2, 1000)));
+  int fits = 1;
+  lua_Integer limit = lua_isnoneornil(L, 2) ? 1000 : lua_tointegerx(L, 2, &fits);
+  if (!fits || limit < 1) ambit_lua_error(L, "simplify: expected a positive integer, the most terms to expand into");
+  ambit_lua_push_expression(L, ambit_graph_simplify(AMBIT_LUA(L)->graph, e, (size_t)limit));
   return 1;
 }
 

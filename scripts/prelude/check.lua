@@ -57,6 +57,22 @@ function check.keys(t, known, what, positional)
   end
 end
 
+-- The methods of a class, each of which refuses to be called with a dot instead of a colon.
+function check.methods(methods, class)
+  for name, method in pairs(methods) do
+    if type(method) == "function" and name:sub(1, 2) ~= "__" then
+      methods[name] = function(self, ...)
+        if getmetatable(self) ~= class then
+          local kind = class.__name
+          check.fail("%s: expected the %s in front of the colon, as in %s:%s(...), got %s", name, kind, kind, name,
+            check.kind(self))
+        end
+        return method(self, ...)
+      end
+    end
+  end
+end
+
 function check.text(value, what)
   if type(value) ~= "string" then check.fail("%s: expected text, got %s", what, check.kind(value)) end
   return value

@@ -1,4 +1,5 @@
 -- init.lua -- the module `ambit`: what a scene sees.
+local check = require "ambit.check"
 local core = require "ambit.core"
 local evaluate = require "ambit.evaluate"
 local help = require "ambit.help"
@@ -12,7 +13,7 @@ local ambit = {
   version = core.version,
   pi = core.pi(),
   time = core.time(),
-  number = function(value, unit) return core.expression(value, unit, "number") end,
+  number = function(value, unit) return core.expression(value, unit and check.text(unit, "number: unit"), "number") end,
   mechanism = mechanism.new,
   ode = ode.new,
   evaluate = evaluate.evaluate,

@@ -106,6 +106,8 @@ function methods:dynamics()
   return self.cached
 end
 
+check.methods(methods, Mechanism)
+
 local mechanism = {}
 
 -- mechanism "name" or mechanism { "name", gravity = { 0, "-9.81", 0 } }

@@ -20,6 +20,8 @@ function Ode:rate(name)
   check.fail('ode `%s`: no state `%s`%s', self.name, tostring(name), check.suggest(name, self.states))
 end
 
+check.methods(Ode, Ode)
+
 local ode = {}
 
 function ode.of_system(system, name)

@@ -71,6 +71,8 @@ function methods:at(t)
   return values
 end
 
+check.methods(methods, Run)
+
 function Run.__index(self, key)
   if methods[key] then return methods[key] end
   if key ~= "x" then return nil end

@@ -50,6 +50,8 @@ function Sample:at(t)
   check.fail("at: t = %s is not one of the listed times", core.literal(t))
 end
 
+check.methods(Sample, Sample)
+
 function Sample.__tostring(self)
   return ("%s: %d draws, %d of them did not reach the end"):format(self.status, self.draws, self.failed)
 end

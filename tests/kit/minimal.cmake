@@ -7,7 +7,7 @@ target_link_libraries(arithmetic_minimal PRIVATE ambit_flags)
 add_library(arithmetic_kit STATIC ${PROJECT_SOURCE_DIR}/tests/kit/arithmetic_kit.c
   ${PROJECT_SOURCE_DIR}/tests/kit/arithmetic_kit_tier_2.c)
 target_include_directories(arithmetic_kit PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-target_link_libraries(arithmetic_kit PRIVATE ambit_flags libambit)
+target_link_libraries(arithmetic_kit PRIVATE ambit_flags PUBLIC libambit m)
 foreach(name real interval minimal)
   target_link_libraries(test.plugins.arithmetic_${name} PRIVATE arithmetic_kit)
   add_dependencies(test.plugins.arithmetic_${name} arithmetic_${name})

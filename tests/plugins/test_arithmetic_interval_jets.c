@@ -438,6 +438,33 @@ static void refuses_a_shorter_centre(void **state) {
   single_close(&s);
 }
 
+/* A kink of constants is harmless: |p| for p in [-1/4, 3/4] about 1/4, min(p, q) for q = p + 1/8. */
+static void kinks_of_constants_are_kept(void **state) {
+  (void)state;
+  tape_builder t;
+  ambit_lease *lease;
+  void *centre, *box;
+  const ambit_jets *j = loader.plugin->jets;
+  tape_begin(&t);
+  uint32_t one = tape_constant(&t, 1, 1), p = tape_input(&t, 0), q = tape_input(&t, 0);
+  uint32_t size = tape_unary(&t, AMBIT_OP_ABS, p), least = tape_op(&t, AMBIT_OP_MIN, p, q);
+  const ambit_tape *tape = tape_seal(&t, one);
+  assert_int_equal(ambit_lease_open(&lease, NULL, NULL), AMBIT_OK);
+  assert_int_equal(j->open(&lease->host, loader.ctx, tape, 1, 0, NULL, &centre), AMBIT_OK);
+  assert_int_equal(j->open(&lease->host, loader.ctx, tape, 1, 1, centre, &box), AMBIT_OK);
+  const double slope_p = 1, slope_q = 0.5, none = 0;
+  j->put(centre, 0, 0, 0.25, 0, NULL, NULL), j->put(centre, 1, 0, 0.375, 0, NULL, NULL);
+  j->put(box, 0, 0, 0.25, 0.5, &slope_p, &none), j->put(box, 1, 0, 0.375, 0.5, &slope_q, &none);
+  assert_int_equal(j->advance(centre, 0) | j->advance(box, 0), 0);
+  double mid, rad, dmid, drad;
+  j->get(box, size, 0, &mid, &rad, &dmid, &drad);
+  assert_true(mid - rad == 0 && mid + rad == 0.75 && dmid == 0 && drad == 1);
+  j->get(box, least, 0, &mid, &rad, &dmid, &drad);
+  assert_true(mid - rad == -0.25 && mid + rad == 0.75 && dmid == 0.75 && drad == 0.25);
+  j->close(centre), j->close(box);
+  ambit_lease_close(lease);
+}
+
 static void put_point(void *jets, uint32_t k, double x, double slope) {
   const double none = 0;
   loader.plugin->jets->put(jets, 0, k, x, 0, &slope, &none);
@@ -509,6 +536,7 @@ int main(void) {
     cmocka_unit_test(solves_a_riccati_equation),
     cmocka_unit_test(refuses_other_tapes),
     cmocka_unit_test(refuses_a_shorter_centre),
+    cmocka_unit_test(kinks_of_constants_are_kept),
     cmocka_unit_test(copies_are_rounded_outward),
     cmocka_unit_test(points_stay_thin),
   };

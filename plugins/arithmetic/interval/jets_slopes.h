@@ -155,9 +155,16 @@ static inline lanes integral_slope(const slot *f, const slot *a, spot at) {
   return lanes_over(turn_slope(f, a, at), at.k);
 }
 
-static inline lanes chosen_slope(const step *s, spot at) {
-  if (jets_choice(s) > 0) return slope_at(s->a, at);
-  return s->op == AMBIT_OP_ABS ? lanes_minus(no_lanes(), slope_at(s->a, at)) : slope_at(s->b, at);
+static inline lanes lanes_hull(lanes a, lanes b) {
+  return (lanes) { larger(a.h + a.r, b.h + b.r), larger(a.l + a.r, b.l + b.r), splat(0) };
+}
+
+/* An open choice (of constants; otherwise order 0 is lost): |u| - |u0| = phi (u - u0) with phi in [-1, 1], and a
+** minimum or maximum changes by a mean of what its operands change by. */
+static inline lanes chosen_slope(const jets *j, const step *s, spot at) {
+  lanes a = slope_at(s->a, at), b = s->op == AMBIT_OP_ABS ? lanes_minus(no_lanes(), a) : slope_at(s->b, at);
+  int choice = jets_choice(j, s);
+  return choice > 0 ? a : choice < 0 ? b : lanes_hull(a, b);
 }
 
 static inline void pair_slope(jets *j, const step *s, spot at) {
@@ -167,7 +174,7 @@ static inline void pair_slope(jets *j, const step *s, spot at) {
 }
 
 /* rules that hold for every order */
-static inline int plain_slope(const step *s, spot at, lanes *t) {
+static inline int plain_slope(const jets *j, const step *s, spot at, lanes *t) {
   switch (s->op) {
   case AMBIT_OP_ADD: *t = lanes_plus(slope_at(s->a, at), slope_at(s->b, at)); return 1;
   case AMBIT_OP_SUB: *t = lanes_minus(slope_at(s->a, at), slope_at(s->b, at)); return 1;
@@ -179,7 +186,7 @@ static inline int plain_slope(const step *s, spot at, lanes *t) {
   case AMBIT_OP_SQRT: *t = root_slope(s, at); return 1;
   case AMBIT_OP_ABS:
   case AMBIT_OP_MIN:
-  case AMBIT_OP_MAX: *t = chosen_slope(s, at); return 1;
+  case AMBIT_OP_MAX: *t = chosen_slope(j, s, at); return 1;
   default: return 0;
   }
 }
@@ -200,8 +207,8 @@ static inline lanes later_slope(const step *s, spot at) {
   }
 }
 
-/* elementary functions and choices */
-static inline int needs_start(uint32_t op) { return op >= AMBIT_OP_EXP && op != STEP_COPY; }
+/* elementary functions: their slopes start from a derivative */
+static inline int needs_start(uint32_t op) { return op >= AMBIT_OP_EXP && op < AMBIT_OP_ABS; }
 
 static inline void slope(jets *j, const step *s, uint32_t k) {
   if (!s->r->varies) return;
@@ -210,7 +217,7 @@ static inline void slope(jets *j, const step *s, uint32_t k) {
   for (uint32_t block = 0; block < j->blocks; block++) {
     spot at = { j->order, block, k };
     lanes t;
-    if (plain_slope(s, at, &t))
+    if (plain_slope(j, s, at, &t))
       settle_lanes(j, s->r, at, t);
     else if (k == 0)
       first_slope(j, s, at, by_a, by_b);

@@ -79,11 +79,19 @@ static int decide(const step *s, bounds a, bounds b) {
   return 0;
 }
 
-int jets_choice(const step *s) { return decide(s, jets_bounds(s->a->u), jets_bounds(s->b->u)); }
+/* the operand over the box and at the centre */
+static bounds span_of(const jets *j, const slot *box, uint32_t index) {
+  bounds u = jets_bounds(box->u);
+  return j->centre ? hull(u, jets_bounds(j->centre->slot[index].u)) : u;
+}
+
+int jets_choice(const jets *j, const step *s) {
+  return decide(s, span_of(j, s->a, s->a_index), span_of(j, s->b, s->b_index));
+}
 
 uint32_t jets_start(const jets *j, const step *s, bounds *r, bounds *other) {
   bounds a = jets_bounds(s->a->u), b = jets_bounds(s->b->u);
-  int fixed = s->degree == 0 && !s->r->varies;
+  int fixed = s->degree == 0; /* constant in time: its value is all there is */
   *r = *other = entire;
   switch (s->op) {
   case AMBIT_OP_MUL: *r = product(a, b); return 0;
@@ -107,7 +115,7 @@ uint32_t jets_start(const jets *j, const step *s, bounds *r, bounds *other) {
   case AMBIT_OP_MIN:
   case AMBIT_OP_MAX: {
     uint32_t flags = mapped(j, s->op, a, b, r);
-    return decide(s, a, b) || fixed ? flags : flags | AMBIT_F_UNBOUNDED;
+    return fixed || jets_choice(j, s) ? flags : flags | AMBIT_F_UNBOUNDED;
   }
   default: return mapped(j, s->op, a, b, r); /* SQRT, LOG */
   }
@@ -168,11 +176,6 @@ static uint32_t slope_of_angle(bounds y, bounds x, bounds *first, bounds *second
   return 0;
 }
 
-static bounds span_of(const jets *j, const slot *box, uint32_t index) {
-  bounds u = jets_bounds(box->u);
-  return j->centre ? hull(u, jets_bounds(j->centre->slot[index].u)) : u;
-}
-
 uint32_t jets_start_slope(const jets *j, const step *s, bounds *first, bounds *second) {
   bounds a = span_of(j, s->a, s->a_index), b = span_of(j, s->b, s->b_index), one = { 1, 1 };
   *first = *second = entire;
@@ -180,9 +183,6 @@ uint32_t jets_start_slope(const jets *j, const step *s, bounds *first, bounds *s
   case AMBIT_OP_LOG: return divided(one, a, first);
   case AMBIT_OP_ATAN: *first = quotient(one, sum(one, square(a))); return 0;
   case AMBIT_OP_ATAN2: return slope_of_angle(a, b, first, second);
-  case AMBIT_OP_ABS:
-  case AMBIT_OP_MIN:
-  case AMBIT_OP_MAX: return decide(s, a, b) ? 0 : AMBIT_F_UNBOUNDED; /* the choice over the box holds at the centre */
   default: return slope_of_pair(j, s, jets_bounds(s->a->u), first, second);
   }
 }

@@ -133,8 +133,8 @@ static inline triple angle_value(const jets *j, const step *s, uint32_t k) {
   return divide_by(minus(turn, known), s->aux->u, k);
 }
 
-static inline triple chosen_value(const step *s, uint32_t k) {
-  if (jets_choice(s) > 0) return coefficient(s->a->u, k);
+static inline triple chosen_value(const jets *j, const step *s, uint32_t k) {
+  if (jets_choice(j, s) > 0) return coefficient(s->a->u, k);
   triple none = { 0, 0, 0 };
   return s->op == AMBIT_OP_ABS ? minus(none, coefficient(s->a->u, k)) : coefficient(s->b->u, k);
 }
@@ -158,7 +158,7 @@ static inline triple later_value(const jets *j, const step *s, uint32_t k) {
   case AMBIT_OP_LOG: return logarithmic_value(j, s, s->a, k);
   case AMBIT_OP_ATAN: return logarithmic_value(j, s, s->aux, k);
   case AMBIT_OP_ATAN2: return angle_value(j, s, k);
-  default: return chosen_value(s, k);
+  default: return chosen_value(j, s, k);
   }
 }
 

@@ -1,0 +1,112 @@
+/* lohner.h -- what the files of the lohner plugin share.
+**
+** The set of states at time t is
+**   { centre + low + C xi + G e : xi in [-1,1]^nc, e in [-1,1]^m }
+** with centre + low the midpoint in double-double, C the columns of the unknowns (never condensed) and G the generators of everything
+** that was added on the way (history.c). The parameters are fixed + F xi, with the same xi.
+** Arrays of rows and columns are by rows. All arithmetic is in upward mode (ball.h). Proofs: docs/numerics/lohner.md.
+*/
+#ifndef LOHNER_H
+#define LOHNER_H
+#include "ball.h"
+#include <ambit/jet.h>
+#include <ambit/solver.h>
+
+#define PIECES_MAX 16
+
+/* Generators w_c d_c, oldest first, in groups of n columns; a group has a level (history.c). */
+typedef struct history {
+  uint32_t n;          /* states */
+  uint32_t keep;       /* groups of one level before the older half is condensed; 0: one frame, condensed at every step */
+  uint32_t group, room; /* groups held, and how many fit */
+  uint32_t *level;     /* [room] */
+  size_t pitch;        /* columns per row */
+  double *direction;   /* [n x pitch] */
+  double *weight;      /* [pitch] */
+  double *block;       /* [n x BLOCK] scratch of the product */
+  double *frame, *shape, *size, *sum, *unit; /* scratch of condensing: [n x n] [n x n] [n] [n] [n] */
+  uint32_t *order;     /* [n] */
+} history;
+
+typedef struct options {
+  uint32_t order, slope_order, history;
+  double tolerance, step_max, step_min, width_max;
+} options;
+
+typedef struct lohner {
+  const ambit_host *host;
+  ambit_problem problem;
+  const ambit_jet_service *jet;
+  options options;
+  uint32_t nx, np, nc, ndir; /* nc columns; directions of slopes: the columns, then the states */
+  ambit_jet *centre_jet, *box_jet;
+
+  /* -- the set */
+  double *start, *start_rest, *start_column; /* [nx] [nx] [nx x nc] as at time[0] */
+  double *fixed, *fixed_column;              /* [np] [np x nc] */
+  double *centre, *low, *column;             /* [nx] [nx] [nx x nc] */
+  history history;
+  double *rest, *radius; /* [nx] bounds of |G e|, and of |C xi + G e + low| */
+  double *size;          /* [nx] how large each state is, for tolerances */
+  double *limit;         /* [nx] widest that each state may be */
+
+  /* -- the step */
+  double t, t_next;
+  span step;
+  int at_instant;         /* the step ends on an instant of the problem */
+  double guess;           /* next step length to try */
+  uint32_t next;          /* the instant ahead */
+  uint32_t pieces;        /* of this step */
+  ball *series;           /* [nx x (order + 1)] of the centre */
+  ball *slope;            /* [nx x (slope_order + 1) x ndir] */
+  double *top, *excess, *tail_in, *tail_out; /* [nin] [nx] [nin] [nx]; excess: beyond the series of the centre */
+  double *slope_top, *slope_guess, *slope_excess; /* [nin x ndir] [nx x ndir] [nx x ndir] */
+  double *dtail_in, *dtail_out;                   /* [nin x ndir] [nx x ndir] */
+  ball *transfer;         /* [PIECES_MAX x nx x ndir] slopes at the end of the step, one matrix for each piece */
+  double *matrix;         /* [nx x ndir] the point matrix that the set is moved with */
+  double *seed, *no_radius; /* [ndir] */
+  double *added;          /* [nx] new box of the step */
+  double *piece_from, *piece_to; /* [PIECES_MAX x nc] ranges of xi */
+  uint32_t *cuts;         /* [nc] */
+
+  /* -- the record */
+  double *lo, *hi, *tube_lo, *tube_hi; /* [nx] */
+  double tube_from;
+} lohner;
+
+/* start.c: the initial set, from open() on */
+ambit_status lohner_open(const ambit_host *h, const ambit_problem *p, const double *option, void **self);
+void lohner_close(void *self);
+void lohner_start(lohner *s); /* the set at time[0] */
+
+/* run.c */
+ambit_status lohner_run(void *self, ambit_sink *sink);
+
+/* step.c: a step that is proved, from series to bounds beyond them; UNABLE with the reason */
+ambit_status lohner_find_step(lohner *s);
+/* series.c: coefficients of jets, values of polynomials */
+uint32_t lohner_centre_series(lohner *s);
+uint32_t lohner_box_series(lohner *s, const double *from, const double *to); /* from, to [nc]: part of xi's box */
+ball lohner_increment(const lohner *s, uint32_t i);                       /* of the centre over the step, with its excess */
+void lohner_transfer(const lohner *s, ball *transfer);                    /* slopes at the end of the step */
+void lohner_tube(lohner *s);                                              /* bounds over the whole step */
+/* set.c: moving the set to the end of the step */
+void lohner_move(lohner *s);
+void lohner_hull(lohner *s); /* rest, radius, lo, hi of the set */
+void lohner_pieces(lohner *s);
+
+/* history.c */
+int history_open(const ambit_host *h, history *g, uint32_t n, uint32_t keep);
+void history_clear(history *g);
+/* G := M G, rounded; adds what rounding may have changed to pad[n]. M [n x n], rows `pitch` apart; rest[n] is the sum before */
+void history_multiply(history *g, const double *M, size_t pitch, const double *rest, double *pad);
+void history_push(history *g, const double *box);                 /* n new generators: the box, one for each state */
+void history_sum(const history *g, double *rest);                  /* rest[i] >= sum over columns of |G_ic| */
+
+/* frame.c: orthogonal frames; results are approximate, bounds are not */
+void frame_axes(uint32_t n, double *shape, double *frame); /* principal axes of the symmetric matrix `shape`, which is destroyed */
+/* Gram-Schmidt of n columns of A [n x pitch], longest of length times weight first; order, size: scratch [n] */
+void frame_orthogonal(uint32_t n, const double *A, size_t pitch, const double *weight, double *frame, uint32_t *order,
+    double *size);
+double frame_defect(uint32_t n, const double *frame); /* >= the row-sum norm of I - Q^T Q; infinite if anything is not finite */
+#endif
