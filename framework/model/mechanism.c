@@ -1,12 +1,10 @@
-/* mechanism.c -- what a mechanism consists of: parts, their names and connections. */
+/* mechanism.c -- what a mechanism consists of: parts and their connections. */
 #include "model/mechanism.h"
 #include "base/vector.h"
 #include "model/parts.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define NAME_MAX_BYTES 100
 
 static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
 
@@ -104,40 +102,6 @@ static void forget_sums(ambit_mechanism *m) {
   m->nopen = 0;
 }
 
-/* -- names */
-
-static const ambit_part *find_name(const ambit_mechanism *m, const char *name) {
-  for (size_t i = 0; i < m->count; i++)
-    if (strcmp(m->part[i].name, name) == 0) return &m->part[i];
-  return NULL;
-}
-
-/* beta' and beta'' are the derivatives of beta. */
-static ambit_status check_name(const ambit_mechanism *m, const ambit_part *p, ambit_failure *f) {
-  size_t n = strlen(p->name);
-  char who[AMBIT_WHO_MAX], first[AMBIT_WHO_MAX];
-  ambit_part_who(p, who);
-  if (n == 0) return ambit_fail(f, AMBIT_INVALID, "%s: the name is empty", who);
-  if (n > NAME_MAX_BYTES) return ambit_fail(f, AMBIT_INVALID, "%s: the name is longer than %d bytes", who, NAME_MAX_BYTES);
-  for (size_t i = 0; i < n; i++)
-    if ((unsigned char)p->name[i] < ' ') return ambit_fail(f, AMBIT_INVALID, "%s: the name has a control character", who);
-  if (p->name[n - 1] == '\'')
-    return ambit_fail(f, AMBIT_INVALID, "%s: a name cannot end in `'`: that marks time derivatives", who);
-  const ambit_part *other = find_name(m, p->name);
-  if (other) return ambit_fail(f, AMBIT_INVALID, "%s: the name is taken by the %s", who, ambit_part_who(other, first));
-  return AMBIT_OK;
-}
-
-/* "revolute1", "revolute2", ... */
-static const char *make_name(ambit_mechanism *m, const char *type) {
-  char name[NAME_MAX_BYTES + 24];
-  size_t number = 1;
-  for (size_t i = 0; i < m->count; i++) number += strcmp(m->part[i].type, type) == 0;
-  do snprintf(name, sizeof name, "%.60s%zu", type, number++);
-  while (find_name(m, name));
-  return ambit_arena_text(m->arena, name);
-}
-
 /* -- connections */
 
 static const char *kind_name(uint32_t kind) { return kind == AMBIT_PORT_JOINT ? "joint" : "frame"; }
@@ -218,9 +182,9 @@ static ambit_status fill_part(ambit_mechanism *m, ambit_part *p, const ambit_par
   p->element = spec->element;
   p->type = ambit_arena_text(m->arena, spec->type);
   p->where = spec->where && *spec->where ? ambit_arena_text(m->arena, spec->where) : NULL;
-  p->name = spec->name ? ambit_arena_text(m->arena, spec->name) : make_name(m, spec->type);
+  p->name = spec->name ? ambit_arena_text(m->arena, spec->name) : ambit_part_make_name(m, spec->type);
   if (!p->type || !p->name) return no_memory(f);
-  ambit_status status = check_name(m, p, f);
+  ambit_status status = ambit_part_check_name(m, p, f);
   if (status == AMBIT_OK) status = ambit_part_take_params(m, p, spec->param, f);
   if (status == AMBIT_OK) status = connect(m, p, spec->connection, f);
   return status == AMBIT_OK ? make_cells(m, p, (uint32_t)m->count, f) : status;
@@ -235,6 +199,7 @@ ambit_status ambit_mechanism_add(ambit_mechanism *m, const ambit_part_spec *spec
   ambit_part part = { 0 };
   status = fill_part(m, &part, spec, f);
   if (status != AMBIT_OK) return status;
+  if (!ambit_part_enter_name(m, &part)) return no_memory(f);
   uint32_t own = (uint32_t)m->count++;
   m->part[own] = part;
   for (uint32_t i = 0; i < part.element->nport; i++) attach(m, own, i);
@@ -263,6 +228,8 @@ ambit_mechanism *ambit_mechanism_open(ambit_graph *g, const char *name) {
 void ambit_mechanism_close(ambit_mechanism *m) {
   if (!m) return;
   ambit_arena_close(m->arena);
+  free(m->names.table);
+  free(m->names.type);
   free(m->request);
   free(m->coordinate);
   free(m->part);

@@ -9,4 +9,9 @@
 ** does not fit is INVALID; the failure names both and lists what fits. */
 ambit_status ambit_pair_choose(ambit_registry *r, const char *solver_name, const ambit_solver *solver,
     const char *wanted, char name[AMBIT_NAME_MAX], ambit_failure *f);
+
+/* AMBIT_WANT_* of this solver with these options: only that is built. */
+static inline uint32_t ambit_pair_want(const ambit_solver *solver, const double *option) {
+  return solver->want_for ? solver->want_for(option) : solver->want;
+}
 #endif

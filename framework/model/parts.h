@@ -1,5 +1,5 @@
-/* parts.h -- the inside of a mechanism, shared by mechanism.c and part_data.c (what it consists of), pull.c (demand) and
-** build.c (what elements see).
+/* parts.h -- the inside of a mechanism, shared by mechanism.c, part_names.c and part_data.c (what it consists of), pull.c
+** (demand) and build.c (what elements see).
 **
 ** A cell remembers one (part, port, quantity): what express() wrote, or the sum over everything attached. While it is being
 ** worked out, `next` is the cell that it waits for, so that a loop can be named.
@@ -41,12 +41,23 @@ typedef struct ambit_part {
   uint32_t *coordinate;            /* [dof] place in the mechanism's list; UINT32_MAX: not (yet) a state */
 } ambit_part;
 
+typedef struct ambit_part_names {
+  uint32_t *table; /* parts by name: open addressing; UINT32_MAX = free */
+  size_t table_size;
+  struct ambit_type_count {
+    const char *type;
+    size_t next; /* number for the next unnamed one */
+  } *type;
+  size_t ntype, type_capacity;
+} ambit_part_names;
+
 struct ambit_mechanism {
   ambit_graph *graph;
   ambit_arena *arena;
   const char *name;
   ambit_part *part;
   size_t count, capacity;
+  ambit_part_names names;
   ambit_coordinate *coordinate; /* in the order in which they were asked for */
   size_t ncoordinate, coordinate_capacity;
   ambit_cell field, energy;     /* sums over all parts */
@@ -78,6 +89,10 @@ typedef struct ambit_request {
 /* In pull.c: the value, worked out if need be. NULL: m->failure, m->deferred, or a cell that is DECLINED says why. */
 const ambit_expr *ambit_pull_cell(ambit_mechanism *m, ambit_cell *cell, ambit_cell *asker);
 
+/* In part_names.c: is the name fit and free; "revolute1", "revolute2", ... (NULL: out of memory); the part, about to be number m->count, by its name. */
+ambit_status ambit_part_check_name(const ambit_mechanism *m, const ambit_part *p, ambit_failure *f);
+const char *ambit_part_make_name(ambit_mechanism *m, const char *type);
+bool ambit_part_enter_name(ambit_mechanism *m, const ambit_part *p);
 /* In part_data.c: parameters given, or their fallbacks. */
 ambit_status ambit_part_take_params(ambit_mechanism *m, ambit_part *p, const ambit_expr *const *given, ambit_failure *f);
 /* In build.c: calls express() of the cell's element. */

@@ -65,11 +65,12 @@ static ambit_status prepare(job *j, ambit_failure *f) {
   j->option = ambit_context_options(
       j->options, j->solver->param, "solver", j->solver_name, q->nsolver_option, q->solver_option, &own);
   if (!j->option) return ambit_fail(f, own.status, "%s", own.message);
-  ambit_problem_request request = { q->system, q->initial, q->ntime, q->time, j->solver->want | AMBIT_WANT_INITIAL, 0 };
+  uint32_t want = ambit_pair_want(j->solver, j->option);
+  ambit_problem_request request = { q->system, q->initial, q->ntime, q->time, want | AMBIT_WANT_INITIAL, 0 };
   status = ambit_problem_build(&request, j->arena, &j->problem, f);
   if (status != AMBIT_OK) return status;
   j->initial = j->problem.initial;
-  if (!(j->solver->want & AMBIT_WANT_INITIAL)) j->problem.initial = NULL;
+  if (!(want & AMBIT_WANT_INITIAL)) j->problem.initial = NULL;
   status = make_room(j, f);
   if (status != AMBIT_OK) return status;
   const ambit_problem *p = &j->problem;

@@ -113,12 +113,13 @@ static ambit_status prepare(job *j, ambit_failure *f) {
   const ambit_arithmetic *arithmetic;
   status = ambit_registry_arithmetic(q->registry, j->arithmetic, &arithmetic, f);
   if (status != AMBIT_OK) return status;
-  ambit_problem_request request = { q->system, q->initial, q->ntime, q->time, j->solver->want,
+  uint32_t want = ambit_pair_want(j->solver, j->option);
+  ambit_problem_request request = { q->system, q->initial, q->ntime, q->time, want,
     arithmetic->set_text ? AMBIT_SEAL_KEEP : 0 };
   status = ambit_problem_build(&request, j->arena, &j->problem, f);
   if (status != AMBIT_OK) return status;
   const ambit_problem *p = &j->problem;
-  uint32_t nvar = j->solver->want & AMBIT_WANT_INITIAL ? p->nu : p->nx + p->np;
+  uint32_t nvar = want & AMBIT_WANT_INITIAL ? p->nu : p->nx + p->np;
   return ambit_context_open(
       q->registry, j->arithmetic, q->narithmetic_option, q->arithmetic_option, nvar, &j->context, f);
 }

@@ -117,13 +117,14 @@ static bool find_unit(const char *name, ambit_unit *unit) {
   return false;
 }
 
-/* "Nm": two units without a sign between them */
+/* "Nm": two units of different dimensions without a sign between them */
 static bool find_pair(const char *name, char hint[2 * WORD_MAX]) {
-  ambit_unit unit;
+  ambit_unit left, right;
   for (size_t cut = 1; cut < strlen(name); cut++) {
     char first[WORD_MAX];
     snprintf(first, sizeof first, "%.*s", (int)cut, name);
-    if (!find_unit(first, &unit) || !find_unit(name + cut, &unit)) continue;
+    if (!find_unit(first, &left) || !find_unit(name + cut, &right)) continue;
+    if (memcmp(left.power, right.power, sizeof left.power) == 0) continue;
     snprintf(hint, 2 * WORD_MAX, "%s %s", first, name + cut);
     return true;
   }

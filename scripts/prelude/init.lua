@@ -13,7 +13,6 @@ local ambit = {
   version = core.version,
   pi = core.pi(),
   time = core.time(),
-  number = function(value, unit) return core.expression(value, unit and check.text(unit, "number: unit"), "number") end,
   mechanism = mechanism.new,
   ode = ode.new,
   evaluate = evaluate.evaluate,
@@ -25,10 +24,18 @@ local ambit = {
 }
 
 -- data, and functions that work on numbers, texts, expressions and enclosures alike
-for _, name in ipairs { "around", "between", "interval", "derivative", "simplify", "sin", "cos", "tan", "asin", "acos",
-  "atan",
-  "atan2", "sinh", "cosh", "tanh", "exp", "log", "sqrt", "sqr", "pow", "abs", "min", "max" } do
+for _, name in ipairs {
+  "around", "between", "interval", "derivative", "simplify",
+  "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh",
+  "exp", "log", "sqrt", "sqr", "pow", "abs", "min", "max",
+} do
   ambit[name] = core[name]
+end
+
+-- A number, or what a text says, as an expression; unit: the SI unit that it must agree with.
+function ambit.number(value, unit)
+  if unit ~= nil then check.text(unit, "number: unit") end
+  return core.expression(value, unit, "number")
 end
 
 local degree = ambit.pi / 180

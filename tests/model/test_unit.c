@@ -81,12 +81,12 @@ static void factors_are_exact(void **state) {
   check("210 GPa", "Pa", "210000000000", "1", 0, 0);
   check("3 \xc2\xb5m", "m", "3", "1000000", 0, 1);
   check("30 deg", "rad", "1", "6", 1, 3);
-  check("2 rev", "rad", "4", "1", 1, 1);
-  check("3000 rpm", "rad/s", "100", "1", 1, 1);
+  check("2 rev", "rad", "4", "1", 1, 2);
+  check("3000 rpm", "rad/s", "100", "1", 1, 2);
   check("5 mrad", "rad", "5", "1000", 0, 1);
   check("50 Hz", "1/s", "50", "1", 0, 0);
   check("3 N m/rad", "N*m", "3", "1", 0, 0);
-  check("1/3 mm", "m", "1", "3000", 0, 3);
+  check("1/3 mm", "m", "1", "3000", 0, 4);
   check("2 kg*m^2", "kg m^2", "2", "1", 0, 0);
   check("2 g cm^2", "kg m^2", "2", "10000000", 0, 3);
   check("9.81 m/s^2", "m/s^2", "981", "100", 0, 1);
@@ -95,7 +95,7 @@ static void factors_are_exact(void **state) {
   check("4 m/s/s", "m/s^2", "4", "1", 0, 0);
   check("1 V", "kg*m^2/s^3/A", "1", "1", 0, 0);
   check("  2\tm ", "m", "2", "1", 0, 0);
-  check("1e400 nm", "nm", "1e400", "1e9", 0, 0x7fffffff);
+  check("1e310 nm", "m", "1e301", "1", 0, 1);
 }
 
 static void right_angles_fold(void **state) {
@@ -146,7 +146,7 @@ static void bad_units_are_named(void **state) {
     { "5 (m^9)^9 (m^9)^9", "m", "too large" },
     { "five m", "m", "five" },
     { "[1, 2] m", "m", "not one number" },
-    { "inf m", "m", "not one number" },
+    { "inf m", "m", "is no number" },
     { "5 aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa", "m", "unknown unit" },
   };
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {

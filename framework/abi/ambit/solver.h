@@ -56,5 +56,6 @@ typedef struct ambit_solver {
   /* [ctx] runs to the end; no allocation inside. Failures say why and which knob to turn, through h->fail of open's host */
   ambit_status (*run)(void *self, ambit_sink *s);
   void (*close)(void *self);
+  uint32_t (*want_for)(const double *option); /* NULL: `want`; else what these options need */
 } ambit_solver;
 #endif

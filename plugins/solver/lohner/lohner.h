@@ -28,8 +28,18 @@ typedef struct history {
   uint32_t *order;     /* [n] */
 } history;
 
+/* Why no step could be made; the run ends with a sentence about it (run.c). */
+enum why {
+  WHY_NOTHING,
+  WHY_CENTRE,  /* the right-hand side has no series at the midpoint */
+  WHY_BOX,     /* nor over the whole set */
+  WHY_NO_STEP, /* no step that is long enough could be proved */
+  WHY_WIDE,
+  WHY_STOPPED
+};
+
 typedef struct options {
-  uint32_t order, slope_order, history;
+  uint32_t order, slope_order, history, pieces;
   double tolerance, step_max, step_min, width_max;
 } options;
 
@@ -45,6 +55,7 @@ typedef struct lohner {
   double *start, *start_rest, *start_column; /* [nx] [nx] [nx x nc] as at time[0] */
   double *fixed, *fixed_column;              /* [np] [np x nc] */
   double *centre, *low, *column;             /* [nx] [nx] [nx x nc] */
+  double *new_centre, *new_low;              /* [nx] */
   history history;
   double *rest, *radius; /* [nx] bounds of |G e|, and of |C xi + G e + low| */
   double *size;          /* [nx] how large each state is, for tolerances */
@@ -56,22 +67,24 @@ typedef struct lohner {
   int at_instant;         /* the step ends on an instant of the problem */
   double guess;           /* next step length to try */
   uint32_t next;          /* the instant ahead */
-  uint32_t pieces;        /* of this step */
-  ball *series;           /* [nx x (order + 1)] of the centre */
-  ball *slope;            /* [nx x (slope_order + 1) x ndir] */
-  double *top, *excess, *tail_in, *tail_out; /* [nin] [nx] [nin] [nx]; excess: beyond the series of the centre */
-  double *slope_top, *slope_guess, *slope_excess; /* [nin x ndir] [nx x ndir] [nx x ndir] */
-  double *dtail_in, *dtail_out;                   /* [nin x ndir] [nx x ndir] */
-  ball *transfer;         /* [PIECES_MAX x nx x ndir] slopes at the end of the step, one matrix for each piece */
-  double *matrix;         /* [nx x ndir] the point matrix that the set is moved with */
+  double *series_mid, *series_rad; /* [nx x (order + 1)] of the centre */
+  double *slope_mid, *slope_rad;   /* [nx x (slope_order + 1) x ndir] over the box */
+  double *excess, *box_excess, *slope_excess; /* [nx] [nx] [nx x ndir] what the polynomials lack on the step */
+  double *slope_guess;             /* [nx x ndir] */
+  double *tail_in, *dtail_in;      /* [nin] [nin x ndir] scratch of the proof */
+  double *tail_out, *dtail_out;    /* [nx] [nx x ndir] */
+  double *transfer_mid, *transfer_rad; /* [PIECES_MAX x nx x ndir] slopes at the end of the step, one matrix for each piece */
+  double *whole_mid, *whole_rad;   /* [nx x ndir] the same for the whole set */
+  double *matrix;                  /* [nx x ndir] the point matrix that the set is moved with */
   double *seed, *no_radius; /* [ndir] */
-  double *added;          /* [nx] new box of the step */
-  double *piece_from, *piece_to; /* [PIECES_MAX x nc] ranges of xi */
-  uint32_t *cuts;         /* [nc] */
+  double *added;                   /* [nx] new box of the step */
+  double *piece_from, *piece_to;   /* [PIECES_MAX x nc] ranges of xi */
+  double *curvature;               /* [nc] how much slopes vary */
+  uint32_t pieces, *cuts;          /* of this step; [nc] into how many parts each xi is cut */
 
   /* -- the record */
   double *lo, *hi, *tube_lo, *tube_hi; /* [nx] */
-  double tube_from;
+  uint32_t culprit;                    /* the state that is too wide */
 } lohner;
 
 /* start.c: the initial set, from open() on */
@@ -82,18 +95,17 @@ void lohner_start(lohner *s); /* the set at time[0] */
 /* run.c */
 ambit_status lohner_run(void *self, ambit_sink *sink);
 
-/* step.c: a step that is proved, from series to bounds beyond them; UNABLE with the reason */
-ambit_status lohner_find_step(lohner *s);
+enum why lohner_find_step(lohner *s); /* step.c: series, a length, and its proof */
 /* series.c: coefficients of jets, values of polynomials */
 uint32_t lohner_centre_series(lohner *s);
 uint32_t lohner_box_series(lohner *s, const double *from, const double *to); /* from, to [nc]: part of xi's box */
 ball lohner_increment(const lohner *s, uint32_t i);                       /* of the centre over the step, with its excess */
-void lohner_transfer(const lohner *s, ball *transfer);                    /* slopes at the end of the step */
+void lohner_transfer(const lohner *s, double *mid, double *rad);          /* slopes at the end of the step */
 void lohner_tube(lohner *s);                                              /* bounds over the whole step */
-/* set.c: moving the set to the end of the step */
-void lohner_move(lohner *s);
-void lohner_hull(lohner *s); /* rest, radius, lo, hi of the set */
-void lohner_pieces(lohner *s);
+/* set.c */
+void lohner_pieces(lohner *s); /* slopes at the end of the step for the pieces of the set; destroys the box series */
+void lohner_move(lohner *s);   /* the set, from the start of the step to its end */
+void lohner_hull(lohner *s);   /* rest, radius, lo, hi of the set */
 
 /* history.c */
 int history_open(const ambit_host *h, history *g, uint32_t n, uint32_t keep);

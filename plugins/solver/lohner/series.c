@@ -22,8 +22,8 @@ uint32_t lohner_centre_series(lohner *s) {
   uint32_t flags = put_time_and_solve(s, s->centre_jet, p);
   for (uint32_t i = 0; i < s->nx && !flags; i++)
     for (uint32_t k = 0; k <= p; k++) {
-      ball *c = s->series + (size_t)i * (p + 1u) + k;
-      s->jet->get(s->centre_jet, input(s, i), k, &c->mid, &c->rad, NULL, NULL);
+      size_t at = (size_t)i * (p + 1u) + k;
+      s->jet->get(s->centre_jet, input(s, i), k, &s->series_mid[at], &s->series_rad[at], NULL, NULL);
     }
   return flags;
 }
@@ -64,10 +64,10 @@ uint32_t lohner_box_series(lohner *s, const double *from, const double *to) {
 
 ball lohner_increment(const lohner *s, uint32_t i) {
   uint32_t p = s->options.order;
-  const ball *c = s->series + (size_t)i * (p + 1u), none = { 0, 0 };
-  ball v = c[p];
-  for (uint32_t k = p; k-- > 1;) v = ball_horner(v, s->step, c[k]);
-  v = ball_horner(v, s->step, none);
+  const double *mid = s->series_mid + (size_t)i * (p + 1u), *rad = s->series_rad + (size_t)i * (p + 1u);
+  ball v = { mid[p], rad[p] };
+  for (uint32_t k = p; k-- > 1;) v = ball_horner(v, s->step, (ball) { mid[k], rad[k] });
+  v = ball_horner(v, s->step, (ball) { 0, 0 });
   v.rad += s->excess[i];
   return v;
 }
@@ -101,23 +101,47 @@ static ball times(ball a, double b) {
   return (ball) { r.mid, r.rad + a.rad * fabs(b) };
 }
 
-/* [-low, high] of sum_k c_k t^k, k < n, over the step: the first four terms as a cubic in s = t/h by Bernstein's coefficients, which
-** enclose it on [0, 1]; the rest by magnitudes */
-static void range(const lohner *s, const double *mid, const double *rad, size_t stride, size_t n, double *low, double *high) {
-  double h = s->step.h < 0 ? -s->step.length : s->step.length, rest = 0, length = s->step.length, power = 1;
-  ball u[4] = { { 0, 0 } }, b[4];
-  for (size_t k = 0; k < n; k++) {
-    ball c = { mid[k * stride], rad[k * stride] };
-    if (k < 4) {
-      u[k] = c;
-      for (size_t i = 0; i < k; i++) u[k] = times(u[k], h);
-    } else
-      rest += ball_magnitude(c) * power * length * length * length;
-    if (k >= 3) power *= length;
+typedef struct bounds { /* [-low, high] */
+  double low, high;
+} bounds;
+
+static bounds widest(bounds a, ball b) {
+  return (bounds) { larger(a.low, b.rad - b.mid), larger(a.high, b.mid + b.rad) };
+}
+
+/* Of sum_{k<n} c_k t^k over the step, n >= 4: with s = t/h the first four terms are a cubic on [0, 1], which lies within its Bernstein
+** coefficients b_0 .. b_3 [Farouki 2012]; here three times these. The rest by magnitudes. */
+static bounds range(const lohner *s, size_t n, const double *mid, const double *rad, size_t stride) {
+  double length = s->step.length, h = s->step.h < 0 ? -length : length, rest = 0;
+  for (size_t k = n; k-- > 4;) rest = rest * length + (fabs(mid[k * stride]) + rad[k * stride]);
+  for (int i = 0; i < 4; i++) rest *= length;
+  ball u[4];
+  for (size_t k = 0; k < 4; k++) {
+    u[k] = (ball) { mid[k * stride], rad[k * stride] };
+    for (size_t i = 0; i < k; i++) u[k] = times(u[k], h);
   }
-  b[0] = u[0];
-  b[1] = ball_add(u[0], times(u[1], 0x1.5555555555555p-2)); /* 1/3 within its radius, see below */
-  b[2] = b[0], b[3] = b[0];
-  (void)b;
-  *low = *high = rest;
+  ball start = times(u[0], 3), second = ball_add(start, u[1]);
+  ball third = ball_add(ball_add(start, times(u[1], 2)), u[2]);
+  ball end = times(ball_add(ball_add(u[0], u[1]), ball_add(u[2], u[3])), 3);
+  bounds b = { -INFINITY, -INFINITY };
+  b = widest(widest(widest(widest(b, start), second), third), end);
+  return (bounds) { b.low / 3 + rest, b.high / 3 + rest };
+}
+
+void lohner_tube(lohner *s) {
+  size_t p = s->options.order, q = s->options.slope_order, n = s->ndir;
+  for (uint32_t i = 0; i < s->nx; i++) {
+    size_t at = (size_t)i * (p + 1);
+    bounds b = range(s, p + 1, s->series_mid + at, s->series_rad + at, 1);
+    double rest = s->excess[i];
+    for (size_t j = 0; j < n; j++) {
+      size_t slope = (size_t)i * (q + 1) * n + j;
+      double reach = j < s->nc ? 1 : s->rest[j - s->nc] + fabs(s->low[j - s->nc]);
+      if (reach == 0) continue;
+      bounds d = range(s, q + 1, s->slope_mid + slope, s->slope_rad + slope, n);
+      rest += (larger(d.low, d.high) + s->slope_excess[(size_t)i * n + j]) * reach;
+    }
+    s->tube_lo[i] = -(b.low + rest);
+    s->tube_hi[i] = b.high + rest;
+  }
 }

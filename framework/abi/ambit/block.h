@@ -1,0 +1,58 @@
+/* block.h -- running a tape in a completed arithmetic, one lane: for solvers that need values and no series.
+**
+** Everything is allocated at opening, through the host; running allocates nothing.
+*/
+#ifndef AMBIT_BLOCK_H
+#define AMBIT_BLOCK_H
+#include "arithmetic.h"
+
+typedef struct ambit_lane {
+  const ambit_tape *tape;
+  const ambit_arithmetic *arithmetic;
+  void *ctx, *base;
+  size_t elem;
+} ambit_lane;
+
+static inline void *ambit_lane_at(const ambit_lane *lane, uint32_t slot) { return (char *)lane->base + slot * lane->elem; }
+
+/* [ctx] room for every slot, constants set; the memory is the host object's */
+static inline ambit_status ambit_lane_open(
+    ambit_lane *lane, const ambit_host *h, const ambit_tape *t, const ambit_arithmetic *arithmetic, void *actx) {
+  *lane = (ambit_lane) { t, arithmetic, actx, NULL, arithmetic->elem(actx) };
+  lane->base = h->alloc(h, t->nslot * lane->elem);
+  if (!lane->base) return AMBIT_NOMEM;
+  if (arithmetic->init && arithmetic->init(actx, lane->base, t->nslot) != AMBIT_OK) return AMBIT_NOMEM;
+  for (uint32_t i = 0; i < t->nconst; i++)
+    arithmetic->set(actx, ambit_lane_at(lane, i), 1, &t->lo[i], &t->hi[i], -1);
+  return AMBIT_OK;
+}
+
+static inline void ambit_lane_close(ambit_lane *lane) {
+  if (lane->base && lane->arithmetic->clear) lane->arithmetic->clear(lane->ctx, lane->base, lane->tape->nslot);
+}
+
+/* [ctx] input number `in` := [lo, hi] */
+static inline void ambit_lane_set(ambit_lane *lane, uint32_t in, double lo, double hi) {
+  lane->arithmetic->set(lane->ctx, ambit_lane_at(lane, lane->tape->nconst + in), 1, &lo, &hi, -1);
+}
+
+/* [ctx] every instruction; AMBIT_F_* */
+static inline uint32_t ambit_lane_run(ambit_lane *lane) {
+  const ambit_tape *t = lane->tape;
+  const ambit_arithmetic *a = lane->arithmetic;
+  uint32_t flags = 0;
+  if (a->enter) a->enter(lane->ctx);
+  for (uint32_t i = 0; i < t->nrun; i++) {
+    const ambit_run *run = &t->run[i];
+    flags |= a->run[run->op](a, lane->ctx, lane->base, 1, 1, run->count, t->dst + run->first, t->a + run->first,
+        t->b + run->first);
+  }
+  if (a->leave) a->leave(lane->ctx);
+  return flags;
+}
+
+/* [ctx] bounds of output number `out` */
+static inline void ambit_lane_get(const ambit_lane *lane, uint32_t out, double *lo, double *hi) {
+  lane->arithmetic->bounds(lane->ctx, ambit_lane_at(lane, lane->tape->out[out]), 1, lo, hi);
+}
+#endif

@@ -1,0 +1,182 @@
+/* step.c -- choosing a step and proving it.
+**
+** The series are computed once; for each length that is tried only tails are. The truncation error for a length comes from the tail
+** with eps = 0, which is what Picard's inclusion converges to; then the inclusion itself is checked with eps = GUESS times that, for
+** the centre and for the slopes over the whole set. If it holds, every solution from the set exists on the whole step and lies
+** within the polynomials and their excess [Nedialkov, Jackson & Pryce 2001 for the high-order form; docs/numerics/lohner.md].
+*/
+#include "lohner.h"
+
+#define TRIES 200
+#define SLOPE_TRIES 4
+#define GUESS 5.0        /* eps over the tail with eps = 0 */
+#define AIM 0.2          /* share of the tolerance that a new length aims at */
+#define LOW_WATER 0.02   /* a longer step is worth another tail below this share */
+#define GROWTH 3.0
+#define SHRINK 0.8
+#define TINY 0x1p-900    /* so that zero is its own proof */
+#define SLOPPY 0x1p-10   /* most that the excess of slopes may add to the set, relative */
+#define WIDE_SHARE 1e-9  /* of a wide set's radius that truncation may add */
+
+/* -- the length */
+
+/* The step ends at t_next; h is the exact distance or, if that is no double, known with its error. */
+static void set_span(lohner *s, double t_next) {
+  double above = t_next - s->t, below = -(s->t - t_next);
+  s->t_next = t_next;
+  s->step = (span) { above, above - below, larger(fabs(above), fabs(below)) };
+  s->step.length += s->step.error;
+}
+
+/* A step of about `length` > 0 that ends on the instant ahead or leaves room for a step of its own size before it. 0: it is none. */
+static int plan(lohner *s, double length) {
+  double goal = s->problem.time[s->next], ahead = fabs(goal - s->t);
+  s->at_instant = length >= ahead;
+  if (s->at_instant) set_span(s, goal);
+  else {
+    if (length > 0.5 * ahead) length = 0.5 * ahead;
+    set_span(s, goal > s->t ? s->t + length : s->t - length);
+  }
+  return s->t_next != s->t;
+}
+
+/* -- the centre */
+
+static double power(double x, uint32_t n) {
+  double r = 1;
+  for (uint32_t i = 0; i < n; i++) r *= x;
+  return r;
+}
+
+/* excess := H tail / (p + 1) for inputs whose tail is |x_p| H^p + eps; 0 if nothing could be computed */
+static int centre_excess(lohner *s, const double *eps) {
+  uint32_t p = s->options.order;
+  double H = s->step.length, top = power(H, p);
+  for (uint32_t i = 0; i < s->nx; i++) {
+    size_t at = (size_t)i * (p + 1u) + p;
+    s->tail_in[i] = (fabs(s->series_mid[at]) + s->series_rad[at]) * top + (eps ? eps[i] : 0);
+    if (!(s->tail_in[i] < INFINITY)) return 0;
+  }
+  if (s->jet->tail(s->centre_jet, p - 1, H, s->tail_in, NULL, s->tail_out, NULL) != AMBIT_OK) return 0;
+  for (uint32_t i = 0; i < s->nx; i++) s->excess[i] = H * s->tail_out[i] / (p + 1.0);
+  return 1;
+}
+
+/* truncation error over what is allowed, the worst component */
+static double truncation(lohner *s) {
+  uint32_t p = s->options.order;
+  double H = s->step.length, worst = 0;
+  if (!centre_excess(s, NULL)) return INFINITY;
+  for (uint32_t i = 0; i < s->nx; i++) {
+    const double *mid = s->series_mid + (size_t)i * (p + 1u);
+    double swing = H * (fabs(mid[1]) + H * (fabs(mid[2]) + H * fabs(mid[3])));
+    double allowed = s->options.tolerance * larger(s->size[i], swing) + WIDE_SHARE * s->radius[i];
+    double ratio = s->excess[i] / (allowed + TINY);
+    if (!(ratio <= worst)) worst = ratio; /* NaN too */
+  }
+  return worst >= 0 ? worst : INFINITY;
+}
+
+static int centre_is_proved(lohner *s) {
+  double *eps = s->added; /* free until the set moves */
+  for (uint32_t i = 0; i < s->nx; i++) eps[i] = GUESS * s->excess[i] + TINY;
+  if (!centre_excess(s, eps)) return 0;
+  for (uint32_t i = 0; i < s->nx; i++)
+    if (!(s->excess[i] <= eps[i])) return 0;
+  return 1;
+}
+
+/* -- the slopes over the box of the whole set */
+
+/* value and slope excesses from guesses; NULL: zero */
+static int slope_excess(lohner *s, const double *eps, const double *deps) {
+  uint32_t q = s->options.slope_order, n = s->ndir;
+  double H = s->step.length, top = power(H, q);
+  for (uint32_t i = 0; i < s->nx; i++) {
+    double mid, rad;
+    s->jet->get(s->box_jet, s->problem.rhs->nconst + i, q, &mid, &rad, NULL, NULL);
+    s->tail_in[i] = (fabs(mid) + rad) * top + (eps ? eps[i] : 0);
+    if (!(s->tail_in[i] < INFINITY)) return 0;
+    size_t at = ((size_t)i * (q + 1u) + q) * n;
+    for (uint32_t j = 0; j < n; j++) {
+      double slope = (fabs(s->slope_mid[at + j]) + s->slope_rad[at + j]) * top;
+      s->dtail_in[(size_t)i * n + j] = slope + (deps ? deps[(size_t)i * n + j] : 0);
+    }
+  }
+  if (s->jet->tail(s->box_jet, q - 1, H, s->tail_in, s->dtail_in, s->tail_out, s->dtail_out) != AMBIT_OK) return 0;
+  for (uint32_t i = 0; i < s->nx; i++) s->box_excess[i] = H * s->tail_out[i] / (q + 1.0);
+  for (size_t k = 0; k < (size_t)s->nx * n; k++) s->slope_excess[k] = H * s->dtail_out[k] / (q + 1.0);
+  return 1;
+}
+
+static int within(size_t n, const double *a, const double *b) {
+  for (size_t k = 0; k < n; k++)
+    if (!(a[k] <= b[k])) return 0;
+  return 1;
+}
+
+static void widen(size_t n, const double *from, double *to, double factor) {
+  for (size_t k = 0; k < n; k++) to[k] = factor * from[k] + TINY;
+}
+
+static int slopes_are_proved(lohner *s) {
+  size_t entries = (size_t)s->nx * s->ndir;
+  if (!slope_excess(s, NULL, NULL)) return 0;
+  for (int i = 0; i < SLOPE_TRIES; i++) {
+    widen(s->nx, s->box_excess, s->added, i ? 2 : GUESS);
+    widen(entries, s->slope_excess, s->slope_guess, i ? 2 : GUESS);
+    if (!slope_excess(s, s->added, s->slope_guess)) return 0;
+    if (within(s->nx, s->box_excess, s->added) && within(entries, s->slope_excess, s->slope_guess)) return 1;
+  }
+  return 0;
+}
+
+/* what the excess of slopes adds to the set is small beside the set */
+static int slopes_are_sharp(const lohner *s) {
+  for (uint32_t i = 0; i < s->nx; i++) {
+    double added = 0;
+    for (uint32_t j = 0; j < s->ndir; j++)
+      added += s->slope_excess[(size_t)i * s->ndir + j] * (j < s->nc ? 1 : s->rest[j - s->nc] + fabs(s->low[j - s->nc]));
+    if (!(added <= SLOPPY * s->radius[i] + s->options.tolerance * s->size[i] + TINY)) return 0;
+  }
+  return 1;
+}
+
+/* -- both */
+
+/* the next length to try for a ratio of error to tolerance that goes like its power p + 1 */
+static double rescaled(const lohner *s, double ratio) {
+  double factor = ratio > 0 ? pow(AIM / ratio, 1.0 / (s->options.order + 1.0)) : GROWTH;
+  if (!(factor > 0.1)) factor = 0.1;
+  return s->step.length * smaller(factor, GROWTH);
+}
+
+static enum why search(lohner *s) {
+  double most = s->options.step_max, length = smaller(s->guess, most);
+  for (int i = 0; i < TRIES; i++) {
+    if (!plan(s, length) || (s->step.length < s->options.step_min && !s->at_instant)) return WHY_NO_STEP;
+    double ratio = truncation(s);
+    if (ratio > 1) {
+      length = rescaled(s, ratio);
+      continue;
+    }
+    int cut_short = s->at_instant || s->step.length < 0.99 * length;
+    if (ratio < LOW_WATER && !cut_short && length < most) {
+      length = ratio > 0 ? smaller(rescaled(s, ratio), most) : most;
+      continue;
+    }
+    if (centre_is_proved(s) && slopes_are_proved(s) && slopes_are_sharp(s)) {
+      s->guess = cut_short ? larger(length, rescaled(s, ratio)) : rescaled(s, ratio);
+      return WHY_NOTHING;
+    }
+    most = length = SHRINK * s->step.length;
+  }
+  return WHY_NO_STEP;
+}
+
+enum why lohner_find_step(lohner *s) {
+  if (lohner_centre_series(s)) return WHY_CENTRE;
+  for (uint32_t j = 0; j < s->nc; j++) s->piece_from[j] = -1, s->piece_to[j] = 1;
+  if (lohner_box_series(s, s->piece_from, s->piece_to)) return WHY_BOX;
+  return search(s);
+}
