@@ -19,11 +19,11 @@ local run = ambit.simulate {
   t = times, solver = "lohner",
 }
 
-print "t, s   beta1, rad          beta2, rad          beta1', rad/s       beta2', rad/s"
-for _, t in ipairs(times) do
-  if tonumber(t) <= run.t_reached then
-    local x = run:at(t)
-    print(("%.1f    %-18s  %-18s  %-18s  %s"):format(t, x.beta1, x.beta2, x["beta1'"], x["beta2'"]))
+print "t, s   beta1, rad         beta2, rad            beta1', rad/s        beta2', rad/s"
+for i = 2, #times do
+  if tonumber(times[i]) <= run.t_reached then
+    local x = run:at(times[i])
+    print(("%.1f    %-17s  %-20s  %-19s  %s"):format(times[i], x.beta1, x.beta2, x["beta1'"], x["beta2'"]))
   end
 end
 print(run)

@@ -15,12 +15,12 @@ local lorenz = ambit.ode {
 local run = ambit.simulate { lorenz, initial = { x = 15, y = 15, z = 36 }, t = { 0, 1, 5, 10, 15, 20 },
   solver = "lohner" }
 
-print(("%-5s  %-32s  %-32s  %-32s  %s"):format("t, s", "x", "y", "z", "width"))
+print(("%-5s  %-38s  %-38s  %-38s  %s"):format("t, s", "x", "y", "z", "width"))
 for _, t in ipairs { 1, 5, 10, 15, 20 } do
   if t <= run.t_reached then
     local x = run:at(t)
     local width = math.max(x.x:width(), x.y:width(), x.z:width())
-    print(("%-5g  %-32s  %-32s  %-32s  %.1e"):format(t, x.x, x.y, x.z, width))
+    print(("%-5g  %-38s  %-38s  %-38s  %.1e"):format(t, x.x, x.y, x.z, width))
   end
 end
 print(run)

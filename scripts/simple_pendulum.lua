@@ -8,11 +8,11 @@ local pendulum = ambit.ode {
 
 local run = ambit.simulate { pendulum, initial = { phi = 1, omega = 0 }, t = { 0, 25, 50, 75, 100 }, solver = "lohner" }
 
-print "t, s   phi, rad                            omega, rad/s                        width"
+print(("%-5s  %-38s  %-38s  %s"):format("t, s", "phi, rad", "omega, rad/s", "width"))
 for _, t in ipairs { 25, 50, 75, 100 } do
   if t <= run.t_reached then
     local x = run:at(t)
-    print(("%-5g  %-34s  %-34s  %.1e"):format(t, x.phi, x.omega, math.max(x.phi:width(), x.omega:width())))
+    print(("%-5g  %-38s  %-38s  %.1e"):format(t, x.phi, x.omega, math.max(x.phi:width(), x.omega:width())))
   end
 end
 print(run)

@@ -17,7 +17,7 @@ local function report(what, initial, times)
   for i = 2, #times do
     if times[i] <= run.t_reached then
       local x = run:at(times[i])
-      print(("  t = %-4g  x in %-36s  v in %s"):format(times[i], x.x, x.v))
+      print(("  t = %-4g  x in %-42s  v in %s"):format(times[i], x.x, x.v))
     end
   end
   print("  " .. tostring(run))

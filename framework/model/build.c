@@ -60,8 +60,10 @@ static const ambit_coordinate *make_coordinate(build *s, uint32_t index, const c
   ambit_mechanism *m = s->m;
   const ambit_part *p = part_of(s);
   char q[128], qd[132], qdd[132], ud[80], udd[80];
-  if (p->dof > 1) snprintf(q, sizeof q, "%.100s.%u", p->name, index + 1);
-  else snprintf(q, sizeof q, "%.100s", p->name);
+  if (p->dof > 1)
+    snprintf(q, sizeof q, "%.100s.%u", p->name, index + 1);
+  else
+    snprintf(q, sizeof q, "%.100s", p->name);
   snprintf(qd, sizeof qd, "%s'", q);
   snprintf(qdd, sizeof qdd, "%s''", q);
   snprintf(ud, sizeof ud, "%.60s/s", unit);
@@ -71,9 +73,13 @@ static const ambit_coordinate *make_coordinate(build *s, uint32_t index, const c
       fail(&s->open, AMBIT_INVALID, "its coordinate `%s` has the name of another one", q);
       return NULL;
     }
-  ambit_coordinate *grown = ambit_vector_reserve(m->coordinate, &m->coordinate_capacity, m->ncoordinate + 1, sizeof *grown);
+  ambit_coordinate *grown =
+      ambit_vector_reserve(m->coordinate, &m->coordinate_capacity, m->ncoordinate + 1, sizeof *grown);
   if (grown) m->coordinate = grown;
-  ambit_coordinate c = { .name = ambit_arena_text(m->arena, q), .unit = ambit_arena_text(m->arena, unit), .part = s->cell->part, .index = index };
+  ambit_coordinate c = { .name = ambit_arena_text(m->arena, q),
+    .unit = ambit_arena_text(m->arena, unit),
+    .part = s->cell->part,
+    .index = index };
   c.q = ambit_graph_symbol(m->graph, q, unit);
   c.qd = ambit_graph_symbol(m->graph, qd, ud);
   c.qdd = ambit_graph_symbol(m->graph, qdd, udd);
@@ -101,7 +107,9 @@ static ambit_expr state(ambit_build *b, uint32_t i, uint32_t order, const char *
 
 /* -- pulling */
 
-/* The cell of a quantity at a port of the element itself; NULL: the failure says why, or an optional port is not connected. */
+/* The cell of a quantity at a port of the element itself; NULL: the failure says why, or an optional port is not
+** connected.
+*/
 static ambit_cell *reach(build *s, uint32_t port, uint32_t quantity) {
   ambit_mechanism *m = s->m;
   const ambit_part *p = part_of(s);
@@ -125,7 +133,8 @@ static const ambit_expr *get(ambit_build *b, uint32_t port, uint32_t quantity) {
   if (!cell) return NULL;
   const ambit_expr *value = ambit_pull_cell(s->m, cell, s->cell);
   if (!value && !s->m->deferred && cell->state == AMBIT_CELL_DECLINED)
-    fail(b, AMBIT_INVALID, "it needs the %s of `%s`, which has none", ambit_quantity_name(quantity), s->m->part[cell->part].name);
+    fail(b, AMBIT_INVALID, "it needs the %s of `%s`, which has none", ambit_quantity_name(quantity),
+        s->m->part[cell->part].name);
   return value;
 }
 
@@ -138,7 +147,8 @@ static ambit_expr unknown(ambit_build *b, const char *lo, const char *hi) {
   if (ambit_decimal_read(lo, &l, NULL, &f) != AMBIT_OK || ambit_decimal_read(hi, &h, NULL, &f) != AMBIT_OK)
     return refuse(s, f.status, f.message);
   ambit_interval range = { l.lo, h.hi };
-  if (!(l.lo <= h.hi) || !ambit_interval_is_bounded(range)) return refuse(s, AMBIT_BROKEN, "it asks for an unknown in an empty or unbounded interval");
+  if (!(l.lo <= h.hi) || !ambit_interval_is_bounded(range))
+    return refuse(s, AMBIT_BROKEN, "it asks for an unknown in an empty or unbounded interval");
   return ambit_graph_unknown(s->m->graph, NULL, range);
 }
 
@@ -149,7 +159,8 @@ static ambit_expr leaf_rate(const build *s, ambit_expr x, ambit_failure *f) {
     if (x == c->q) return c->qd;
     if (x == c->qd) return c->qdd;
     if (x != c->qdd) continue;
-    ambit_fail(f, AMBIT_INVALID, "a given motion depends on `%s''`: its time derivative would need a third one", c->name);
+    ambit_fail(
+        f, AMBIT_INVALID, "a given motion depends on `%s''`: its time derivative would need a third one", c->name);
     return AMBIT_NO_EXPR;
   }
   return 0; /* fixed; the graph itself knows the rate of TIME */
@@ -183,7 +194,9 @@ static void range(ambit_build *b, ambit_expr x, double *lo, double *hi) {
 }
 
 ambit_status ambit_build_express(ambit_mechanism *m, ambit_cell *cell, ambit_expr *out) {
-  build s = { .open = { sizeof s.open, num, op, param, state, get, unknown, fail, diff_time, range }, .m = m, .cell = cell };
+  build s = {
+    .open = { sizeof s.open, num, op, param, state, get, unknown, fail, diff_time, range }, .m = m, .cell = cell
+  };
   return part_of(&s)->element->express(&s.open, cell->port, cell->quantity, out);
 }
 
@@ -201,4 +214,6 @@ static ambit_status express_world(ambit_build *b, uint32_t port, uint32_t quanti
 }
 
 static const ambit_port world_port[] = { { "to", AMBIT_PORT_FRAME, AMBIT_ROLE_OUT, 0, 0, "the world's own frame" } };
-const ambit_element ambit_world_element = { .size = sizeof ambit_world_element, .nport = 1, .port = world_port, .express = express_world };
+const ambit_element ambit_world_element = {
+  .size = sizeof ambit_world_element, .nport = 1, .port = world_port, .express = express_world
+};

@@ -1,13 +1,17 @@
-/* dynamics.c -- equations of motion: M(q) q'' = h(q, q', t), M = U D U^T inside the graph, and the first-order system.
+/* dynamics.c -- equations of motion: M(q) q'' = h(q, q', t), M = U D U^T inside the graph, and the first-order
+** system.
 **
-** Principle of virtual power: the balance of joint i, r_i(q, q', q''), is the power of all wrenches and efforts along q_i' per unit rate, and vanishes.
-** It is affine in q'': M = -dr/dq'', h = r at q'' = 0. A joint whose given motion is a function s(q) of the coordinates (a gear) does
-** no work of its own, so its balance enters as r_i + r_s ds/dq_i. M is symmetric, and positive definite for physical masses.
+** Principle of virtual power: the balance of joint i, r_i(q, q', q''), is the power of all wrenches and efforts along
+** q_i' per unit rate, and vanishes. It is affine in q'': M = -dr/dq'', h = r at q'' = 0. A joint whose given motion
+** is a function s(q) of the coordinates (a gear) does no work of its own, so its balance enters as r_i + r_s ds/dq_i.
+** M is symmetric, and positive definite for physical masses.
 **
-** M = U D U^T with unit upper triangular U, from the last coordinate (the tip) to the first, without pivoting: the order in which an open chain
-** fills in least and in which the pivots are the masses felt at each joint (Featherstone 2008, ch. 6 and 7).
+** M = U D U^T with unit upper triangular U, from the last coordinate (the tip) to the first, without pivoting: the
+** order in which an open chain fills in least and in which the pivots are the masses felt at each joint (Featherstone
+** 2008, ch. 6 and 7).
 */
 #include "model/dynamics.h"
+#include "model/pivot.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -19,14 +23,16 @@ typedef struct equations {
   ambit_arena *arena;
   ambit_failure *f;
   size_t n;
-  ambit_coordinate *coordinate; /* [n] */
+  ambit_coordinate *coordinate;    /* [n] */
   ambit_expr *q, *qd, *qdd, *zero; /* [n] */
-  ambit_expr *balance;          /* [n] r */
+  ambit_expr *balance;             /* [n] r */
 } equations;
 
 static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
 
-static ambit_expr *expressions(ambit_arena *arena, size_t n) { return ambit_arena_alloc(arena, (n + 1) * sizeof(ambit_expr)); }
+static ambit_expr *expressions(ambit_arena *arena, size_t n) {
+  return ambit_arena_alloc(arena, (n + 1) * sizeof(ambit_expr));
+}
 
 /* Calls `visit` for every joint that an element makes. */
 static ambit_status each_joint(equations *s, ambit_status (*visit)(equations *s, ambit_frame joint, uint32_t dof)) {
@@ -49,7 +55,9 @@ static ambit_status read_coordinates(equations *s) {
   if (each_joint(s, need_coordinate) != AMBIT_OK) return AMBIT_INVALID;
   s->n = ambit_mechanism_coordinates(s->m, 0, NULL);
   if (s->n == 0)
-    return ambit_fail(s->f, AMBIT_INVALID, "the mechanism has no coordinates, so nothing moves by itself: leave the angle or displacement of a joint open");
+    return ambit_fail(s->f, AMBIT_INVALID,
+        "the mechanism has no coordinates, so nothing moves by itself: leave the angle or displacement of a joint "
+        "open");
   s->coordinate = ambit_arena_alloc(s->arena, s->n * sizeof *s->coordinate);
   s->q = expressions(s->arena, s->n);
   s->qd = expressions(s->arena, s->n);
@@ -98,7 +106,8 @@ static ambit_status add_joint(equations *s, ambit_frame joint, uint32_t dof) {
       const ambit_expr *r = ambit_mechanism_pull(s->m, joint, AMBIT_BALANCE, s->f);
       if (!r) return AMBIT_INVALID;
       s->balance[i] = ambit_graph_op(s->g, AMBIT_OP_ADD, s->balance[i], r[k]);
-    } else if (!ambit_graph_node(s->g, coordinate[k])->constant) status = add_follower(s, joint, k, coordinate[k]);
+    } else if (!ambit_graph_node(s->g, coordinate[k])->constant)
+      status = add_follower(s, joint, k, coordinate[k]);
     if (status != AMBIT_OK) return status;
   }
   return AMBIT_OK;
@@ -114,8 +123,8 @@ static ambit_status check_affine(const equations *s, ambit_expr entry, size_t i)
     ambit_expr second = ambit_graph_derivative(s->g, entry, s->qdd[k], s->f);
     if (second == AMBIT_NO_EXPR) return AMBIT_INVALID;
     if (second != 0)
-      return ambit_fail(s->f, AMBIT_INVALID, "the forces on joint `%s` are not linear in the acceleration of `%s`", s->coordinate[i].name,
-          s->coordinate[k].name);
+      return ambit_fail(s->f, AMBIT_INVALID, "the forces on joint `%s` are not linear in the acceleration of `%s`",
+          s->coordinate[i].name, s->coordinate[k].name);
   }
   return AMBIT_OK;
 }
@@ -135,14 +144,16 @@ static ambit_status build_mass(const equations *s, ambit_expr *mass) {
     size_t j = 0;
     while (j < n && mass[i * n + j] == 0) j++;
     if (j == n)
-      return ambit_fail(s->f, AMBIT_INVALID, "joint `%s` moves no mass: attach a rigid_body or point_mass to what it carries", s->coordinate[i].name);
+      return ambit_fail(s->f, AMBIT_INVALID,
+          "joint `%s` moves no mass: attach a rigid_body or point_mass to what it carries", s->coordinate[i].name);
   }
   return AMBIT_OK;
 }
 
-/* h as what it is at rest (weights, springs) plus what the rates add (Coriolis forces, dampers), each simplified apart: their common factors
-** differ. A second pass collects what the first has made equal. Whichever is shorter, that or h as a whole; h as a whole where it is not
-** defined at rest. */
+/* h as what it is at rest (weights, springs) plus what the rates add (Coriolis forces, dampers), each simplified
+** apart: their common factors differ. A second pass collects what the first has made equal. Whichever is shorter,
+** that or h as a whole; h as a whole where it is not defined at rest.
+*/
 static ambit_expr shorter_force(const equations *s, ambit_expr h, ambit_expr at_rest) {
   ambit_expr whole = simplify(s, h);
   if (!ambit_graph_node(s->g, at_rest)->total) return whole;
@@ -186,7 +197,9 @@ typedef struct factors {
   ambit_expr *u; /* [n*n] upper triangle: what is left of M, then U; on the diagonal D */
 } factors;
 
-static ambit_expr op(const factors *s, uint32_t code, ambit_expr a, ambit_expr b) { return ambit_graph_op(s->g, code, a, b); }
+static ambit_expr op(const factors *s, uint32_t code, ambit_expr a, ambit_expr b) {
+  return ambit_graph_op(s->g, code, a, b);
+}
 
 /* a - b c, where b or c may be a structural zero */
 static ambit_expr reduce(const factors *s, ambit_expr a, ambit_expr b, ambit_expr c) {
@@ -194,17 +207,16 @@ static ambit_expr reduce(const factors *s, ambit_expr a, ambit_expr b, ambit_exp
   return op(s, AMBIT_OP_SUB, a, op(s, AMBIT_OP_MUL, b, c));
 }
 
-/* A pivot that is a number must be told from 0; one that depends on the position may vanish there only. */
 static ambit_status check_pivot(const factors *s, const ambit_motion *motion, size_t k, ambit_failure *f) {
   ambit_expr pivot = s->u[k * s->n + k];
-  if (pivot == AMBIT_NO_EXPR) return no_memory(f);
-  const ambit_node *x = ambit_graph_node(s->g, pivot);
   const char *name = motion->coordinate[k].name;
-  if (x->constant && x->range.lo <= 0 && x->range.hi >= 0)
-    return ambit_fail(f, AMBIT_INVALID, "the mass matrix is singular in every position: joint `%s` moves no mass of its own", name);
-  if (x->range.hi < 0)
+  if (pivot == AMBIT_NO_EXPR) return no_memory(f);
+  ambit_interval range = ambit_graph_node(s->g, pivot)->range;
+  if (range.hi < 0)
     return ambit_fail(f, AMBIT_INVALID, "the mass matrix is not positive: joint `%s` moves a negative mass", name);
-  return AMBIT_OK;
+  if (range.lo > 0 || !ambit_pivot_vanishes(s->g, pivot)) return AMBIT_OK;
+  return ambit_fail(
+      f, AMBIT_INVALID, "the mass matrix is singular in every position: joint `%s` moves no mass of its own", name);
 }
 
 static ambit_status factorise(const factors *s, const ambit_motion *motion, ambit_failure *f) {
@@ -271,7 +283,8 @@ ambit_status ambit_dynamics_system(ambit_mechanism *m, ambit_arena *arena, ambit
   ambit_status status = ambit_motion_build(m, arena, &motion, f);
   if (status != AMBIT_OK) return status;
   size_t n = motion.n;
-  const char **name = ambit_arena_alloc(arena, 2 * n * sizeof *name), **unit = ambit_arena_alloc(arena, 2 * n * sizeof *unit);
+  const char **name = ambit_arena_alloc(arena, 2 * n * sizeof *name),
+             **unit = ambit_arena_alloc(arena, 2 * n * sizeof *unit);
   ambit_expr *state = expressions(arena, 2 * n), *rate = expressions(arena, 2 * n);
   if (!name || !unit || !state || !rate) return no_memory(f);
   status = ambit_motion_accelerations(ambit_mechanism_graph(m), &motion, rate + n, f);

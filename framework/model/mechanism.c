@@ -9,7 +9,8 @@
 static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
 
 const char *ambit_part_who(const ambit_part *p, char out[AMBIT_WHO_MAX]) {
-  snprintf(out, AMBIT_WHO_MAX, "%s `%s`%s%s%s", p->type, p->name, p->where ? " (" : "", p->where ? p->where : "", p->where ? ")" : "");
+  snprintf(out, AMBIT_WHO_MAX, "%s `%s`%s%s%s", p->type, p->name, p->where ? " (" : "", p->where ? p->where : "",
+      p->where ? ")" : "");
   return out;
 }
 
@@ -89,7 +90,9 @@ static ambit_status make_cells(ambit_mechanism *m, ambit_part *p, uint32_t numbe
   return AMBIT_OK;
 }
 
-/* What was summed over the attached elements no longer holds. Values that elements made without sums stay, with their unknowns. */
+/* What was summed over the attached elements no longer holds. Values that elements made without sums stay, with their
+** unknowns.
+*/
 static void forget_sums(ambit_mechanism *m) {
   if (m->nopen == 0) return;
   for (size_t i = 0; i < m->count; i++) {
@@ -112,23 +115,25 @@ static ambit_status check_connection(
   char who[AMBIT_WHO_MAX];
   ambit_part_who(p, who);
   if (to.part == UINT32_MAX)
-    return ambit_fail(f, AMBIT_INVALID, "%s: port `%s` is not connected; it needs a %s", who, own->name, kind_name(own->kind));
+    return ambit_fail(
+        f, AMBIT_INVALID, "%s: port `%s` is not connected; it needs a %s", who, own->name, kind_name(own->kind));
   if (to.part >= m->count)
-    return ambit_fail(f, AMBIT_INVALID, "%s: port `%s` is connected to part %u, which does not exist", who, own->name, to.part);
+    return ambit_fail(
+        f, AMBIT_INVALID, "%s: port `%s` is connected to part %u, which does not exist", who, own->name, to.part);
   const ambit_part *other = &m->part[to.part];
   if (to.port >= other->element->nport)
-    return ambit_fail(f, AMBIT_INVALID, "%s: port `%s` is connected to port %u of `%s`, which has %u", who, own->name, to.port,
-        other->name, other->element->nport);
+    return ambit_fail(f, AMBIT_INVALID, "%s: port `%s` is connected to port %u of `%s`, which has %u", who, own->name,
+        to.port, other->name, other->element->nport);
   const ambit_port *theirs = &other->element->port[to.port];
   if (theirs->role != AMBIT_ROLE_OUT)
-    return ambit_fail(f, AMBIT_INVALID, "%s: port `%s` is connected to `%s` of `%s`, which is itself to be connected", who, own->name,
-        theirs->name, other->name);
+    return ambit_fail(f, AMBIT_INVALID, "%s: port `%s` is connected to `%s` of `%s`, which is itself to be connected",
+        who, own->name, theirs->name, other->name);
   if (theirs->kind != own->kind)
-    return ambit_fail(f, AMBIT_INVALID, "%s: port `%s` needs a %s, but `%s` of `%s` is a %s", who, own->name, kind_name(own->kind),
-        theirs->name, other->name, kind_name(theirs->kind));
+    return ambit_fail(f, AMBIT_INVALID, "%s: port `%s` needs a %s, but `%s` of `%s` is a %s", who, own->name,
+        kind_name(own->kind), theirs->name, other->name, kind_name(theirs->kind));
   if (own->dof != theirs->dof)
-    return ambit_fail(f, AMBIT_INVALID, "%s: port `%s` needs a joint of %u degrees of freedom, but `%s` of `%s` has %u", who, own->name,
-        own->dof, theirs->name, other->name, theirs->dof);
+    return ambit_fail(f, AMBIT_INVALID, "%s: port `%s` needs a joint of %u degrees of freedom, but `%s` of `%s` has %u",
+        who, own->name, own->dof, theirs->name, other->name, theirs->dof);
   return AMBIT_OK;
 }
 
@@ -239,7 +244,9 @@ void ambit_mechanism_close(ambit_mechanism *m) {
 ambit_graph *ambit_mechanism_graph(ambit_mechanism *m) { return m->graph; }
 uint32_t ambit_mechanism_count(const ambit_mechanism *m) { return (uint32_t)m->count; }
 const char *ambit_mechanism_part_name(const ambit_mechanism *m, uint32_t part) { return m->part[part].name; }
-const ambit_element *ambit_mechanism_part_element(const ambit_mechanism *m, uint32_t part) { return m->part[part].element; }
+const ambit_element *ambit_mechanism_part_element(const ambit_mechanism *m, uint32_t part) {
+  return m->part[part].element;
+}
 
 void ambit_mechanism_pulled(const ambit_mechanism *m, size_t *pulled, size_t *all) {
   *pulled = m->pulled;

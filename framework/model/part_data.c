@@ -52,7 +52,8 @@ static bool read_numbers(ambit_graph *g, const char *text, size_t n, ambit_expr 
 static bool read_fallback(ambit_graph *g, const ambit_param *param, size_t n, ambit_expr *out) {
   const char *text = param->fallback;
   if (strchr(param->shape, '|')) return read_choice(g, param->shape, text, out);
-  if (strcmp(param->shape, "flag") == 0) return read_choice(g, "false|true", text, out) || read_choice(g, "0|1", text, out);
+  if (strcmp(param->shape, "flag") == 0)
+    return read_choice(g, "false|true", text, out) || read_choice(g, "0|1", text, out);
   if (strcmp(param->shape, "axis") == 0 && read_axis(g, text, out)) return true;
   return read_numbers(g, text, n, out);
 }
@@ -63,21 +64,25 @@ static ambit_status take_param(ambit_mechanism *m, ambit_part *p, size_t i, cons
   size_t n = components(param);
   ambit_part_who(p, who);
   if (!given && !param->fallback)
-    return ambit_fail(f, AMBIT_INVALID, "%s needs `%s`: %s", who, param->name, param->doc ? param->doc : "no description");
+    return ambit_fail(
+        f, AMBIT_INVALID, "%s needs `%s`: %s", who, param->name, param->doc ? param->doc : "no description");
   if (!given && !*param->fallback) return AMBIT_OK;
   ambit_expr *value = ambit_arena_alloc(m->arena, n * sizeof *value);
   if (!value) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
   p->param[i] = value;
-  if (given) memcpy(value, given, n * sizeof *value);
+  if (given)
+    memcpy(value, given, n * sizeof *value);
   else if (!read_fallback(m->graph, param, n, value))
-    return ambit_fail(f, AMBIT_INVALID, "%s: the fallback `%s` of `%s` is not of its shape", who, param->fallback, param->name);
+    return ambit_fail(
+        f, AMBIT_INVALID, "%s: the fallback `%s` of `%s` is not of its shape", who, param->fallback, param->name);
   for (size_t k = 0; k < n; k++)
     if (value[k] >= ambit_graph_count(m->graph))
       return ambit_fail(f, AMBIT_INVALID, "%s: component %zu of `%s` is no expression", who, k + 1, param->name);
   return AMBIT_OK;
 }
 
-ambit_status ambit_part_take_params(ambit_mechanism *m, ambit_part *p, const ambit_expr *const *given, ambit_failure *f) {
+ambit_status ambit_part_take_params(
+    ambit_mechanism *m, ambit_part *p, const ambit_expr *const *given, ambit_failure *f) {
   ambit_status status = AMBIT_OK;
   p->nparam = ambit_params_count(p->element->param);
   p->param = ambit_arena_alloc(m->arena, (p->nparam + 1) * sizeof *p->param);

@@ -52,7 +52,8 @@ ambit_status ambit_part_check_name(const ambit_mechanism *m, const ambit_part *p
   if (n == 0) return ambit_fail(f, AMBIT_INVALID, "%s: the name is empty", who);
   if (n > NAME_BYTES) return ambit_fail(f, AMBIT_INVALID, "%s: the name is longer than %d bytes", who, NAME_BYTES);
   for (size_t i = 0; i < n; i++)
-    if ((unsigned char)p->name[i] < ' ') return ambit_fail(f, AMBIT_INVALID, "%s: the name has a control character", who);
+    if ((unsigned char)p->name[i] < ' ')
+      return ambit_fail(f, AMBIT_INVALID, "%s: the name has a control character", who);
   if (p->name[n - 1] == '\'')
     return ambit_fail(f, AMBIT_INVALID, "%s: a name cannot end in `'`: that marks time derivatives", who);
   const ambit_part *other = find_name(m, p->name);
@@ -65,7 +66,8 @@ static struct ambit_type_count *counter(ambit_mechanism *m, const char *type) {
   ambit_part_names *names = &m->names;
   for (size_t i = 0; i < names->ntype; i++)
     if (strcmp(names->type[i].type, type) == 0) return &names->type[i];
-  struct ambit_type_count *grown = ambit_vector_reserve(names->type, &names->type_capacity, names->ntype + 1, sizeof *grown);
+  struct ambit_type_count *grown =
+      ambit_vector_reserve(names->type, &names->type_capacity, names->ntype + 1, sizeof *grown);
   if (!grown) return NULL;
   names->type = grown;
   grown[names->ntype] = (struct ambit_type_count) { ambit_arena_text(m->arena, type), 1 };

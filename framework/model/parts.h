@@ -1,16 +1,16 @@
-/* parts.h -- the inside of a mechanism, shared by mechanism.c, part_names.c and part_data.c (what it consists of), pull.c
-** (demand) and build.c (what elements see).
+/* parts.h -- the inside of a mechanism, shared by mechanism.c, part_names.c and part_data.c (what it consists of),
+** pull.c (demand) and build.c (what elements see).
 **
-** A cell remembers one (part, port, quantity): what express() wrote, or the sum over everything attached. While it is being
-** worked out, `next` is the cell that it waits for, so that a loop can be named.
+** A cell remembers one (part, port, quantity): what express() wrote, or the sum over everything attached. While it is
+** being worked out, `next` is the cell that it waits for, so that a loop can be named.
 */
 #ifndef AMBIT_PARTS_H
 #define AMBIT_PARTS_H
 #include "model/mechanism.h"
 
 #define AMBIT_CELL_EMPTY 0u
-#define AMBIT_CELL_BUSY 1u     /* its express() is running */
-#define AMBIT_CELL_WAITING 2u  /* its express() was broken off because the stack was deep; see pull.c */
+#define AMBIT_CELL_BUSY 1u    /* its express() is running */
+#define AMBIT_CELL_WAITING 2u /* its express() was broken off because the stack was deep; see pull.c */
 #define AMBIT_CELL_DONE 3u
 #define AMBIT_CELL_DECLINED 4u /* the element has none */
 
@@ -18,15 +18,15 @@ typedef struct ambit_cell {
   const ambit_expr *value; /* DONE; lives as long as the mechanism */
   struct ambit_cell *next;
   uint32_t part, port, quantity;
-  uint32_t request;        /* WAITING: number of the request that was broken off */
+  uint32_t request; /* WAITING: number of the request that was broken off */
   uint8_t state;
-  bool open;               /* depends on a sum over attached elements: void when a part is added */
+  bool open; /* depends on a sum over attached elements: void when a part is added */
 } ambit_cell;
 
 #define AMBIT_COLUMNS 5u /* cells per port: the quantities of a joint; a frame has 4, the part as a whole 2 */
 
-typedef struct ambit_joined { /* one end of a connection */
-  uint32_t part, port;        /* IN port: what it is connected to; OUT port: the first attached */
+typedef struct ambit_joined {    /* one end of a connection */
+  uint32_t part, port;           /* IN port: what it is connected to; OUT port: the first attached */
   uint32_t next_part, next_port; /* IN port: the next one attached to the same OUT port; part UINT32_MAX ends */
 } ambit_joined;
 
@@ -35,10 +35,10 @@ typedef struct ambit_part {
   const char *type, *name, *where; /* where: NULL if unknown */
   const ambit_expr **param;        /* NULL: optional and absent */
   size_t nparam;
-  ambit_joined *joined;            /* [nport] */
-  ambit_cell *cell;                /* [(nport + 1) * AMBIT_COLUMNS]; row nport: the part as a whole */
-  uint32_t dof;                    /* coordinates of all its OUT joints, in the order of the ports */
-  uint32_t *coordinate;            /* [dof] place in the mechanism's list; UINT32_MAX: not (yet) a state */
+  ambit_joined *joined; /* [nport] */
+  ambit_cell *cell;     /* [(nport + 1) * AMBIT_COLUMNS]; row nport: the part as a whole */
+  uint32_t dof;         /* coordinates of all its OUT joints, in the order of the ports */
+  uint32_t *coordinate; /* [dof] place in the mechanism's list; UINT32_MAX: not (yet) a state */
 } ambit_part;
 
 typedef struct ambit_part_names {
@@ -47,7 +47,7 @@ typedef struct ambit_part_names {
   struct ambit_type_count {
     const char *type;
     size_t next; /* number for the next unnamed one */
-  } *type;
+  } * type;
   size_t ntype, type_capacity;
 } ambit_part_names;
 
@@ -60,15 +60,15 @@ struct ambit_mechanism {
   ambit_part_names names;
   ambit_coordinate *coordinate; /* in the order in which they were asked for */
   size_t ncoordinate, coordinate_capacity;
-  ambit_cell field, energy;     /* sums over all parts */
+  ambit_cell field, energy; /* sums over all parts */
   size_t pulled, available, nopen;
   /* while pulling */
   ambit_failure *failure;
-  ambit_cell *deferred;         /* what has to be pulled first; not NULL: everything is being broken off */
+  ambit_cell *deferred; /* what has to be pulled first; not NULL: everything is being broken off */
   uint32_t depth;
   struct ambit_request *request; /* [nrequest] each waits for the next */
   size_t nrequest, request_capacity;
-  uint32_t requests;            /* ever made: their numbers */
+  uint32_t requests; /* ever made: their numbers */
 };
 
 extern const ambit_element ambit_world_element;
@@ -89,12 +89,15 @@ typedef struct ambit_request {
 /* In pull.c: the value, worked out if need be. NULL: m->failure, m->deferred, or a cell that is DECLINED says why. */
 const ambit_expr *ambit_pull_cell(ambit_mechanism *m, ambit_cell *cell, ambit_cell *asker);
 
-/* In part_names.c: is the name fit and free; "revolute1", "revolute2", ... (NULL: out of memory); the part, about to be number m->count, by its name. */
+/* In part_names.c: is the name fit and free; "revolute1", "revolute2", ... (NULL: out of memory); the part, about to
+** be number m->count, by its name.
+*/
 ambit_status ambit_part_check_name(const ambit_mechanism *m, const ambit_part *p, ambit_failure *f);
 const char *ambit_part_make_name(ambit_mechanism *m, const char *type);
 bool ambit_part_enter_name(ambit_mechanism *m, const ambit_part *p);
 /* In part_data.c: parameters given, or their fallbacks. */
-ambit_status ambit_part_take_params(ambit_mechanism *m, ambit_part *p, const ambit_expr *const *given, ambit_failure *f);
+ambit_status ambit_part_take_params(
+    ambit_mechanism *m, ambit_part *p, const ambit_expr *const *given, ambit_failure *f);
 /* In build.c: calls express() of the cell's element. */
 ambit_status ambit_build_express(ambit_mechanism *m, ambit_cell *cell, ambit_expr *out);
 #endif

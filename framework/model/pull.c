@@ -1,11 +1,13 @@
 /* pull.c -- demand: a quantity is worked out when somebody asks for it, and remembered.
 **
-** An element asks for what it needs from within express(), so a chain of elements is a chain of nested calls. The C stack stays shallow
-** whatever the length of the chain: at DEPTH_MAX nested calls the asked-for cell becomes a request of its own, everything is broken off
-** (its elements see NULL from get() and return), the request is served first, and the broken-off one is repeated. By then
-** what it needs is remembered, so each express() is called at most twice for one answer.
+** An element asks for what it needs from within express(), so a chain of elements is a chain of nested calls. The C
+** stack stays shallow whatever the length of the chain: at DEPTH_MAX nested calls the asked-for cell becomes a
+** request of its own, everything is broken off (its elements see NULL from get() and return), the request is served
+** first, and the broken-off one is repeated. By then what it needs is remembered, so each express() is called at most
+** twice for one answer.
 **
-** A cell that is asked for while it is being worked out closes a loop: BUSY, or WAITING in a request that still waits.
+** A cell that is asked for while it is being worked out closes a loop: BUSY, or WAITING in a request that still
+** waits.
 */
 #include "base/vector.h"
 #include "model/parts.h"
@@ -28,7 +30,8 @@ static ambit_status fail_loop(ambit_mechanism *m, const ambit_cell *cell) {
     bool closes = c == cell;
     if ((c->part != last->part || closes) && used < sizeof text - 120)
       used += (size_t)snprintf(text + used, sizeof text - used, " -> %.100s", part_name(m, c));
-    else if (closes) used += (size_t)snprintf(text + used, sizeof text - used, " -> ... -> %.100s", part_name(m, c));
+    else if (closes)
+      used += (size_t)snprintf(text + used, sizeof text - used, " -> ... -> %.100s", part_name(m, c));
     last = c;
     if (closes) break;
   }
@@ -84,7 +87,8 @@ static ambit_status fail_cell(ambit_mechanism *m, const ambit_cell *cell, const 
   char who[AMBIT_WHO_MAX];
   const ambit_part *p = &m->part[cell->part];
   const char *port = cell->port == AMBIT_NO_PORT ? "the whole" : p->element->port[cell->port].name;
-  return ambit_fail(m->failure, AMBIT_BROKEN, "%s: %s of `%s`: %s", ambit_part_who(p, who), ambit_quantity_name(cell->quantity), port, what);
+  return ambit_fail(m->failure, AMBIT_BROKEN, "%s: %s of `%s`: %s", ambit_part_who(p, who),
+      ambit_quantity_name(cell->quantity), port, what);
 }
 
 static ambit_status keep(ambit_mechanism *m, ambit_cell *cell, size_t n, const ambit_expr *out) {
@@ -120,9 +124,12 @@ static void work_out(ambit_mechanism *m, ambit_cell *cell) {
   cell->state = AMBIT_CELL_EMPTY;
   if (m->failure->status != AMBIT_OK) return;
   if (!sum) m->pulled++;
-  if (status == AMBIT_OK) keep(m, cell, n, out);
-  else if (status == AMBIT_UNABLE && !sum) cell->state = AMBIT_CELL_DECLINED;
-  else fail_cell(m, cell, ambit_status_name(status));
+  if (status == AMBIT_OK)
+    keep(m, cell, n, out);
+  else if (status == AMBIT_UNABLE && !sum)
+    cell->state = AMBIT_CELL_DECLINED;
+  else
+    fail_cell(m, cell, ambit_status_name(status));
 }
 
 const ambit_expr *ambit_pull_cell(ambit_mechanism *m, ambit_cell *cell, ambit_cell *asker) {
@@ -167,8 +174,10 @@ static const ambit_expr *serve(ambit_mechanism *m, ambit_cell *cell) {
     if (m->failure->status != AMBIT_OK) break;
     ambit_cell *first = m->deferred;
     m->deferred = NULL;
-    if (first) room = push(m, first);
-    else m->nrequest--;
+    if (first)
+      room = push(m, first);
+    else
+      m->nrequest--;
   }
   if (!room) ambit_fail(m->failure, AMBIT_NOMEM, "out of memory");
   m->nrequest = 0;
@@ -180,7 +189,8 @@ static ambit_cell *find(ambit_mechanism *m, ambit_frame frame, uint32_t quantity
   ambit_cell *cell = NULL;
   if (frame.part == UINT32_MAX) {
     cell = quantity == AMBIT_FIELD ? &m->field : quantity == AMBIT_ENERGY ? &m->energy : NULL;
-    if (!cell) ambit_fail(f, AMBIT_INVALID, "mechanism `%s` as a whole has no %s", m->name, ambit_quantity_name(quantity));
+    if (!cell)
+      ambit_fail(f, AMBIT_INVALID, "mechanism `%s` as a whole has no %s", m->name, ambit_quantity_name(quantity));
     return cell;
   }
   if (frame.part >= m->count || frame.port >= m->part[frame.part].element->nport) {
@@ -191,7 +201,8 @@ static ambit_cell *find(ambit_mechanism *m, ambit_frame frame, uint32_t quantity
   const ambit_port *port = &p->element->port[frame.port];
   if (port->role == AMBIT_ROLE_OUT) cell = ambit_part_cell(p, frame.port, quantity);
   if (!cell)
-    ambit_fail(f, AMBIT_INVALID, "port `%s` of `%s` has no %s that could be asked for", port->name, p->name, ambit_quantity_name(quantity));
+    ambit_fail(f, AMBIT_INVALID, "port `%s` of `%s` has no %s that could be asked for", port->name, p->name,
+        ambit_quantity_name(quantity));
   return cell;
 }
 
@@ -202,10 +213,12 @@ const ambit_expr *ambit_mechanism_pull(ambit_mechanism *m, ambit_frame frame, ui
   m->failure = &own;
   const ambit_expr *value = serve(m, cell);
   m->failure = NULL;
-  if (own.status != AMBIT_OK) ambit_fail(f, own.status, "%s", own.message);
+  if (own.status != AMBIT_OK)
+    ambit_fail(f, own.status, "%s", own.message);
   else if (!value) {
     char who[AMBIT_WHO_MAX];
-    ambit_fail(f, AMBIT_INVALID, "%s has no %s", ambit_part_who(&m->part[cell->part], who), ambit_quantity_name(quantity));
+    ambit_fail(
+        f, AMBIT_INVALID, "%s has no %s", ambit_part_who(&m->part[cell->part], who), ambit_quantity_name(quantity));
   }
   return value;
 }

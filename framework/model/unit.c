@@ -1,6 +1,8 @@
-/* unit.c -- reading units. Every factor is exact: integers, powers of ten and of pi, so that "1 lbf" is enclosed as tightly as its decimal.
+/* unit.c -- reading units. Every factor is exact: integers, powers of ten and of pi, so that "1 lbf" is enclosed as
+** tightly as its decimal.
 **
-** Definitions: SI brochure (BIPM 2019); international inch and pound (1959): in = 25.4 mm, lb = 0.453 592 37 kg, lbf = lb * 9.806 65 m/s^2.
+** Definitions: SI brochure (BIPM 2019); international inch and pound (1959): in = 25.4 mm, lb = 0.453 592 37 kg, lbf
+** = lb * 9.806 65 m/s^2.
 */
 #include "model/unit.h"
 #include "base/names.h"
@@ -19,6 +21,7 @@ typedef struct entry {
   ambit_unit unit;
 } entry;
 
+/* clang-format off */
 /*                          m kg  s  A  K mol cd  pi  10^ numerator denominator */
 static const entry known[] = {
   { "1", false,         { {  0, 0, 0, 0, 0, 0, 0 }, 0,   0, 1, 1 } },
@@ -53,13 +56,14 @@ static const entry known[] = {
   { "lb", false,        { {  0, 1, 0, 0, 0, 0, 0 }, 0,  -8, 45359237, 1 } },
   { "lbf", false,       { {  1, 1, -2, 0, 0, 0, 0 }, 0, -13, 44482216152605, 1 } },
 };
+/* clang-format on */
 #define KNOWN (sizeof known / sizeof *known)
 
 static const struct {
   const char *name;
   int16_t decimal;
-} prefixes[] = { { "n", -9 }, { "u", -6 }, { "\xc2\xb5", -6 }, { "\xce\xbc", -6 }, { "m", -3 }, { "c", -2 }, { "d", -1 }, { "k", 3 },
-  { "M", 6 }, { "G", 9 } };
+} prefixes[] = { { "n", -9 }, { "u", -6 }, { "\xc2\xb5", -6 }, { "\xce\xbc", -6 }, { "m", -3 }, { "c", -2 },
+  { "d", -1 }, { "k", 3 }, { "M", 6 }, { "G", 9 } };
 
 /* -- exact products */
 
@@ -138,7 +142,8 @@ static ambit_status fail_unknown(const char *name, ambit_failure *f) {
     return ambit_fail(f, AMBIT_INVALID, "`%s` has an offset, so it is not a unit here: give temperatures in K", name);
   for (size_t i = 0; i < KNOWN; i++) candidate[6 + i] = known[i].name;
   const char *near = find_pair(name, hint) ? hint : ambit_names_nearest(name, candidate, KNOWN + 6);
-  return ambit_fail(f, AMBIT_INVALID, "unknown unit `%s`%s%s%s", name, near ? " (did you mean `" : "", near ? near : "", near ? "`?)" : "");
+  return ambit_fail(f, AMBIT_INVALID, "unknown unit `%s`%s%s%s", name, near ? " (did you mean `" : "", near ? near : "",
+      near ? "`?)" : "");
 }
 
 /* -- grammar: unit := factor { [* . /] factor }; factor := (name | "1" | "(" unit ")") [^ integer] */
@@ -212,8 +217,10 @@ static ambit_status read_product(reader *r, ambit_unit *unit) {
     skip_blanks(r);
     if (*r->at == '\0' || *r->at == ')') return AMBIT_OK;
     sign = *r->at == '/' ? -1 : 1;
-    if (*r->at == '*' || *r->at == '.' || *r->at == '/') r->at++;
-    else if (!is_letter(*r->at) && *r->at != '(' && *r->at != '1') return wrong(r, "expected a blank, *, . or / between units");
+    if (*r->at == '*' || *r->at == '.' || *r->at == '/')
+      r->at++;
+    else if (!is_letter(*r->at) && *r->at != '(' && *r->at != '1')
+      return wrong(r, "expected a blank, *, . or / between units");
   }
 }
 
@@ -264,11 +271,12 @@ static ambit_expr scale(ambit_graph *g, ambit_expr x, const ambit_unit *unit) {
 
 static ambit_status fail_dimension(const char *text, const char *unit, const char *wanted, ambit_failure *f) {
   bool bare = strcmp(wanted, "1") == 0 || !*wanted;
-  return ambit_fail(f, AMBIT_INVALID, "`%.80s` is in %.40s, but %s%.40s is expected", text, unit, bare ? "a number without dimension" : "",
-      bare ? "" : wanted);
+  return ambit_fail(f, AMBIT_INVALID, "`%.80s` is in %.40s, but %s%.40s is expected", text, unit,
+      bare ? "a number without dimension" : "", bare ? "" : wanted);
 }
 
-ambit_status ambit_unit_quantity(ambit_graph *g, const char *text, const char *wanted, ambit_expr *out, ambit_failure *f) {
+ambit_status ambit_unit_quantity(
+    ambit_graph *g, const char *text, const char *wanted, ambit_expr *out, ambit_failure *f) {
   char literal[TEXT_MAX];
   ambit_interval x;
   const char *rest;

@@ -1,7 +1,8 @@
-/* attached.h -- a frame rigidly attached to another: first moved by `offset` (axes of `from`), then turned by `angle` about `axis`.
+/* attached.h -- a frame rigidly attached to another: first moved by `offset` (axes of `from`), then turned by `angle`
+** about `axis`.
 **
-** With rotation Q and offset p, in own axes:  w' = Q^T w,  v' = Q^T (v + w x p),  a' = Q^T (a + alpha x p + w x (w x p)).
-** A wrench at `to` acts on `from` as force Q f and torque Q t + p x Q f.
+** With rotation Q and offset p, in own axes:  w' = Q^T w,  v' = Q^T (v + w x p),  a' = Q^T (a + alpha x p + w x (w x
+** p)). A wrench at `to` acts on `from` as force Q f and torque Q t + p x Q f.
 */
 #ifndef AMBIT_ATTACHED_H
 #define AMBIT_ATTACHED_H
@@ -27,7 +28,8 @@ static ambit_status attached_check(ambit_build *b) {
   return status == AMBIT_OK ? ambit_check_fixed(b, b->param(b, ATTACHED_ANGLE), 1, "angle") : status;
 }
 
-static ambit_status attached_motion(ambit_build *b, uint32_t quantity, ambit_rotation q, ambit_vector3 p, ambit_expr *out) {
+static ambit_status attached_motion(
+    ambit_build *b, uint32_t quantity, ambit_rotation q, ambit_vector3 p, ambit_expr *out) {
   const ambit_expr *from = b->get(b, ATTACHED_FROM, quantity);
   if (!from) return AMBIT_INVALID;
   if (quantity == AMBIT_POSE) {
@@ -48,7 +50,8 @@ static ambit_status attached_motion(ambit_build *b, uint32_t quantity, ambit_rot
 static ambit_status attached_express(ambit_build *b, uint32_t port, uint32_t quantity, ambit_expr *out) {
   ambit_rotation q;
   ambit_vector3 p = ambit_vector3_read(b->param(b, ATTACHED_OFFSET));
-  int force = port == ATTACHED_FROM && quantity == AMBIT_WRENCH, motion = port == ATTACHED_TO && quantity <= AMBIT_ACCEL;
+  int force = port == ATTACHED_FROM && quantity == AMBIT_WRENCH,
+      motion = port == ATTACHED_TO && quantity <= AMBIT_ACCEL;
   if (!force && !motion) return AMBIT_UNABLE;
   ambit_status status = ambit_rotation_param(b, ATTACHED_AXIS, ATTACHED_ANGLE, &q);
   if (status == AMBIT_OK && quantity != AMBIT_POSE) status = attached_check(b);
@@ -60,5 +63,6 @@ static ambit_status attached_express(ambit_build *b, uint32_t port, uint32_t qua
   return AMBIT_OK;
 }
 
-static const ambit_element attached_element = { sizeof attached_element, 2, attached_port, attached_param, attached_express };
+static const ambit_element attached_element = { sizeof attached_element, 2, attached_port, attached_param,
+  attached_express };
 #endif

@@ -1,4 +1,4 @@
-/* gravity.c -- a uniform field of gravity; several add up. It reaches masses as the proper acceleration of the world. */
+/* gravity.c -- a uniform field of gravity; several add up. Masses feel it as the proper acceleration of the world. */
 #include <ambit/spatial.h>
 
 enum { FIELD };
@@ -17,4 +17,5 @@ static ambit_status express(ambit_build *b, uint32_t port, uint32_t quantity, am
 
 static const ambit_element element = { sizeof element, 0, NULL, params, express };
 
-AMBIT_ELEMENT_ENTRY("gravity", "1.0", "A uniform field of gravity, { 0, 0, \"-9.81\" } for instance; several add up.", element)
+AMBIT_ELEMENT_ENTRY(
+    "gravity", "1.0", "A uniform field of gravity, { 0, 0, \"-9.81\" } for instance; several add up.", element)

@@ -31,11 +31,14 @@ static ambit_status express(ambit_build *b, uint32_t port, uint32_t quantity, am
     if (!field) return AMBIT_INVALID;
     s.linear = ambit_vector3_negate(b, ambit_rotation_turn_back(b, pose.rotation, ambit_vector3_read(field)));
   }
-  if (quantity == AMBIT_POSE) ambit_pose_write(pose, out);
-  else ambit_screw_write(s, out);
+  if (quantity == AMBIT_POSE)
+    ambit_pose_write(pose, out);
+  else
+    ambit_screw_write(s, out);
   return AMBIT_OK;
 }
 
 static const ambit_element element = { sizeof element, 1, ports, params, express };
 
-AMBIT_ELEMENT_ENTRY("ground", "1.0", "A frame fixed in the world at `position`, perhaps turned by `angle` about `axis`.", element)
+AMBIT_ELEMENT_ENTRY(
+    "ground", "1.0", "A frame fixed in the world at `position`, perhaps turned by `angle` about `axis`.", element)

@@ -1,4 +1,6 @@
-/* joint_torque.c -- a generalised force on a joint, positive along its coordinate. A law is an expression in coordinates, rates and time. */
+/* joint_torque.c -- a generalised force on a joint, positive along its coordinate. A law is an expression in
+** coordinates, rates and time.
+*/
 #include <ambit/spatial.h>
 
 enum { JOINT };
@@ -22,4 +24,6 @@ static ambit_status express(ambit_build *b, uint32_t port, uint32_t quantity, am
 static const ambit_element element = { sizeof element, 1, ports, params, express };
 
 AMBIT_ELEMENT_ENTRY("joint_torque", "1.0",
-    "A torque on a joint that turns, or a force on one that slides: a number, an expression of coordinates and time, or a function.", element)
+    "A torque on a joint that turns, or a force on one that slides: a number, an expression of coordinates and time, "
+    "or a function.",
+    element)

@@ -1,13 +1,15 @@
 /* point_mass.c -- a mass at the origin of a frame.
 **
-** d'Alembert: it exerts the inertial force -m a, no torque; a is the proper acceleration, so that the weight is in it. Energy: m v^2 / 2 and -m g.r.
+** d'Alembert: it exerts the inertial force -m a, no torque; a is the proper acceleration, so that the weight is in
+** it. Energy: m v^2 / 2 and -m g.r.
 */
 #include <ambit/spatial.h>
 
 enum { AT };
 enum { MASS };
 
-static const ambit_port ports[] = { { "at", AMBIT_PORT_FRAME, AMBIT_ROLE_IN, 0, 0, "the frame that carries the mass" } };
+static const ambit_port ports[] = { { "at", AMBIT_PORT_FRAME, AMBIT_ROLE_IN, 0, 0,
+    "the frame that carries the mass" } };
 static const ambit_param params[] = {
   { "mass", "kg", "", NULL, "the mass" },
   { NULL, NULL, NULL, NULL, NULL },

@@ -1,8 +1,8 @@
 /* prismatic.c -- a slider: `to` keeps the axes of `from` and is displaced by s along the axis n.
 **
-** With p = n s, in own axes:  w' = w,  v' = v + w x p + n s',  alpha' = alpha,
-** a' = a + alpha x p + w x (w x p) + 2 w x n s' + n s''.
-** The wrench (t, f) at `to` acts on `from` as (t + p x f, f); along the motion n.f + effort = 0. [Featherstone 2008, ch. 4]
+** With p = n s, in own axes:  w' = w,  v' = v + w x p + n s',  alpha' = alpha, a' = a + alpha x p + w x (w x p) + 2 w
+** x n s' + n s''. The wrench (t, f) at `to` acts on `from` as (t + p x f, f); along the motion n.f + effort = 0.
+** [Featherstone 2008, ch. 4]
 */
 #include <ambit/spatial.h>
 
@@ -39,7 +39,8 @@ static ambit_status express_motion(ambit_build *b, uint32_t quantity, ambit_vect
     const ambit_expr *twist = b->get(b, FROM, AMBIT_TWIST);
     if (!twist) return AMBIT_INVALID;
     ambit_vector3 w = ambit_vector3_read(twist), coriolis = ambit_vector3_cross(b, w, along(b, n, 1));
-    s.linear = ambit_vector3_add(b, ambit_acceleration_at(b, s, w, p), ambit_vector3_scale(b, b->num(b, "2"), coriolis));
+    s.linear =
+        ambit_vector3_add(b, ambit_acceleration_at(b, s, w, p), ambit_vector3_scale(b, b->num(b, "2"), coriolis));
     s.linear = ambit_vector3_add(b, s.linear, along(b, n, 2));
   }
   ambit_screw_write(s, out);
@@ -51,8 +52,10 @@ static ambit_status express_force(ambit_build *b, uint32_t port, ambit_vector3 n
   const ambit_expr *effort = wrench && port == JOINT ? b->get(b, JOINT, AMBIT_EFFORT) : NULL;
   if (!wrench || (port == JOINT && !effort)) return AMBIT_INVALID;
   ambit_screw s = ambit_screw_read(wrench);
-  if (port == JOINT) *out = ambit_add(b, ambit_vector3_dot(b, n, s.linear), *effort);
-  else ambit_screw_write(ambit_wrench_before(b, s, ambit_rotation_identity(b), along(b, n, 0)), out);
+  if (port == JOINT)
+    *out = ambit_add(b, ambit_vector3_dot(b, n, s.linear), *effort);
+  else
+    ambit_screw_write(ambit_wrench_before(b, s, ambit_rotation_identity(b), along(b, n, 0)), out);
   return AMBIT_OK;
 }
 
@@ -73,4 +76,5 @@ static ambit_status express(ambit_build *b, uint32_t port, uint32_t quantity, am
 
 static const ambit_element element = { sizeof element, 3, ports, params, express };
 
-AMBIT_ELEMENT_ENTRY("prismatic", "1.0", "A slider along `axis`. Without `displacement` its displacement is a state named after the joint.", element)
+AMBIT_ELEMENT_ENTRY("prismatic", "1.0",
+    "A slider along `axis`. Without `displacement` its displacement is a state named after the joint.", element)

@@ -1,8 +1,8 @@
 /* revolute.c -- a hinge: `to` turns by the angle q about the axis n through the origin of `from`.
 **
-** With Q = Rot(n, q), in own axes:  w' = Q^T w + n q',  v' = Q^T v,  alpha' = Q^T alpha + n q'' + (Q^T w) x n q',  a' = Q^T a.
-** The wrench (t, f) at `to` acts on `from` as (Q t, Q f); its part along the motion is balanced by the effort: n.t + effort = 0.
-** [Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 4]
+** With Q = Rot(n, q), in own axes:  w' = Q^T w + n q',  v' = Q^T v,  alpha' = Q^T alpha + n q'' + (Q^T w) x n q',  a'
+** = Q^T a. The wrench (t, f) at `to` acts on `from` as (Q t, Q f); its part along the motion is balanced by the
+** effort: n.t + effort = 0. [Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 4]
 */
 #include <ambit/spatial.h>
 
@@ -20,7 +20,8 @@ static const ambit_param params[] = {
   { NULL, NULL, NULL, NULL, NULL },
 };
 
-static ambit_status express_motion(ambit_build *b, uint32_t quantity, ambit_vector3 n, ambit_rotation q, ambit_expr *out) {
+static ambit_status express_motion(
+    ambit_build *b, uint32_t quantity, ambit_vector3 n, ambit_rotation q, ambit_expr *out) {
   const ambit_expr *from = b->get(b, FROM, quantity);
   if (!from) return AMBIT_INVALID;
   if (quantity == AMBIT_POSE) {
@@ -75,4 +76,5 @@ static ambit_status express(ambit_build *b, uint32_t port, uint32_t quantity, am
 
 static const ambit_element element = { sizeof element, 3, ports, params, express };
 
-AMBIT_ELEMENT_ENTRY("revolute", "1.0", "A hinge that turns about `axis`. Without `angle` its angle is a state named after the joint.", element)
+AMBIT_ELEMENT_ENTRY("revolute", "1.0",
+    "A hinge that turns about `axis`. Without `angle` its angle is a state named after the joint.", element)

@@ -1,18 +1,21 @@
-/* rigid_body.c -- a body with mass m, centre of mass c and inertia I about c, all in the axes of the frame that carries it.
+/* rigid_body.c -- a body with mass m, centre of mass c and inertia I about c, all in the axes of the frame that
+** carries it.
 **
-** Newton and Euler with d'Alembert, in the frame's axes: a_c = a + alpha x c + w x (w x c);
-** force f = -m a_c, torque t = -(I alpha + w x I w) + c x f. Energy: (m v_c^2 + w.I w) / 2 and -m g.r_c. [Featherstone 2008, ch. 2]
+** Newton and Euler with d'Alembert, in the frame's axes: a_c = a + alpha x c + w x (w x c); force f = -m a_c, torque
+** t = -(I alpha + w x I w) + c x f. Energy: (m v_c^2 + w.I w) / 2 and -m g.r_c. [Featherstone 2008, ch. 2]
 */
 #include <ambit/spatial.h>
 
 enum { AT };
 enum { MASS, CENTRE, INERTIA };
 
-static const ambit_port ports[] = { { "at", AMBIT_PORT_FRAME, AMBIT_ROLE_IN, 0, 0, "the frame that carries the body" } };
+static const ambit_port ports[] = { { "at", AMBIT_PORT_FRAME, AMBIT_ROLE_IN, 0, 0,
+    "the frame that carries the body" } };
 static const ambit_param params[] = {
   { "mass", "kg", "", NULL, "the mass" },
   { "centre", "m", "3", "0,0,0", "centre of mass, in the axes of the frame" },
-  { "inertia", "kg m^2", "3x3", "", "moments of inertia about the centre of mass, in the axes of the frame; absent: a point" },
+  { "inertia", "kg m^2", "3x3", "",
+      "moments of inertia about the centre of mass, in the axes of the frame; absent: a point" },
   { NULL, NULL, NULL, NULL, NULL },
 };
 
@@ -24,8 +27,10 @@ static ambit_rotation symmetric(const ambit_expr *e) {
   return m;
 }
 
-/* Known numbers are checked: I is symmetric, and the second moments tr(I)/2 1 - I of a mass distribution form a positive
-** semidefinite matrix [Traversaro et al. 2016], which contains the triangle inequality of the principal moments. */
+/* Known numbers are checked: I is symmetric, and the second moments tr(I)/2 1 - I of a mass distribution form a
+** positive semidefinite matrix [Traversaro et al. 2016], which contains the triangle inequality of the principal
+** moments.
+*/
 static ambit_status check_inertia(ambit_build *b, const ambit_expr *e) {
   double x[9], s[9], hi;
   if (!e) return AMBIT_OK;
@@ -38,7 +43,8 @@ static ambit_status check_inertia(ambit_build *b, const ambit_expr *e) {
     for (int j = 0; j < 3; j++) {
       double gap = x[3 * i + j] - x[3 * j + i];
       if (gap > slack || gap < -slack)
-        return b->fail(b, AMBIT_INVALID, "the inertia is not symmetric: row %d, column %d is %g, row %d, column %d is %g", i + 1, j + 1,
+        return b->fail(b, AMBIT_INVALID,
+            "the inertia is not symmetric: row %d, column %d is %g, row %d, column %d is %g", i + 1, j + 1,
             x[3 * i + j], j + 1, i + 1, x[3 * j + i]);
       s[3 * i + j] = (i == j ? trace / 2 : 0) - x[3 * i + j];
     }
@@ -47,9 +53,11 @@ static ambit_status check_inertia(ambit_build *b, const ambit_expr *e) {
     int j = (i + 1) % 3;
     good = good && s[4 * i] >= -slack && s[4 * i] * s[4 * j] - s[3 * i + j] * s[3 * i + j] >= -slack * trace;
   }
-  double d = s[0] * (s[4] * s[8] - s[5] * s[7]) - s[1] * (s[3] * s[8] - s[5] * s[6]) + s[2] * (s[3] * s[7] - s[4] * s[6]);
+  double d =
+      s[0] * (s[4] * s[8] - s[5] * s[7]) - s[1] * (s[3] * s[8] - s[5] * s[6]) + s[2] * (s[3] * s[7] - s[4] * s[6]);
   if (good && d >= -slack * trace * trace) return AMBIT_OK;
-  return b->fail(b, AMBIT_INVALID, "no body has this inertia: of its principal moments one is negative, or larger than the sum of the other two");
+  return b->fail(b, AMBIT_INVALID,
+      "no body has this inertia: of its principal moments one is negative, or larger than the sum of the other two");
 }
 
 static ambit_status check(ambit_build *b) {

@@ -27,12 +27,12 @@ typedef struct kit {
   /* the stage */
   ambit_graph *graph;
   ambit_mechanism *mechanism;
-  uint32_t part, mover[PORTS_MAX];   /* mover: of IN ports */
+  uint32_t part, mover[PORTS_MAX]; /* mover: of IN ports */
   ambit_expr value[PARAMS_MAX][AMBIT_QUANTITY_MAX], load[PORTS_MAX][AMBIT_QUANTITY_MAX];
   element_stage_joint joint[PORTS_MAX];
   bool moving;
   size_t ncoordinate;
-  ambit_expr *leaf, *rate;           /* [2 ncoordinate] */
+  ambit_expr *leaf, *rate; /* [2 ncoordinate] */
   size_t nresidual;
   ambit_expr residual[RESIDUALS_MAX];
   const char *about[RESIDUALS_MAX];
@@ -62,7 +62,8 @@ static bool known_shape(const char *shape) {
 static void check_description(kit *k) {
   const ambit_element *e = k->element;
   for (uint32_t i = 0; i < e->nport; i++) {
-    if (!e->port[i].name || !*e->port[i].name || !is_sentence(e->port[i].doc)) complain(k, "port %u has no name or no sentence", i);
+    if (!e->port[i].name || !*e->port[i].name || !is_sentence(e->port[i].doc))
+      complain(k, "port %u has no name or no sentence", i);
     for (uint32_t j = 0; j < i; j++)
       if (strcmp(e->port[i].name, e->port[j].name) == 0) complain(k, "two ports are called `%s`", e->port[i].name);
   }
@@ -70,7 +71,8 @@ static void check_description(kit *k) {
     ambit_unit unit;
     ambit_failure f = { 0 };
     if (!is_sentence(p->doc)) complain(k, "parameter `%s` has no sentence", p->name);
-    if (!p->unit || ambit_unit_read(p->unit, &unit, &f) != AMBIT_OK) complain(k, "unit of `%s`: %s", p->name, f.message);
+    if (!p->unit || ambit_unit_read(p->unit, &unit, &f) != AMBIT_OK)
+      complain(k, "unit of `%s`: %s", p->name, f.message);
     if (!p->shape || !known_shape(p->shape)) complain(k, "parameter `%s` has no known shape", p->name);
     for (const ambit_param *q = e->param; q < p; q++)
       if (strcmp(p->name, q->name) == 0) complain(k, "two parameters are called `%s`", p->name);
@@ -101,7 +103,8 @@ static ambit_expr scalar(kit *k) {
 /* A matrix that a body may have as its inertia: tr(S) 1 - S for S = B B^T. */
 static void inertia(kit *k, ambit_expr *out) {
   double b[9], s[9] = { 0 };
-  for (int i = 0; i < 9; i++) b[i] = floor(ambit_random_in(&k->random, (ambit_interval) { -8, 8 })) / 8; /* products are exact */
+  for (int i = 0; i < 9; i++)
+    b[i] = floor(ambit_random_in(&k->random, (ambit_interval) { -8, 8 })) / 8; /* products are exact */
   for (int i = 0; i < 9; i++)
     for (int j = 0; j < 3; j++) s[i] += b[3 * (i / 3) + j] * b[3 * (i % 3) + j];
   for (int i = 0; i < 9; i++) out[i] = ambit_graph_number(k->graph, (i % 4 == 0 ? 1 + s[0] + s[4] + s[8] : 0) - s[i]);
@@ -116,8 +119,10 @@ static void choose_params(kit *k, unsigned given, const ambit_expr *param[PARAMS
     if (p->fallback && !(given >> optional++ & 1)) continue;
     param[i] = k->value[i];
     size_t n = ambit_params_doubles((const ambit_param[]) { *p, { 0 } });
-    if (strcmp(p->shape, "3x3") == 0) inertia(k, k->value[i]);
-    else if (*p->shape == '\0') k->value[i][0] = scalar(k);
+    if (strcmp(p->shape, "3x3") == 0)
+      inertia(k, k->value[i]);
+    else if (*p->shape == '\0')
+      k->value[i][0] = scalar(k);
     else if (strcmp(p->shape, "flag") == 0 || strcmp(p->shape, "integer") == 0 || strchr(p->shape, '|'))
       k->value[i][0] = ambit_graph_number(k->graph, 1);
     else
@@ -214,7 +219,8 @@ static const ambit_expr *ask(kit *k, uint32_t part, uint32_t port, uint32_t quan
   }
   k->report->refused++;
   if (f.status == AMBIT_OK || !strstr(f.message, "subject") || strlen(f.message) < 30)
-    complain(k, "%s of port %u is refused without a clear message: `%s`", ambit_quantity_name(quantity), port, f.message);
+    complain(
+        k, "%s of port %u is refused without a clear message: `%s`", ambit_quantity_name(quantity), port, f.message);
   if (f.status == AMBIT_BROKEN) complain(k, "%s", f.message);
   return NULL;
 }
@@ -228,8 +234,10 @@ static void ask_whole(kit *k, uint32_t quantity) {
     k->report->refused++;
     if (!strstr(f.message, "subject") || strlen(f.message) < 30)
       complain(k, "its %s is refused without a clear message: `%s`", ambit_quantity_name(quantity), f.message);
-  } else if (state == AMBIT_CELL_DONE) k->report->expressed++;
-  else k->report->declined++;
+  } else if (state == AMBIT_CELL_DONE)
+    k->report->expressed++;
+  else
+    k->report->declined++;
 }
 
 /* A quantity of a later version of the ABI is declined; so is one of the wrong kind of port. */
@@ -240,10 +248,14 @@ static void check_declines(kit *k) {
   k->mechanism->failure = &f;
   for (uint32_t port = 0; port <= k->element->nport; port++)
     for (size_t i = 0; i < sizeof later / sizeof *later; i++) {
-      ambit_cell cell = { .part = k->part, .port = port < k->element->nport ? port : AMBIT_NO_PORT, .quantity = later[i] };
+      ambit_cell cell = {
+        .part = k->part, .port = port < k->element->nport ? port : AMBIT_NO_PORT, .quantity = later[i]
+      };
       ambit_status status = ambit_build_express(k->mechanism, &cell, out);
-      if (status == AMBIT_UNABLE && f.status == AMBIT_OK) k->report->declined++;
-      else complain(k, "the unknown quantity %u at port %u is not declined with AMBIT_UNABLE", later[i], port);
+      if (status == AMBIT_UNABLE && f.status == AMBIT_OK)
+        k->report->declined++;
+      else
+        complain(k, "the unknown quantity %u at port %u is not declined with AMBIT_UNABLE", later[i], port);
       ambit_failure_clear(&f);
     }
   k->mechanism->failure = NULL;
@@ -277,7 +289,8 @@ static ambit_expr turned_back(kit *k, const ambit_expr *pose, int i, const ambit
 static void check_pose(kit *k, const ambit_expr *pose) {
   ambit_expr one = ambit_graph_number(k->graph, 1), determinant = 0;
   for (int i = 0; i < 3; i++) {
-    for (int j = i; j < 3; j++) vanish(k, "orthonormal axes", subtract(k, turned_back(k, pose, i, pose + j, 3), i == j ? one : 0));
+    for (int j = i; j < 3; j++)
+      vanish(k, "orthonormal axes", subtract(k, turned_back(k, pose, i, pose + j, 3), i == j ? one : 0));
     int p = (i + 1) % 3, q = (i + 2) % 3;
     ambit_expr minor = subtract(k, multiply(k, pose[3 + p], pose[6 + q]), multiply(k, pose[3 + q], pose[6 + p]));
     determinant = add(k, determinant, multiply(k, pose[i], minor));
@@ -335,7 +348,8 @@ static ambit_expr dot(kit *k, uint32_t n, const ambit_expr *a, const ambit_expr 
 static bool port_power(kit *k, uint32_t i, ambit_expr *power) {
   const ambit_port *p = &k->element->port[i];
   if (p->role == AMBIT_ROLE_IN) { /* the carrier's frame bears this element alone */
-    const ambit_expr *wrench = ask(k, k->mover[i], 0, AMBIT_WRENCH), *twist = wrench ? ask(k, k->mover[i], 0, AMBIT_TWIST) : NULL;
+    const ambit_expr *wrench = ask(k, k->mover[i], 0, AMBIT_WRENCH),
+                     *twist = wrench ? ask(k, k->mover[i], 0, AMBIT_TWIST) : NULL;
     if (twist) *power = subtract(k, *power, dot(k, 6, wrench, twist));
     return twist;
   }
@@ -344,7 +358,8 @@ static bool port_power(kit *k, uint32_t i, ambit_expr *power) {
     if (twist) *power = add(k, *power, dot(k, 6, k->load[i], twist));
     return twist;
   }
-  const ambit_expr *balance = ask(k, k->part, i, AMBIT_BALANCE), *rate = balance ? ask(k, k->part, i, AMBIT_RATE) : NULL;
+  const ambit_expr *balance = ask(k, k->part, i, AMBIT_BALANCE),
+                   *rate = balance ? ask(k, k->part, i, AMBIT_RATE) : NULL;
   if (rate) *power = add(k, *power, subtract(k, dot(k, p->dof, k->load[i], rate), dot(k, p->dof, balance, rate)));
   return rate;
 }
@@ -378,7 +393,8 @@ static void evaluate(kit *k) {
   ambit_expr *leaf = calloc(n + 1, sizeof *leaf);
   ambit_interval *in = calloc(n + 1, sizeof *in);
   ambit_graph_leaves(k->graph, k->nresidual, k->residual, n, leaf);
-  if (ambit_tape_seal(k->graph, arena, k->nresidual, k->residual, n, leaf, 0, 0, &tape, &f) != AMBIT_OK) complain(k, "%s", f.message);
+  if (ambit_tape_seal(k->graph, arena, k->nresidual, k->residual, n, leaf, 0, 0, &tape, &f) != AMBIT_OK)
+    complain(k, "%s", f.message);
   ambit_interval *slot = f.status == AMBIT_OK ? calloc(tape->nslot + 1, sizeof *slot) : NULL;
   for (int point = 0; slot && point < POINTS; point++) {
     for (size_t i = 0; i < n; i++) {
@@ -392,7 +408,8 @@ static void evaluate(kit *k) {
       ambit_interval x = slot[tape->out[i]];
       k->report->compared++;
       if (!(x.lo <= 0 && x.hi >= 0 && x.hi - x.lo < TOLERANCE))
-        complain(k, "%s is wrong: the difference is [%.3e, %.3e]%s", k->about[i], x.lo, x.hi, k->moving ? " (parameters move)" : "");
+        complain(k, "%s is wrong: the difference is [%.3e, %.3e]%s", k->about[i], x.lo, x.hi,
+            k->moving ? " (parameters move)" : "");
     }
   }
   free(slot);
@@ -424,8 +441,10 @@ element_kit_report element_kit_run(const ambit_element *element, const char *nam
   unsigned optional = 0;
   size_t params = 0;
   for (const ambit_param *p = element->param; p && p->name; p++, params++) optional += p->fallback != NULL;
-  if (element->nport > PORTS_MAX || params > PARAMS_MAX || optional > 8) complain(&k, "more ports or parameters than the kit can stage");
-  else check_description(&k);
+  if (element->nport > PORTS_MAX || params > PARAMS_MAX || optional > 8)
+    complain(&k, "more ports or parameters than the kit can stage");
+  else
+    check_description(&k);
   for (unsigned given = 0; report.failures == 0 && given < 1u << optional; given++)
     for (int moving = 0; moving < 2; moving++) {
       k.moving = moving;

@@ -1,9 +1,11 @@
-/* element_kit.h -- the conformance kit for element plugins: hand it any element and it says whether it keeps the contract.
+/* element_kit.h -- the conformance kit for element plugins: hand it any element and it says whether it keeps the
+** contract.
 **
-** The element is put on a stage: each of its IN frames is carried by a frame that moves freely in space, each of its OUT frames
-** carries an arbitrary wrench, each joint an arbitrary effort, in a field of gravity; parameters are random, in every combination of the
-** optional ones, at rest and moving in time. Everything that the element expresses is compared with what follows from its
-** poses by differentiation, at random points, with enclosures: the difference must contain 0 and be narrow.
+** The element is put on a stage: each of its IN frames is carried by a frame that moves freely in space, each of its
+** OUT frames carries an arbitrary wrench, each joint an arbitrary effort, in a field of gravity; parameters are
+** random, in every combination of the optional ones, at rest and moving in time. Everything that the element
+** expresses is compared with what follows from its poses by differentiation, at random points, with enclosures: the
+** difference must contain 0 and be narrow.
 **
 **   description   names, units, shapes, fallbacks, one sentence each
 **   quantities    each is expressed, declined, or refused by a message that names the part; unknown ones are declined
@@ -19,12 +21,12 @@
 #include <ambit/element.h>
 
 typedef struct element_kit_report {
-  unsigned stages;    /* combinations of parameters */
+  unsigned stages;                       /* combinations of parameters */
   unsigned expressed, refused, declined; /* quantities, over all stages */
-  unsigned compared;  /* numbers that had to vanish, over all stages and points */
-  unsigned powers;    /* balances of power that were closed */
+  unsigned compared;                     /* numbers that had to vanish, over all stages and points */
+  unsigned powers;                       /* balances of power that were closed */
   unsigned failures;
-  char first[600];    /* the first failure */
+  char first[600]; /* the first failure */
 } element_kit_report;
 
 element_kit_report element_kit_run(const ambit_element *element, const char *name, uint64_t seed);

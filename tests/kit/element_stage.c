@@ -50,8 +50,10 @@ static ambit_status express_mover(ambit_build *b, uint32_t port, uint32_t quanti
     }
     s.linear = ambit_rotation_turn_back(b, pose.rotation, s.linear);
   }
-  if (quantity == AMBIT_POSE) ambit_pose_write(pose, out);
-  else ambit_screw_write(s, out);
+  if (quantity == AMBIT_POSE)
+    ambit_pose_write(pose, out);
+  else
+    ambit_screw_write(s, out);
   return AMBIT_OK;
 }
 
@@ -74,14 +76,16 @@ static ambit_status express_load(ambit_build *b, uint32_t port, uint32_t quantit
 }
 
 static const ambit_port load_port[] = { { "at", AMBIT_PORT_FRAME, AMBIT_ROLE_IN, 0, 0, "the loaded frame" } };
-static const ambit_param load_param[] = { { "wrench", "1", "6", NULL, "torque and force" }, { NULL, NULL, NULL, NULL, NULL } };
+static const ambit_param load_param[] = { { "wrench", "1", "6", NULL, "torque and force" },
+  { NULL, NULL, NULL, NULL, NULL } };
 const ambit_element element_stage_load = { sizeof(ambit_element), 1, load_port, load_param, express_load };
 
 static ambit_status express_field(ambit_build *b, uint32_t port, uint32_t quantity, ambit_expr *out) {
   return port == AMBIT_NO_PORT && quantity == AMBIT_FIELD ? give_param(b, 3, out) : AMBIT_UNABLE;
 }
 
-static const ambit_param field_param[] = { { "field", "m/s^2", "3", NULL, "gravity" }, { NULL, NULL, NULL, NULL, NULL } };
+static const ambit_param field_param[] = { { "field", "m/s^2", "3", NULL, "gravity" },
+  { NULL, NULL, NULL, NULL, NULL } };
 const ambit_element element_stage_field = { sizeof(ambit_element), 0, NULL, field_param, express_field };
 
 /* -- joints; the number of degrees is known from what the stage gives */
@@ -113,7 +117,8 @@ static void make(element_stage_joint *j, uint32_t dof, uint32_t role) {
   j->port[0] = (ambit_port) { "joint", AMBIT_PORT_JOINT, role, dof, 0, "the joint" };
   j->param[0] = (ambit_param) { "value", "1", j->shape, NULL, "one for each degree of freedom, then 0" };
   j->param[1] = (ambit_param) { NULL, NULL, NULL, NULL, NULL };
-  j->element = (ambit_element) { sizeof(ambit_element), 1, j->port, j->param, role == AMBIT_ROLE_OUT ? express_joint : express_effort };
+  j->element = (ambit_element) { sizeof(ambit_element), 1, j->port, j->param,
+    role == AMBIT_ROLE_OUT ? express_joint : express_effort };
 }
 
 void element_stage_make_joint(element_stage_joint *j, uint32_t dof) { make(j, dof, AMBIT_ROLE_OUT); }

@@ -3,7 +3,9 @@
 #define AMBIT_ELEMENT_STAGE_H
 #include <ambit/element.h>
 
-/* OUT frame 0: moves freely; its pose is written with Euler angles, twist and acceleration are differentiated from it. Joint 1, 6 degrees. */
+/* OUT frame 0: moves freely; its pose is written with Euler angles, twist and acceleration are differentiated from
+** it. Joint 1, 6 degrees.
+*/
 extern const ambit_element element_stage_mover;
 /* IN frame 0: an arbitrary wrench, parameter 0 [6]. */
 extern const ambit_element element_stage_load;

@@ -12,7 +12,7 @@ set_tests_properties(lua.specs.command PROPERTIES TIMEOUT 300 ENVIRONMENT "${lua
 
 find_program(BUSTED busted)
 if(BUSTED)
-  set(busted_environment ${lua_environment})
+  set(busted_environment "${lua_environment}")
   if(AMBIT_SANITIZE) # the interpreter is not sanitized: its runtime comes first, and its own leaks are not ours
     execute_process(COMMAND ${CMAKE_C_COMPILER} -print-file-name=libasan.so OUTPUT_VARIABLE asan OUTPUT_STRIP_TRAILING_WHITESPACE)
     list(APPEND busted_environment "LD_PRELOAD=${asan}" "ASAN_OPTIONS=detect_leaks=0")

@@ -12,7 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <cmocka.h>
-#undef fail /* cmocka's; ambit_build has a member of that name */
 
 #define MACHINE_PARAMS 8
 #define MACHINE_NUMBERS 12
@@ -37,7 +36,9 @@ static inline void machine_close(machine *s) {
 }
 
 static inline ambit_expr machine_number(machine *s, double x) { return ambit_graph_number(s->graph, x); }
-static inline ambit_expr machine_symbol(machine *s, const char *name) { return ambit_graph_symbol(s->graph, name, "1"); }
+static inline ambit_expr machine_symbol(machine *s, const char *name) {
+  return ambit_graph_symbol(s->graph, name, "1");
+}
 
 /* One parameter: n expressions for `name`; a list of them ends with name NULL. */
 typedef struct machine_datum {
@@ -65,10 +66,13 @@ static inline machine_datum machine_doubles(machine *s, const char *name, size_t
   return d;
 }
 
-static inline machine_datum machine_expr(const char *name, ambit_expr e) { return (machine_datum) { .name = name, .n = 1, .e = { e } }; }
+static inline machine_datum machine_expr(const char *name, ambit_expr e) {
+  return (machine_datum) { .name = name, .n = 1, .e = { e } };
+}
 
 /* UINT32_MAX: s->failure says why. All IN ports are connected to `at`. */
-static inline uint32_t machine_try(machine *s, const ambit_element *e, const char *type, const char *name, ambit_frame at, const machine_datum *data) {
+static inline uint32_t machine_try(
+    machine *s, const ambit_element *e, const char *type, const char *name, ambit_frame at, const machine_datum *data) {
   const ambit_expr *param[MACHINE_PARAMS] = { 0 };
   ambit_frame connection[MACHINE_PARAMS];
   uint32_t part = UINT32_MAX;
@@ -91,7 +95,8 @@ static inline const ambit_element *machine_element(machine *s, const char *type)
   return e;
 }
 
-static inline uint32_t machine_add(machine *s, const char *type, const char *name, ambit_frame at, const machine_datum *data) {
+static inline uint32_t machine_add(
+    machine *s, const char *type, const char *name, ambit_frame at, const machine_datum *data) {
   uint32_t part = machine_try(s, machine_element(s, type), type, name, at, data);
   if (part == UINT32_MAX) fail_msg("%s", s->failure.message);
   return part;
@@ -127,7 +132,8 @@ static inline const ambit_expr *machine_pull(machine *s, ambit_frame at, uint32_
 }
 
 /* Enclosures of e[0..n) with leaf[i] = value[i]; other unknowns over their ranges. */
-static inline void machine_values(machine *s, size_t n, const ambit_expr *e, size_t nleaf, const ambit_expr *leaf, const double *value, ambit_interval *out) {
+static inline void machine_values(machine *s, size_t n, const ambit_expr *e, size_t nleaf, const ambit_expr *leaf,
+    const double *value, ambit_interval *out) {
   ambit_failure f = { 0 };
   ambit_arena *arena = ambit_arena_open();
   const ambit_tape *tape;

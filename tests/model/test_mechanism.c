@@ -1,6 +1,5 @@
 /* Mechanisms: parts, names, connections; demand, memory, sums, loops; chains of any length. */
 #include "model/machine.h"
-#include <ambit/spatial.h>
 #include <math.h>
 #include <sys/resource.h>
 
@@ -29,13 +28,15 @@ static void names(void **state) {
   machine *s = *state;
   const ambit_element *link = machine_element(s, "rigid_link");
   assert_string_equal(ambit_mechanism_part_name(s->mechanism, 0), "world");
-  uint32_t a = machine_add(s, "rigid_link", NULL, AMBIT_WORLD, NULL), b = machine_add(s, "rigid_link", "arm", AMBIT_WORLD, NULL);
+  uint32_t a = machine_add(s, "rigid_link", NULL, AMBIT_WORLD, NULL),
+           b = machine_add(s, "rigid_link", "arm", AMBIT_WORLD, NULL);
   assert_string_equal(ambit_mechanism_part_name(s->mechanism, a), "rigid_link1");
   assert_string_equal(ambit_mechanism_part_name(s->mechanism, b), "arm");
   machine_add(s, "rigid_link", "rigid_link2", AMBIT_WORLD, NULL);
   uint32_t c = machine_add(s, "rigid_link", NULL, AMBIT_WORLD, NULL);
   assert_string_equal(ambit_mechanism_part_name(s->mechanism, c), "rigid_link3");
-  expect_refusal(s, machine_try(s, link, "rigid_link", "arm", AMBIT_WORLD, NULL), "the name is taken by the rigid_link `arm` (scene.lua:7)");
+  expect_refusal(s, machine_try(s, link, "rigid_link", "arm", AMBIT_WORLD, NULL),
+      "the name is taken by the rigid_link `arm` (scene.lua:7)");
   expect_refusal(s, machine_try(s, link, "rigid_link", "", AMBIT_WORLD, NULL), "the name is empty");
   expect_refusal(s, machine_try(s, link, "rigid_link", "arm'", AMBIT_WORLD, NULL), "marks time derivatives");
   expect_refusal(s, machine_try(s, link, "rigid_link", "a\nb", AMBIT_WORLD, NULL), "control character");
@@ -52,15 +53,23 @@ static void connections(void **state) {
   machine *s = *state;
   const ambit_element *link = machine_element(s, "rigid_link"), *torque = machine_element(s, "joint_torque");
   ambit_frame hinge = machine_revolute(s, "hinge", AMBIT_WORLD, "0,0,1");
-  expect_refusal(s, machine_try(s, link, "rigid_link", NULL, AMBIT_NOWHERE, NULL), "port `from` is not connected; it needs a frame");
-  expect_refusal(s, machine_try(s, link, "rigid_link", NULL, (ambit_frame) { 9, 0 }, NULL), "part 9, which does not exist");
-  expect_refusal(s, machine_try(s, link, "rigid_link", NULL, (ambit_frame) { hinge.part, 7 }, NULL), "port 7 of `hinge`, which has 3");
-  expect_refusal(s, machine_try(s, link, "rigid_link", NULL, (ambit_frame) { hinge.part, 0 }, NULL), "itself to be connected");
-  expect_refusal(s, machine_try(s, link, "rigid_link", NULL, (ambit_frame) { hinge.part, 2 }, NULL), "needs a frame, but `joint` of `hinge` is a joint");
-  expect_refusal(s, machine_try(s, torque, "joint_torque", NULL, hinge, NULL), "needs a joint, but `to` of `hinge` is a frame");
+  expect_refusal(s, machine_try(s, link, "rigid_link", NULL, AMBIT_NOWHERE, NULL),
+      "port `from` is not connected; it needs a frame");
+  expect_refusal(
+      s, machine_try(s, link, "rigid_link", NULL, (ambit_frame) { 9, 0 }, NULL), "part 9, which does not exist");
+  expect_refusal(s, machine_try(s, link, "rigid_link", NULL, (ambit_frame) { hinge.part, 7 }, NULL),
+      "port 7 of `hinge`, which has 3");
+  expect_refusal(
+      s, machine_try(s, link, "rigid_link", NULL, (ambit_frame) { hinge.part, 0 }, NULL), "itself to be connected");
+  expect_refusal(s, machine_try(s, link, "rigid_link", NULL, (ambit_frame) { hinge.part, 2 }, NULL),
+      "needs a frame, but `joint` of `hinge` is a joint");
+  expect_refusal(
+      s, machine_try(s, torque, "joint_torque", NULL, hinge, NULL), "needs a joint, but `to` of `hinge` is a frame");
   const ambit_element *mass = machine_element(s, "point_mass");
-  expect_refusal(s, machine_try(s, mass, "point_mass", NULL, hinge, NULL), "point_mass `point_mass1` (scene.lua:7) needs `mass`");
-  expect_refusal(s, machine_try(s, mass, "point_mass", NULL, hinge, MACHINE_DATA(machine_expr("mass", AMBIT_NO_EXPR))), "is no expression");
+  expect_refusal(
+      s, machine_try(s, mass, "point_mass", NULL, hinge, NULL), "point_mass `point_mass1` (scene.lua:7) needs `mass`");
+  expect_refusal(s, machine_try(s, mass, "point_mass", NULL, hinge, MACHINE_DATA(machine_expr("mass", AMBIT_NO_EXPR))),
+      "is no expression");
 }
 
 static ambit_status nothing(ambit_build *b, uint32_t port, uint32_t quantity, ambit_expr *out) {
@@ -71,18 +80,20 @@ static ambit_status nothing(ambit_build *b, uint32_t port, uint32_t quantity, am
 static void fallbacks(void **state) {
   machine *s = *state;
   static const ambit_param good[] = { { "a", "1", "axis", "-y", "an axis" }, { "b", "1", "axis", "1,2,3", "an axis" },
-    { "c", "m", "3", "0.1,0,pi", "a vector" }, { "d", "1", "flag", "true", "a flag" }, { "e", "1", "one|two|three", "three", "a choice" },
-    { "f", "1", "", "", "may be absent" }, { 0 } };
+    { "c", "m", "3", "0.1,0,pi", "a vector" }, { "d", "1", "flag", "true", "a flag" },
+    { "e", "1", "one|two|three", "three", "a choice" }, { "f", "1", "", "", "may be absent" }, { 0 } };
   ambit_element e = { sizeof e, 0, NULL, good, nothing };
   assert_int_not_equal(machine_try(s, &e, "test", NULL, AMBIT_NOWHERE, NULL), UINT32_MAX);
-  static const char *const bad[][2] = { { "axis", "w" }, { "3", "1,2" }, { "3", "1,2,3,4" }, { "", "one" }, { "flag", "perhaps" }, { "one|two", "three" } };
+  static const char *const bad[][2] = { { "axis", "w" }, { "3", "1,2" }, { "3", "1,2,3,4" }, { "", "one" },
+    { "flag", "perhaps" }, { "one|two", "three" } };
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
     const ambit_param param[] = { { "a", "1", bad[i][0], bad[i][1], "bad" }, { 0 } };
     ambit_element wrong = { sizeof e, 0, NULL, param, nothing };
     expect_refusal(s, machine_try(s, &wrong, "test", NULL, AMBIT_NOWHERE, NULL), "is not of its shape");
   }
-  static const ambit_port ports[] = { { "a", 7, AMBIT_ROLE_IN, 0, 0, "no kind" }, { "a", AMBIT_PORT_FRAME, 7, 0, 0, "no role" },
-    { "a", AMBIT_PORT_JOINT, AMBIT_ROLE_OUT, 0, 0, "no dof" }, { "a", AMBIT_PORT_JOINT, AMBIT_ROLE_OUT, 99, 0, "many dof" },
+  static const ambit_port ports[] = { { "a", 7, AMBIT_ROLE_IN, 0, 0, "no kind" },
+    { "a", AMBIT_PORT_FRAME, 7, 0, 0, "no role" }, { "a", AMBIT_PORT_JOINT, AMBIT_ROLE_OUT, 0, 0, "no dof" },
+    { "a", AMBIT_PORT_JOINT, AMBIT_ROLE_OUT, 99, 0, "many dof" },
     { NULL, AMBIT_PORT_FRAME, AMBIT_ROLE_OUT, 0, 0, "no name" } };
   for (size_t i = 0; i < sizeof ports / sizeof *ports; i++) {
     ambit_element wrong = { sizeof e, 1, &ports[i], NULL, nothing };
@@ -103,7 +114,7 @@ static void only_what_is_asked_for(void **state) {
   assert_int_equal(all, (2 + 3) + 2 + (2 + 1 + 3 + 4) + (2 + 1 + 3) + (2 + 1));
   const ambit_expr *pose = machine_pull(s, tip, AMBIT_POSE);
   ambit_mechanism_pulled(s->mechanism, &pulled, &all);
-  assert_int_equal(pulled, 3); /* poses of world, hinge, tip */
+  assert_int_equal(pulled, 3);                              /* poses of world, hinge, tip */
   assert_ptr_equal(machine_pull(s, tip, AMBIT_POSE), pose); /* remembered */
   ambit_mechanism_pulled(s->mechanism, &pulled, &all);
   assert_int_equal(pulled, 3);
@@ -128,7 +139,8 @@ static void sums_follow_added_parts(void **state) {
   const ambit_expr *field = machine_pull(s, AMBIT_NOWHERE, AMBIT_FIELD), *wrench = machine_pull(s, hinge, AMBIT_WRENCH);
   for (int i = 0; i < 3; i++) assert_int_equal(field[i], 0);
   for (int i = 0; i < 6; i++) assert_int_equal(wrench[i], 0);
-  assert_int_equal(machine_pull(s, tip, AMBIT_ACCEL)[4], ambit_graph_op(s->graph, AMBIT_OP_MUL, machine_number(s, 2), machine_symbol(s, "hinge''")));
+  assert_int_equal(machine_pull(s, tip, AMBIT_ACCEL)[4],
+      ambit_graph_op(s->graph, AMBIT_OP_MUL, machine_number(s, 2), machine_symbol(s, "hinge''")));
   machine_gravity(s, "0,-8,0");
   machine_gravity(s, "0,-2,0");
   machine_mass(s, tip, "3");
@@ -187,7 +199,8 @@ static void expect_no(machine *s, ambit_frame at, uint32_t quantity, const char 
 static void refusals_name_the_part(void **state) {
   machine *s = *state;
   machine_datum data[] = { machine_text(s, "angle", "0.5"), machine_text(s, "play", "0.002"), machine_end };
-  ambit_frame pin = machine_frame(machine_add(s, "sloppy_joint", "pin", AMBIT_WORLD, data)), tip = machine_link(s, pin, "1,0,0");
+  ambit_frame pin = machine_frame(machine_add(s, "sloppy_joint", "pin", AMBIT_WORLD, data)),
+              tip = machine_link(s, pin, "1,0,0");
   expect_no(s, tip, AMBIT_TWIST, "sloppy_joint `pin` (scene.lua:7): the play may jump");
   expect_no(s, tip, AMBIT_WRENCH + 100, "has no unknown quantity");
   expect_no(s, (ambit_frame) { 99, 0 }, AMBIT_POSE, "no port 0 of part 99");
@@ -195,10 +208,12 @@ static void refusals_name_the_part(void **state) {
   expect_no(s, AMBIT_NOWHERE, AMBIT_POSE, "as a whole has no pose");
   machine_text_of(s, machine_pull(s, tip, AMBIT_POSE)[0], (char[256]) { 0 }); /* a refusal does no harm */
   ambit_expr t = ambit_graph_time(s->graph);
-  ambit_frame moving = machine_frame(machine_add(s, "rigid_link", "stretch", AMBIT_WORLD, (const machine_datum[]) { { "offset", 3, { t, 0, 0 } }, machine_end }));
+  ambit_frame moving = machine_frame(machine_add(
+      s, "rigid_link", "stretch", AMBIT_WORLD, (const machine_datum[]) { { "offset", 3, { t, 0, 0 } }, machine_end }));
   machine_pull(s, moving, AMBIT_POSE);
   expect_no(s, moving, AMBIT_TWIST, "`offset` moves in time");
-  ambit_frame none = machine_frame(machine_add(s, "revolute", "aimless", AMBIT_WORLD, MACHINE_DATA(machine_text(s, "axis", "0,0,0"))));
+  ambit_frame none =
+      machine_frame(machine_add(s, "revolute", "aimless", AMBIT_WORLD, MACHINE_DATA(machine_text(s, "axis", "0,0,0"))));
   expect_no(s, none, AMBIT_POSE, "revolute `aimless` (scene.lua:7): the axis is zero");
 }
 
@@ -213,15 +228,16 @@ static void impossible_bodies(void **state) {
     { "1", "-1,0,0, 0,-1,0, 0,0,-1", "no body has this inertia" },
     { "1", "1,0.9,0, 0.9,1,0, 0,0,1", "no body has this inertia" },
     { "1", "1,0,0, 0,0.1,0, 0,0,0.1", "no body has this inertia" },
-    { "1", "1,0.5,0.5, 0.5,1,-0.5, 0.5,-0.5,1", NULL },  /* second moments with eigenvalues 1, 1, -0.5 would fail; these are 0, 0, 1.5 */
-    { "1", "0.1,0,0, 0,0.7,0, 0,0,0.8", NULL },          /* a flat plate, to the last digit */
-    { "1", "0,0,0, 0,1,0, 0,0,1", NULL },                /* a thin rod */
-    { "1", "0,0,0, 0,0,0, 0,0,0", NULL },                /* a point */
-    { "0", "1,0,0, 0,1,0, 0,0,1", NULL },                /* a rotor whose mass is counted elsewhere */
+    { "1", "1,0.5,0.5, 0.5,1,-0.5, 0.5,-0.5,1", NULL }, /* a thin rod along (1, -1, -1) */
+    { "1", "0.1,0,0, 0,0.7,0, 0,0,0.8", NULL },         /* a flat plate, to the last digit */
+    { "1", "0,0,0, 0,1,0, 0,0,1", NULL },               /* a thin rod */
+    { "1", "0,0,0, 0,0,0, 0,0,0", NULL },               /* a point */
+    { "0", "1,0,0, 0,1,0, 0,0,1", NULL },               /* a rotor whose mass is counted elsewhere */
   };
   ambit_frame hinge = machine_revolute(s, "hinge", AMBIT_WORLD, "0,0,1");
   for (size_t i = 0; i < sizeof body / sizeof *body; i++) {
-    machine_datum data[] = { machine_text(s, "mass", body[i].mass), machine_text(s, "inertia", body[i].inertia), machine_end };
+    machine_datum data[] = { machine_text(s, "mass", body[i].mass), machine_text(s, "inertia", body[i].inertia),
+      machine_end };
     ambit_frame at = machine_link(s, hinge, "1,0,0");
     uint32_t part = machine_add(s, "rigid_body", NULL, at, data);
     if (!body[i].message) {
@@ -249,14 +265,16 @@ static ambit_status pushed(ambit_build *b, uint32_t port, uint32_t quantity, amb
   return AMBIT_UNABLE;
 }
 
-static const ambit_port pushed_port[] = { { "from", AMBIT_PORT_FRAME, AMBIT_ROLE_IN, 0, 0, "" }, { "to", AMBIT_PORT_FRAME, AMBIT_ROLE_OUT, 0, 0, "" } };
+static const ambit_port pushed_port[] = { { "from", AMBIT_PORT_FRAME, AMBIT_ROLE_IN, 0, 0, "" },
+  { "to", AMBIT_PORT_FRAME, AMBIT_ROLE_OUT, 0, 0, "" } };
 static const ambit_element pushed_element = { sizeof pushed_element, 2, pushed_port, NULL, pushed };
 
 static void loops_are_named(void **state) {
   machine *s = *state;
   uint32_t a = machine_try(s, &pushed_element, "pushed", "a", AMBIT_WORLD, NULL);
   machine_add(s, "point_mass", "b", machine_frame(a), MACHINE_DATA(machine_text(s, "mass", "1")));
-  expect_no(s, machine_frame(a), AMBIT_ACCEL, "a loop of elements: a -> b -> a (the acceleration of `a` waits for itself)");
+  expect_no(
+      s, machine_frame(a), AMBIT_ACCEL, "a loop of elements: a -> b -> a (the acceleration of `a` waits for itself)");
   expect_no(s, machine_frame(a), AMBIT_ACCEL, "a -> b -> a"); /* again: nothing is left half done */
 }
 
@@ -275,7 +293,10 @@ static void long_loops_are_named(void **state) {
 static ambit_status curious(ambit_build *b, uint32_t port, uint32_t quantity, ambit_expr *out) {
   if (port == AMBIT_NO_PORT) return AMBIT_UNABLE;
   switch (quantity) {
-  case AMBIT_POSE: return b->get(b, 0, AMBIT_POSE) ? AMBIT_OK : b->fail(b, AMBIT_INVALID, "nothing is connected");
+  case AMBIT_POSE:
+    return b->get(b, 0, AMBIT_POSE)
+               ? AMBIT_OK
+               : (b->fail)(b, AMBIT_INVALID, "nothing is connected"); /* cmocka has a macro fail() */
   case AMBIT_TWIST: return b->state(b, 5, 0, "m") == UINT32_MAX ? AMBIT_INVALID : AMBIT_OK;
   case AMBIT_ACCEL: return b->num(b, "one") == UINT32_MAX ? AMBIT_INVALID : AMBIT_OK;
   case AMBIT_WRENCH: return b->param(b, 3) ? AMBIT_OK : AMBIT_INVALID;
@@ -288,8 +309,8 @@ static ambit_status curious(ambit_build *b, uint32_t port, uint32_t quantity, am
 
 static void misuse_is_reported(void **state) {
   machine *s = *state;
-  static const ambit_port port[] = { { "from", AMBIT_PORT_FRAME, AMBIT_ROLE_IN, 0, 1, "" }, { "to", AMBIT_PORT_FRAME, AMBIT_ROLE_OUT, 0, 0, "" },
-    { "joint", AMBIT_PORT_JOINT, AMBIT_ROLE_OUT, 2, 0, "" } };
+  static const ambit_port port[] = { { "from", AMBIT_PORT_FRAME, AMBIT_ROLE_IN, 0, 1, "" },
+    { "to", AMBIT_PORT_FRAME, AMBIT_ROLE_OUT, 0, 0, "" }, { "joint", AMBIT_PORT_JOINT, AMBIT_ROLE_OUT, 2, 0, "" } };
   static const ambit_element element = { sizeof element, 3, port, NULL, curious };
   uint32_t part = machine_try(s, &element, "curious", "odd", AMBIT_NOWHERE, NULL);
   ambit_frame to = { part, 1 }, joint = { part, 2 };
@@ -314,7 +335,8 @@ static void long_chains_need_little_stack(void **state) {
   enum { LINKS = 20000 };
   ambit_frame at = AMBIT_WORLD;
   machine_datum angle[] = { machine_text(s, "angle", "0.001"), machine_end };
-  for (int i = 0; i < LINKS; i++) at = machine_link(s, machine_frame(machine_add(s, "revolute", NULL, at, angle)), "0.001,0,0");
+  for (int i = 0; i < LINKS; i++)
+    at = machine_link(s, machine_frame(machine_add(s, "revolute", NULL, at, angle)), "0.001,0,0");
   machine_mass(s, at, "1");
   machine_gravity(s, "0,0,-10");
   ambit_interval x[3];
@@ -323,11 +345,12 @@ static void long_chains_need_little_stack(void **state) {
   for (int i = 1; i <= LINKS; i++) px += 0.001 * cos(0.001 * i), py += 0.001 * sin(0.001 * i);
   assert_true(x[0].lo - 1e-9 <= px && px <= x[0].hi + 1e-9 && x[1].lo - 1e-9 <= py && py <= x[1].hi + 1e-9);
   assert_true(x[2].lo == 0 && x[2].hi == 0);
-  const ambit_expr *weight = machine_pull(s, AMBIT_WORLD, AMBIT_WRENCH); /* all the way out for motion, and back for the force */
+  const ambit_expr *weight =
+      machine_pull(s, AMBIT_WORLD, AMBIT_WRENCH); /* all the way out for motion, and back for the force */
   assert_int_equal(weight[5], machine_number(s, -10));
   size_t pulled, all;
   ambit_mechanism_pulled(s->mechanism, &pulled, &all);
-  assert_true(pulled < 5u * 2 * LINKS);
+  assert_true(pulled <= 5 * (2 * LINKS + 3)); /* pose, twist, acceleration, wrench, field: each once */
 }
 
 /* -- the play of a joint */
@@ -335,7 +358,8 @@ static void long_chains_need_little_stack(void **state) {
 static void play_costs_its_radius(void **state) {
   machine *s = *state;
   ambit_frame at = AMBIT_WORLD;
-  machine_datum data[] = { machine_text(s, "angle", "0.7"), machine_text(s, "play", "0.25"), machine_text(s, "axis", "0,0,1"), machine_end };
+  machine_datum data[] = { machine_text(s, "angle", "0.7"), machine_text(s, "play", "0.25"),
+    machine_text(s, "axis", "0,0,1"), machine_end };
   for (int i = 0; i < 3; i++) at = machine_frame(machine_add(s, "sloppy_joint", NULL, at, data));
   const ambit_expr *pose = machine_pull(s, at, AMBIT_POSE);
   ambit_interval x[3];
@@ -343,7 +367,8 @@ static void play_costs_its_radius(void **state) {
   for (int i = 0; i < 2; i++) assert_true(x[i].lo == -0.75 && x[i].hi == 0.75);
   assert_int_equal(pose[11], 0);
   /* an oblique pin: the disc's projection on axis i is play sqrt(1 - n_i^2) */
-  machine_datum oblique[] = { machine_text(s, "angle", "0.7"), machine_text(s, "play", "1"), machine_text(s, "axis", "2,-3,6"), machine_end };
+  machine_datum oblique[] = { machine_text(s, "angle", "0.7"), machine_text(s, "play", "1"),
+    machine_text(s, "axis", "2,-3,6"), machine_end };
   ambit_frame pin = machine_frame(machine_add(s, "sloppy_joint", NULL, AMBIT_WORLD, oblique));
   machine_values(s, 3, machine_pull(s, pin, AMBIT_POSE) + 9, 0, NULL, NULL, x);
   static const double n[3] = { 2.0 / 7, -3.0 / 7, 6.0 / 7 };
@@ -371,10 +396,22 @@ static void axes_fold(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    CASE(names), CASE(connections), CASE(fallbacks), CASE(only_what_is_asked_for), CASE(unknowns_are_made_once),
-    CASE(sums_follow_added_parts), CASE(coordinates_in_the_order_of_parts), CASE(given_motion), CASE(refusals_name_the_part),
-    CASE(impossible_bodies), CASE(loops_are_named), CASE(long_loops_are_named), CASE(misuse_is_reported), CASE(long_chains_need_little_stack),
-    CASE(play_costs_its_radius), CASE(axes_fold),
+    CASE(names),
+    CASE(connections),
+    CASE(fallbacks),
+    CASE(only_what_is_asked_for),
+    CASE(unknowns_are_made_once),
+    CASE(sums_follow_added_parts),
+    CASE(coordinates_in_the_order_of_parts),
+    CASE(given_motion),
+    CASE(refusals_name_the_part),
+    CASE(impossible_bodies),
+    CASE(loops_are_named),
+    CASE(long_loops_are_named),
+    CASE(misuse_is_reported),
+    CASE(long_chains_need_little_stack),
+    CASE(play_costs_its_radius),
+    CASE(axes_fold),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

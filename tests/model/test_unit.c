@@ -45,7 +45,8 @@ static ambit_expr quantity(const char *text, const char *wanted) {
 }
 
 /* Is numerator/denominator * pi^pi inside, and the enclosure at most `ulps` wide? */
-static void check(const char *text, const char *wanted, const char *numerator, const char *denominator, int pi, int ulps) {
+static void check(
+    const char *text, const char *wanted, const char *numerator, const char *denominator, int pi, int ulps) {
   ambit_interval x = value_of(quantity(text, wanted));
   mpfr_t v, w;
   mpfr_init2(v, 300), mpfr_init2(w, 300);
@@ -57,7 +58,8 @@ static void check(const char *text, const char *wanted, const char *numerator, c
   double near = mpfr_get_d(v, MPFR_RNDN), down = mpfr_get_d(v, MPFR_RNDD), up = mpfr_get_d(v, MPFR_RNDU);
   mpfr_clear(v), mpfr_clear(w);
   double ulp = nextafter(fabs(near), INFINITY) - fabs(near);
-  if (!(x.lo <= down && up <= x.hi && x.hi - x.lo <= ulps * ulp)) fail_msg("%s: [%.17g, %.17g] for %.17g", text, x.lo, x.hi, near);
+  if (!(x.lo <= down && up <= x.hi && x.hi - x.lo <= ulps * ulp))
+    fail_msg("%s: [%.17g, %.17g] for %.17g", text, x.lo, x.hi, near);
 }
 
 static void factors_are_exact(void **state) {
@@ -109,13 +111,15 @@ static void right_angles_fold(void **state) {
 
 static void equal_dimensions(void **state) {
   (void)state;
-  static const char *const pair[][2] = { { "J", "N m" }, { "W", "J/s" }, { "Pa", "N/m^2" }, { "N", "kg m/s^2" }, { "V", "W/A" },
-    { "ohm", "V/A" }, { "H", "Wb/A" }, { "T", "Wb/m^2" }, { "C", "A s" }, { "bar", "Pa" }, { "rpm", "Hz" }, { "rad", "1" }, { "", "1" },
-    { "(m)", "m" }, { "((m)^2)^2", "m^4" }, { "m^0", "1" }, { "1/s", "Hz" } };
+  static const char *const pair[][2] = { { "J", "N m" }, { "W", "J/s" }, { "Pa", "N/m^2" }, { "N", "kg m/s^2" },
+    { "V", "W/A" }, { "ohm", "V/A" }, { "H", "Wb/A" }, { "T", "Wb/m^2" }, { "C", "A s" }, { "bar", "Pa" },
+    { "rpm", "Hz" }, { "rad", "1" }, { "", "1" }, { "(m)", "m" }, { "((m)^2)^2", "m^4" }, { "m^0", "1" },
+    { "1/s", "Hz" } };
   for (size_t i = 0; i < sizeof pair / sizeof *pair; i++) {
     ambit_unit a, b;
     ambit_failure f = { 0 };
-    if (ambit_unit_read(pair[i][0], &a, &f) != AMBIT_OK || ambit_unit_read(pair[i][1], &b, &f) != AMBIT_OK) fail_msg("%s", f.message);
+    if (ambit_unit_read(pair[i][0], &a, &f) != AMBIT_OK || ambit_unit_read(pair[i][1], &b, &f) != AMBIT_OK)
+      fail_msg("%s", f.message);
     assert_memory_equal(a.power, b.power, sizeof a.power);
   }
 }

@@ -25,9 +25,10 @@ static void all_plugins_conform(void **state) {
   static const struct {
     const char *name;
     bool frames, powers;
-  } element[] = { { "ground", true, true }, { "frame", true, true }, { "rigid_link", true, true }, { "revolute", true, true },
-    { "prismatic", true, true }, { "sloppy_joint", true, false }, { "rigid_body", false, true }, { "point_mass", false, true },
-    { "gravity", false, true }, { "joint_torque", false, false } };
+  } element[] = { { "ground", true, true }, { "frame", true, true }, { "rigid_link", true, true },
+    { "revolute", true, true }, { "prismatic", true, true }, { "sloppy_joint", true, false },
+    { "rigid_body", false, true }, { "point_mass", false, true }, { "gravity", false, true },
+    { "joint_torque", false, false } };
   for (size_t i = 0; i < sizeof element / sizeof *element; i++)
     for (uint64_t seed = 1; seed <= 3; seed++) {
       element_kit_report r = run_plugin(element[i].name, seed);
@@ -40,7 +41,17 @@ static void all_plugins_conform(void **state) {
 /* -- the kit finds mistakes: a good element, with one of them */
 
 static const ambit_element *good; /* what `mistaken` wraps */
-static enum { NONE, TWIST_SIGN, NO_CORIOLIS, TORQUE_LOST, NOT_TURNED, HALF_WRITTEN, SILENT, GREEDY, RATE_WRONG } mistake;
+static enum {
+  NONE,
+  TWIST_SIGN,
+  NO_CORIOLIS,
+  TORQUE_LOST,
+  NOT_TURNED,
+  HALF_WRITTEN,
+  SILENT,
+  GREEDY,
+  RATE_WRONG
+} mistake;
 
 static ambit_status mistaken(ambit_build *b, uint32_t port, uint32_t quantity, ambit_expr *out) {
   if (mistake == SILENT && quantity == AMBIT_TWIST) return AMBIT_BROKEN;
@@ -70,7 +81,8 @@ static void the_kit_finds(const char *name, int what, const char *message) {
   mistake = what;
   element_kit_report report = element_kit_run(&e, name, 5);
   ambit_registry_close(r);
-  if (what == NONE ? report.failures : !strstr(report.first, message)) fail_msg("`%s` instead of `%s`", report.first, message);
+  if (what == NONE ? report.failures : !strstr(report.first, message))
+    fail_msg("`%s` instead of `%s`", report.first, message);
 }
 
 static void the_kit_finds_mistakes(void **state) {
@@ -89,8 +101,9 @@ static void the_kit_finds_mistakes(void **state) {
 
 static void the_kit_finds_bad_descriptions(void **state) {
   (void)state;
-  static const ambit_param wordless[] = { { "mass", "kg", "", NULL, "" }, { 0 } }, unitless[] = { { "mass", "kilo", "", NULL, "its mass" }, { 0 } },
-    shapeless[] = { { "mass", "kg", "round", NULL, "its mass" }, { 0 } };
+  static const ambit_param wordless[] = { { "mass", "kg", "", NULL, "" }, { 0 } },
+                           unitless[] = { { "mass", "kilo", "", NULL, "its mass" }, { 0 } },
+                           shapeless[] = { { "mass", "kg", "round", NULL, "its mass" }, { 0 } };
   static const ambit_param *const params[] = { wordless, unitless, shapeless };
   static const char *const message[] = { "no sentence", "unknown unit", "no known shape" };
   ambit_failure f = { 0 };

@@ -1,8 +1,9 @@
 /* spatial.h -- vectors, rotations, twists and wrenches of expressions, so that an element reads like its formulas.
 **
-** Everything is inline and goes through ambit_build, which folds: 0 and 1 vanish, rotations about one axis add their angles. Motion is
-** that of rigid bodies in their own axes (Featherstone 2008, ch. 2; Kecskemethy & Hiller 1994); every formula is derived
-** in docs/numerics/mechanics.md. R turns own axes into the axes of the frame before: columns of R are the own axes.
+** Everything is inline and goes through ambit_build, which folds: 0 and 1 vanish, rotations about one axis add their
+** angles. Motion is that of rigid bodies in their own axes (Featherstone 2008, ch. 2; Kecskemethy & Hiller 1994);
+** every formula is derived in docs/numerics/mechanics.md. R turns own axes into the axes of the frame before: columns
+** of R are the own axes.
 */
 #ifndef AMBIT_SPATIAL_H
 #define AMBIT_SPATIAL_H
@@ -26,9 +27,15 @@ typedef struct ambit_screw {
 /* -- numbers */
 
 static inline ambit_expr ambit_add(ambit_build *b, ambit_expr x, ambit_expr y) { return b->op(b, AMBIT_OP_ADD, x, y); }
-static inline ambit_expr ambit_subtract(ambit_build *b, ambit_expr x, ambit_expr y) { return b->op(b, AMBIT_OP_SUB, x, y); }
-static inline ambit_expr ambit_multiply(ambit_build *b, ambit_expr x, ambit_expr y) { return b->op(b, AMBIT_OP_MUL, x, y); }
-static inline ambit_expr ambit_divide(ambit_build *b, ambit_expr x, ambit_expr y) { return b->op(b, AMBIT_OP_DIV, x, y); }
+static inline ambit_expr ambit_subtract(ambit_build *b, ambit_expr x, ambit_expr y) {
+  return b->op(b, AMBIT_OP_SUB, x, y);
+}
+static inline ambit_expr ambit_multiply(ambit_build *b, ambit_expr x, ambit_expr y) {
+  return b->op(b, AMBIT_OP_MUL, x, y);
+}
+static inline ambit_expr ambit_divide(ambit_build *b, ambit_expr x, ambit_expr y) {
+  return b->op(b, AMBIT_OP_DIV, x, y);
+}
 static inline ambit_expr ambit_negate(ambit_build *b, ambit_expr x) { return b->op(b, AMBIT_OP_NEG, x, x); }
 static inline ambit_expr ambit_square(ambit_build *b, ambit_expr x) { return b->op(b, AMBIT_OP_SQR, x, x); }
 static inline ambit_expr ambit_root(ambit_build *b, ambit_expr x) { return b->op(b, AMBIT_OP_SQRT, x, x); }
@@ -96,8 +103,9 @@ static inline ambit_rotation ambit_rotation_identity(ambit_build *b) {
   return r;
 }
 
-/* By the angle about the unit vector n (Rodrigues 1840): cos a 1 + (1 - cos a) n n^T + sin a [n x]. The diagonal is written
-** n_i^2 + cos a (1 - n_i^2), in which cos a occurs once. */
+/* By the angle about the unit vector n (Rodrigues 1840): cos a 1 + (1 - cos a) n n^T + sin a [n x]. The diagonal is
+** written n_i^2 + cos a (1 - n_i^2), in which cos a occurs once.
+*/
 static inline ambit_rotation ambit_rotation_about(ambit_build *b, ambit_vector3 n, ambit_expr angle) {
   ambit_rotation r;
   ambit_expr c = b->op(b, AMBIT_OP_COS, angle, angle), s = b->op(b, AMBIT_OP_SIN, angle, angle), one = b->num(b, "1");
@@ -216,11 +224,14 @@ static inline ambit_status ambit_rotation_param(ambit_build *b, uint32_t axis, u
 static inline ambit_status ambit_check_fixed(ambit_build *b, const ambit_expr *e, uint32_t n, const char *name) {
   for (uint32_t i = 0; e && i < n; i++)
     if (b->diff_time(b, e[i]) != 0)
-      return b->fail(b, AMBIT_INVALID, "`%s` moves in time: it must be fixed; for a given motion use a revolute or prismatic joint", name);
+      return b->fail(b, AMBIT_INVALID,
+          "`%s` moves in time: it must be fixed; for a given motion use a revolute or prismatic joint", name);
   return AMBIT_OK;
 }
 
-/* A joint of one degree of freedom: its coordinate (order 0) or a time derivative of it, given by parameter `given` or a state. */
+/* A joint of one degree of freedom: its coordinate (order 0) or a time derivative of it, given by parameter `given`
+** or a state.
+*/
 static inline ambit_expr ambit_joint_coordinate(ambit_build *b, uint32_t given, uint32_t order, const char *unit) {
   const ambit_expr *motion = b->param(b, given);
   if (!motion) return b->state(b, 0, order, unit);
@@ -239,8 +250,11 @@ static inline ambit_status ambit_check_mass(ambit_build *b, ambit_expr mass) {
   return ambit_check_fixed(b, &mass, 1, "mass");
 }
 
-/* Potential energy -m g.r of a mass whose centre is at c of the frame at an IN port; 0 where there is no field, without a pose. */
-static inline ambit_status ambit_potential_energy(ambit_build *b, uint32_t port, ambit_expr mass, ambit_vector3 c, ambit_expr *e) {
+/* Potential energy -m g.r of a mass whose centre is at c of the frame at an IN port; 0 where there is no field,
+** without a pose.
+*/
+static inline ambit_status ambit_potential_energy(
+    ambit_build *b, uint32_t port, ambit_expr mass, ambit_vector3 c, ambit_expr *e) {
   const ambit_expr *field = b->get(b, AMBIT_NO_PORT, AMBIT_FIELD);
   *e = 0;
   if (!field) return AMBIT_INVALID;

@@ -8,7 +8,7 @@
 **
 ** Change of frame: with F = D Q, D powers of two, and E = I - Q^T Q, |E| <= eps < 1 in the row-sum norm:
 ** z = sum_c w_c e_c d_c = F y with y = (I - E)^-1 Q^T D^-1 z, so |y_j| <= v_j + eps / (1 - eps) max v, v_j = sum_c w_c |Q^T D^-1 d_c|_j.
-** The frame is taken in coordinates in which every state has about the same size, so results do not depend on units.
+** Principal axes are taken in coordinates in which every state has about the same size, so they do not depend on units.
 */
 #include "lohner.h"
 #include <string.h>
@@ -101,6 +101,8 @@ static double unit_of(double x) {
 static void choose_units(history *g, size_t from, size_t to) {
   for (uint32_t i = 0; i < g->n; i++) {
     double sum = 0;
+    g->unit[i] = 1;
+    if (!g->keep) continue; /* a frame that turns because units jump would wrap anew at every step */
     for (size_t c = from; c < to; c++) sum += fabs(g->direction[i * g->pitch + c]) * g->weight[c];
     g->unit[i] = unit_of(sum);
   }

@@ -8,8 +8,9 @@
 #include "lohner.h"
 
 #define TRIES 200
-#define SLOPE_TRIES 4
+#define PROOF_TRIES 4
 #define GUESS 5.0        /* eps over the tail with eps = 0 */
+#define AGAIN 2.0        /* over the last tail */
 #define AIM 0.2          /* share of the tolerance that a new length aims at */
 #define LOW_WATER 0.02   /* a longer step is worth another tail below this share */
 #define GROWTH 3.0
@@ -77,13 +78,26 @@ static double truncation(lohner *s) {
   return worst >= 0 ? worst : INFINITY;
 }
 
+static int within(size_t n, const double *a, const double *b) {
+  for (size_t k = 0; k < n; k++)
+    if (!(a[k] <= b[k])) return 0;
+  return 1;
+}
+
+/* The first guess is a multiple of what eps = 0 gave, the next ones of what the last guess gave: a component whose own derivatives
+** vanish at this order learns from the others. */
+static void guess(int attempt, size_t n, const double *excess, double *eps) {
+  for (size_t k = 0; k < n; k++) eps[k] = (attempt ? AGAIN : GUESS) * excess[k] + TINY;
+}
+
 static int centre_is_proved(lohner *s) {
   double *eps = s->added; /* free until the set moves */
-  for (uint32_t i = 0; i < s->nx; i++) eps[i] = GUESS * s->excess[i] + TINY;
-  if (!centre_excess(s, eps)) return 0;
-  for (uint32_t i = 0; i < s->nx; i++)
-    if (!(s->excess[i] <= eps[i])) return 0;
-  return 1;
+  for (int i = 0; i < PROOF_TRIES; i++) {
+    guess(i, s->nx, s->excess, eps);
+    if (!centre_excess(s, eps)) return 0;
+    if (within(s->nx, s->excess, eps)) return 1;
+  }
+  return 0;
 }
 
 /* -- the slopes over the box of the whole set */
@@ -109,22 +123,12 @@ static int slope_excess(lohner *s, const double *eps, const double *deps) {
   return 1;
 }
 
-static int within(size_t n, const double *a, const double *b) {
-  for (size_t k = 0; k < n; k++)
-    if (!(a[k] <= b[k])) return 0;
-  return 1;
-}
-
-static void widen(size_t n, const double *from, double *to, double factor) {
-  for (size_t k = 0; k < n; k++) to[k] = factor * from[k] + TINY;
-}
-
 static int slopes_are_proved(lohner *s) {
   size_t entries = (size_t)s->nx * s->ndir;
   if (!slope_excess(s, NULL, NULL)) return 0;
-  for (int i = 0; i < SLOPE_TRIES; i++) {
-    widen(s->nx, s->box_excess, s->added, i ? 2 : GUESS);
-    widen(entries, s->slope_excess, s->slope_guess, i ? 2 : GUESS);
+  for (int i = 0; i < PROOF_TRIES; i++) {
+    guess(i, s->nx, s->box_excess, s->added);
+    guess(i, entries, s->slope_excess, s->slope_guess);
     if (!slope_excess(s, s->added, s->slope_guess)) return 0;
     if (within(s->nx, s->box_excess, s->added) && within(entries, s->slope_excess, s->slope_guess)) return 1;
   }
