@@ -5,7 +5,8 @@
 
 static const ambit_lua_enclosure *self(lua_State *L) {
   const ambit_lua_enclosure *x = luaL_testudata(L, 1, AMBIT_TYPE_ENCLOSURE);
-  if (!x) ambit_lua_error(L, "expected an enclosure in front of the colon, as in x:width(), got %s", luaL_typename(L, 1));
+  if (!x)
+    ambit_lua_error(L, "expected an enclosure in front of the colon, as in x:width(), got %s", luaL_typename(L, 1));
   return x;
 }
 

@@ -73,13 +73,11 @@ static int fold(lua_State *L) {
   return 1;
 }
 
-/* The exponent as an integer, if that is what it says. */
+/* The exponent as an integer, if it is exactly one: a text is read as a decimal, so "2.00000000000000000001" is none. */
 static bool integer_exponent(lua_State *L, int idx, int32_t *n) {
   double x;
-  if (lua_type(L, idx) == LUA_TNUMBER || lua_type(L, idx) == LUA_TSTRING) {
-    int is_number;
-    x = lua_tonumberx(L, idx, &is_number);
-    if (!is_number) return false;
+  if (lua_type(L, idx) == LUA_TNUMBER) {
+    x = lua_tonumber(L, idx);
   } else if (!is_unknown(L, idx)) {
     ambit_lua_enclosure e = ambit_lua_to_enclosure(L, idx, "exponent");
     if (!ambit_interval_is_point(e.x)) return false;

@@ -3,8 +3,8 @@
 ** An element asks for what it needs from within express(), so a chain of elements is a chain of nested calls. The C
 ** stack stays shallow whatever the length of the chain: at DEPTH_MAX nested calls the asked-for cell becomes a
 ** request of its own, everything is broken off (its elements see NULL from get() and return), the request is served
-** first, and the broken-off one is repeated. By then what it needs is remembered, so each express() is called at most
-** twice for one answer.
+** first, and the broken-off one is repeated. By then what it needed is remembered: an express() is called once more for
+** each deep chain that it hangs on.
 **
 ** A cell that is asked for while it is being worked out closes a loop: BUSY, or WAITING in a request that still
 ** waits.

@@ -1,8 +1,10 @@
 /* attached.h -- a frame rigidly attached to another: first moved by `offset` (axes of `from`), then turned by `angle`
 ** about `axis`.
 **
-** With rotation Q and offset p, in own axes:  w' = Q^T w,  v' = Q^T (v + w x p),  a' = Q^T (a + alpha x p + w x (w x
-** p)). A wrench at `to` acts on `from` as force Q f and torque Q t + p x Q f.
+** With rotation Q and offset p, in own axes (subscript 1: of `to`):
+**   w_1 = Q^T w              v_1 = Q^T (v + w x p)
+**   alpha_1 = Q^T alpha      a_1 = Q^T (a + alpha x p + w x (w x p))
+** A wrench (t, f) at `to` acts on `from` as (Q t + p x Q f, Q f).
 */
 #ifndef AMBIT_ATTACHED_H
 #define AMBIT_ATTACHED_H

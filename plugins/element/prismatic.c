@@ -1,8 +1,10 @@
 /* prismatic.c -- a slider: `to` keeps the axes of `from` and is displaced by s along the axis n.
 **
-** With p = n s, in own axes:  w' = w,  v' = v + w x p + n s',  alpha' = alpha, a' = a + alpha x p + w x (w x p) + 2 w
-** x n s' + n s''. The wrench (t, f) at `to` acts on `from` as (t + p x f, f); along the motion n.f + effort = 0.
-** [Featherstone 2008, ch. 4]
+** With p = n s, in own axes (subscript 1: of `to`):
+**   w_1 = w          v_1 = v + w x p + n s'
+**   alpha_1 = alpha  a_1 = a + alpha x p + w x (w x p) + 2 w x n s' + n s''
+** The wrench (t, f) at `to` acts on `from` as (t + p x f, f); along the motion n.f + effort = 0. [Featherstone 2008,
+** ch. 4]
 */
 #include <ambit/spatial.h>
 

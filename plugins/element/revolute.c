@@ -1,8 +1,10 @@
 /* revolute.c -- a hinge: `to` turns by the angle q about the axis n through the origin of `from`.
 **
-** With Q = Rot(n, q), in own axes:  w' = Q^T w + n q',  v' = Q^T v,  alpha' = Q^T alpha + n q'' + (Q^T w) x n q',  a'
-** = Q^T a. The wrench (t, f) at `to` acts on `from` as (Q t, Q f); its part along the motion is balanced by the
-** effort: n.t + effort = 0. [Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 4]
+** With Q = Rot(n, q), in own axes (subscript 1: of `to`):
+**   w_1 = Q^T w + n q'                                v_1 = Q^T v
+**   alpha_1 = Q^T alpha + n q'' + (Q^T w) x n q'      a_1 = Q^T a
+** The wrench (t, f) at `to` acts on `from` as (Q t, Q f); along the motion n.t + effort = 0. [Featherstone, Rigid Body
+** Dynamics Algorithms, 2008, ch. 4]
 */
 #include <ambit/spatial.h>
 

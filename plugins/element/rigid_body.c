@@ -1,8 +1,9 @@
 /* rigid_body.c -- a body with mass m, centre of mass c and inertia I about c, all in the axes of the frame that
 ** carries it.
 **
-** Newton and Euler with d'Alembert, in the frame's axes: a_c = a + alpha x c + w x (w x c); force f = -m a_c, torque
-** t = -(I alpha + w x I w) + c x f. Energy: (m v_c^2 + w.I w) / 2 and -m g.r_c. [Featherstone 2008, ch. 2]
+** Newton and Euler with d'Alembert, in the frame's axes:
+**   a_c = a + alpha x c + w x (w x c),  force f = -m a_c,  torque t = -(I alpha + w x I w) + c x f
+** Energy: (m v_c^2 + w.I w) / 2 and -m g.r_c. [Featherstone 2008, ch. 2]
 */
 #include <ambit/spatial.h>
 

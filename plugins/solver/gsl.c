@@ -1,221 +1,224 @@
-/* gsl.c -- the GNU Scientific Library's ordinary differential equation steppers: reference solutions that prove nothing.
+/* gsl.c -- the steppers of the GNU Scientific Library's odeiv2: one curve from the middle of the data, which proves nothing.
 **
-** One trajectory from the midpoint of the initial set, in floating-point numbers; records are points and say that they are not
-** rigorous. Error control is the library's (gsl_odeiv2_control_y_new): local error below abs + rel |x| per step.
+** It serves as a reference and for sampling. Right-hand side and Jacobian are tapes in the arithmetic `real`; the derivative with respect to
+** time, which only the method bsimp reads, is a central difference. GSL allocates its own memory in open(); its error handler, which
+** would end the process, is switched off there.
 */
-#include <ambit/block.h>
 #include <ambit/solver.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 #include <math.h>
-#include <stdbool.h>
 #include <string.h>
 
-enum { METHOD, ABS, REL, STEP_MAX, STEPS_MAX };
+/* in the order of the words of the option `method` */
+#define METHODS(X) X(rk2) X(rk4) X(rkf45) X(rkck) X(rk8pd) X(rk2imp) X(rk4imp) X(bsimp) X(msadams) X(msbdf)
 
-static const ambit_param params[] = {
-  { "method", "1", "rk8pd|rk4|rk2|rkf45|rkck|rk2imp|rk4imp|bsimp|msadams|msbdf", "rk8pd",
-    "stepper; rk2imp, rk4imp, bsimp and msbdf are for stiff systems" },
-  { "abs", "1", "", "1e-12", "absolute local error" },
-  { "rel", "1", "", "1e-12", "relative local error" },
-  { "step_max", "s", "", "inf", "largest step" },
-  { "steps_max", "1", "integer", "10000000", "steps after which the run gives up" },
+enum { OPTION_METHOD, OPTION_RELATIVE, OPTION_ABSOLUTE, OPTION_STEP_MAX };
+
+static const ambit_param param[] = {
+  { "method", "1", "rk2|rk4|rkf45|rkck|rk8pd|rk2imp|rk4imp|bsimp|msadams|msbdf", "rk8pd",
+    "stepper: rk2 to rk8pd are explicit Runge-Kutta, msadams is for smooth problems; rk2imp, rk4imp, bsimp and msbdf for stiff ones" },
+  { "relative", "1", "", "1e-10", "local error allowed, relative to the state" },
+  { "absolute", "1", "", "1e-12", "local error allowed besides, in the units of the state" },
+  { "step_max", "s", "", "inf", "longest step" },
   { NULL, NULL, NULL, NULL, NULL },
 };
 
-typedef struct trajectory {
+/* A tape and its slots. */
+typedef struct program {
+  const ambit_tape *tape;
+  char *base;
+} program;
+
+typedef struct solver {
   const ambit_host *host;
-  const ambit_problem *problem;
-  ambit_lane rhs, jacobian;
-  double *x, *lo;                /* [nx] state; lower bounds handed to the sink */
-  double step_max, steps_max;
+  ambit_problem problem;
+  size_t elem;
+  program rhs, jacobian;
+  double *x, *start, *p, *before, *after; /* [nx] [nx] [np] [nx] [nx] */
+  double step_max;
   gsl_odeiv2_system system;
   gsl_odeiv2_driver *driver;
-} trajectory;
+} solver;
 
-/* -- the right-hand side and its Jacobian at a point */
+/* -- tapes */
 
-static int evaluate(const trajectory *t, ambit_lane *lane, double time, const double *x) {
-  const ambit_problem *p = t->problem;
-  for (uint32_t i = 0; i < p->nx; i++) {
-    if (!isfinite(x[i])) return GSL_EBADFUNC;
-    ambit_lane_set(lane, i, x[i], x[i]);
+static int open_program(solver *s, const ambit_tape *t, program *r) {
+  const ambit_arithmetic *a = s->problem.arithmetic;
+  *r = (program) { t, s->host->alloc(s->host, (size_t)t->nslot * s->elem) };
+  if (!r->base || (a->init && a->init(s->problem.actx, r->base, t->nslot) != AMBIT_OK)) return 0;
+  for (uint32_t i = 0; i < t->nconst; i++) a->set(s->problem.actx, r->base + i * s->elem, 1, &t->lo[i], &t->hi[i], -1);
+  return 1;
+}
+
+static void close_program(solver *s, program *r) {
+  if (r->base && s->problem.arithmetic->clear) s->problem.arithmetic->clear(s->problem.actx, r->base, r->tape->nslot);
+}
+
+static void put(const solver *s, const program *r, uint32_t in, double x) {
+  s->problem.arithmetic->set(s->problem.actx, r->base + (r->tape->nconst + in) * s->elem, 1, &x, &x, -1);
+}
+
+/* Outputs at (t, x); GSL_EDOM if one of them is no number: GSL then tries a shorter step. */
+static int evaluate(const solver *s, const program *r, double t, const double *x, double *out) {
+  const ambit_problem *p = &s->problem;
+  const ambit_arithmetic *a = p->arithmetic;
+  const ambit_tape *tape = r->tape;
+  for (uint32_t i = 0; i < p->nx; i++) put(s, r, i, x[i]);
+  for (uint32_t i = 0; i < p->np; i++) put(s, r, p->nx + i, s->p[i]);
+  if (p->uses_time) put(s, r, p->nx + p->np, t);
+  if (a->enter) a->enter(p->actx);
+  for (uint32_t i = 0; i < tape->nrun; i++) {
+    const ambit_run *run = &tape->run[i];
+    a->run[run->op](a, p->actx, r->base, 1, 1, run->count, tape->dst + run->first, tape->a + run->first, tape->b + run->first);
   }
-  for (uint32_t i = 0; i < p->np; i++) ambit_lane_set(lane, p->nx + i, p->p_lo[i], p->p_hi[i]);
-  if (p->uses_time) ambit_lane_set(lane, p->nx + p->np, time, time);
-  return ambit_lane_run(lane) & (AMBIT_F_PARTIAL | AMBIT_F_EMPTY) ? GSL_EBADFUNC : GSL_SUCCESS;
-}
-
-static double value_of(const ambit_lane *lane, uint32_t out) {
-  double lo, hi;
-  ambit_lane_get(lane, out, &lo, &hi);
-  return 0.5 * lo + 0.5 * hi;
-}
-
-static int slope(double time, const double x[], double dxdt[], void *self) {
-  trajectory *t = self;
-  int status = evaluate(t, &t->rhs, time, x);
-  for (uint32_t i = 0; i < t->problem->nx && status == GSL_SUCCESS; i++) {
-    dxdt[i] = value_of(&t->rhs, i);
-    if (!isfinite(dxdt[i])) status = GSL_EBADFUNC;
+  if (a->leave) a->leave(p->actx);
+  for (uint32_t i = 0; i < tape->nout; i++) {
+    double lo, hi;
+    a->bounds(p->actx, r->base + tape->out[i] * s->elem, 1, &lo, &hi);
+    if (!(lo <= hi) || !isfinite(lo) || !isfinite(hi)) return GSL_EDOM;
+    out[i] = 0.5 * lo + 0.5 * hi;
   }
-  return status;
-}
-
-/* df/dt by a central difference: it only steers the implicit steppers' convergence */
-static int time_slope(trajectory *t, double time, const double *x, double *dfdt) {
-  uint32_t n = t->problem->nx;
-  memset(dfdt, 0, n * sizeof *dfdt);
-  if (!t->problem->uses_time) return GSL_SUCCESS;
-  double h = 1e-6 * (1 + fabs(time));
-  if (evaluate(t, &t->rhs, time + h, x) != GSL_SUCCESS) return GSL_EBADFUNC;
-  for (uint32_t i = 0; i < n; i++) dfdt[i] = value_of(&t->rhs, i);
-  if (evaluate(t, &t->rhs, time - h, x) != GSL_SUCCESS) return GSL_EBADFUNC;
-  for (uint32_t i = 0; i < n; i++) dfdt[i] = (dfdt[i] - value_of(&t->rhs, i)) / (2 * h);
   return GSL_SUCCESS;
 }
 
-static int jacobian(double time, const double x[], double *dfdx, double dfdt[], void *self) {
-  trajectory *t = self;
-  uint32_t n = t->problem->nx;
-  int status = evaluate(t, &t->jacobian, time, x);
-  if (status != GSL_SUCCESS) return status;
-  for (uint32_t i = 0; i < n * n; i++) dfdx[i] = value_of(&t->jacobian, i);
-  return time_slope(t, time, x, dfdt);
+static int rates(double t, const double y[], double dydt[], void *self) {
+  const solver *s = self;
+  return evaluate(s, &s->rhs, t, y, dydt);
+}
+
+static int derivatives(double t, const double y[], double *dfdy, double dfdt[], void *self) {
+  const solver *s = self;
+  uint32_t nx = s->problem.nx;
+  int status = evaluate(s, &s->jacobian, t, y, dfdy);
+  memset(dfdt, 0, nx * sizeof *dfdt);
+  if (status != GSL_SUCCESS || !s->problem.uses_time) return status;
+  double d = 0x1p-17 * fmax(1, fabs(t)); /* about the cube root of the precision */
+  status = evaluate(s, &s->rhs, t - d, y, s->before);
+  if (status == GSL_SUCCESS) status = evaluate(s, &s->rhs, t + d, y, s->after);
+  for (uint32_t i = 0; i < nx; i++) dfdt[i] = (s->after[i] - s->before[i]) / (2 * d);
+  return status;
 }
 
 /* -- life */
 
-static const gsl_odeiv2_step_type *stepper(int method) {
-  switch (method) {
-  case 1: return gsl_odeiv2_step_rk4;
-  case 2: return gsl_odeiv2_step_rk2;
-  case 3: return gsl_odeiv2_step_rkf45;
-  case 4: return gsl_odeiv2_step_rkck;
-  case 5: return gsl_odeiv2_step_rk2imp;
-  case 6: return gsl_odeiv2_step_rk4imp;
-  case 7: return gsl_odeiv2_step_bsimp;
-  case 8: return gsl_odeiv2_step_msadams;
-  case 9: return gsl_odeiv2_step_msbdf;
-  default: return gsl_odeiv2_step_rk8pd;
-  }
-}
+static double middle(double lo, double hi) { return lo == hi ? lo : 0.5 * lo + 0.5 * hi; }
 
-/* only the implicit steppers read the Jacobian */
-static uint32_t want_for(const double *option) {
-  int method = (int)option[METHOD];
-  return AMBIT_WANT_RHS | ((method >= 5 && method <= 7) || method == 9 ? AMBIT_WANT_JACOBIAN : 0);
-}
-
-static void close_trajectory(void *self) {
-  trajectory *t = self;
-  ambit_lane_close(&t->rhs);
-  ambit_lane_close(&t->jacobian);
-  if (t->driver) gsl_odeiv2_driver_free(t->driver);
-}
-
-static ambit_status check(const ambit_host *h, const double *option) {
-  if (!(option[ABS] >= 0) || !(option[REL] >= 0) || !(option[ABS] + option[REL] > 0))
-    return h->fail(h, AMBIT_INVALID, "`abs` and `rel` must not be negative, and one of them must be positive");
-  if (!(option[STEP_MAX] > 0)) return h->fail(h, AMBIT_INVALID, "`step_max` must be positive");
-  if (!(option[STEPS_MAX] > 0)) return h->fail(h, AMBIT_INVALID, "`steps_max` must be positive");
+static ambit_status check_options(const ambit_host *h, const double *o) {
+  static const int bound[] = { OPTION_RELATIVE, OPTION_ABSOLUTE };
+  for (size_t i = 0; i < 2; i++)
+    if (!(o[bound[i]] >= 0 && o[bound[i]] < INFINITY))
+      return h->fail(h, AMBIT_INVALID, "gsl: option `%s` must be 0 or greater, not %g", param[bound[i]].name, o[bound[i]]);
+  if (o[OPTION_RELATIVE] == 0 && o[OPTION_ABSOLUTE] == 0)
+    return h->fail(h, AMBIT_INVALID, "gsl: one of the options `relative` and `absolute` must be greater than 0");
+  if (!(o[OPTION_STEP_MAX] > 0))
+    return h->fail(h, AMBIT_INVALID, "gsl: option `step_max` must be greater than 0, not %g", o[OPTION_STEP_MAX]);
   return AMBIT_OK;
 }
 
-static ambit_status open_driver(trajectory *t, const double *option) {
-  const double *time = t->problem->time;
-  double span = time[1] - time[0], first = copysign(fmin(fmin(fabs(span), option[STEP_MAX]), 1e-6 * (1 + fabs(span))), span);
-  t->driver = gsl_odeiv2_driver_alloc_y_new(&t->system, stepper((int)option[METHOD]), first, option[ABS], option[REL]);
-  if (!t->driver) return t->host->fail(t->host, AMBIT_NOMEM, "out of memory for the stepper");
-  if (isfinite(option[STEP_MAX])) gsl_odeiv2_driver_set_hmax(t->driver, option[STEP_MAX]);
-  return AMBIT_OK;
+static int allocate(solver *s) {
+  const ambit_problem *p = &s->problem;
+  size_t state = (p->nx + 1u) * sizeof(double);
+  double **const array[] = { &s->x, &s->start, &s->before, &s->after };
+  for (size_t i = 0; i < sizeof array / sizeof *array; i++)
+    if (!(*array[i] = s->host->alloc(s->host, state))) return 0;
+  s->p = s->host->alloc(s->host, (p->np + 1u) * sizeof(double));
+  return s->p && open_program(s, p->rhs, &s->rhs) && open_program(s, p->jacobian, &s->jacobian);
+}
+
+static void close(void *self) {
+  solver *s = self;
+  if (s->driver) gsl_odeiv2_driver_free(s->driver);
+  close_program(s, &s->rhs);
+  close_program(s, &s->jacobian);
+}
+
+static void take_middle(solver *s) {
+  const ambit_problem *p = &s->problem;
+  for (uint32_t i = 0; i < p->nx; i++) s->start[i] = middle(p->x0_lo[i], p->x0_hi[i]);
+  for (uint32_t i = 0; i < p->np; i++) s->p[i] = middle(p->p_lo[i], p->p_hi[i]);
 }
 
 static ambit_status open(const ambit_host *h, const ambit_problem *p, const double *option, void **self) {
-  gsl_set_error_handler_off();
-  ambit_status status = check(h, option);
+#define METHOD(name) gsl_odeiv2_step_##name,
+  const gsl_odeiv2_step_type *const method[] = { METHODS(METHOD) };
+#undef METHOD
+  ambit_status status = check_options(h, option);
   if (status != AMBIT_OK) return status;
-  trajectory *t = h->alloc(h, sizeof *t);
-  if (!t) return h->fail(h, AMBIT_NOMEM, "out of memory");
-  *t = (trajectory) { .host = h, .problem = p, .step_max = option[STEP_MAX], .steps_max = option[STEPS_MAX] };
-  t->x = h->alloc(h, p->nx * sizeof *t->x);
-  t->lo = h->alloc(h, p->nx * sizeof *t->lo);
-  t->system = (gsl_odeiv2_system) { slope, p->jacobian ? jacobian : NULL, p->nx, t };
-  if (!t->x || !t->lo) return h->fail(h, AMBIT_NOMEM, "out of memory");
-  status = ambit_lane_open(&t->rhs, h, p->rhs, p->arithmetic, p->actx);
-  if (status == AMBIT_OK && p->jacobian) status = ambit_lane_open(&t->jacobian, h, p->jacobian, p->arithmetic, p->actx);
-  if (status == AMBIT_OK) status = open_driver(t, option);
-  if (status != AMBIT_OK) {
-    close_trajectory(t);
-    return status;
+  solver *s = h->alloc(h, sizeof *s);
+  if (!s) return h->fail(h, AMBIT_NOMEM, "gsl: out of memory");
+  memcpy(&s->problem, p, p->size < sizeof s->problem ? p->size : sizeof s->problem);
+  s->host = h, s->elem = p->arithmetic->elem(p->actx), s->step_max = option[OPTION_STEP_MAX];
+  s->system = (gsl_odeiv2_system) { rates, derivatives, p->nx, s };
+  gsl_set_error_handler_off();
+  double span = p->time[p->ntime - 1] - p->time[0], first = fmin(fabs(span) * 1e-6, s->step_max);
+  if (allocate(s))
+    s->driver = gsl_odeiv2_driver_alloc_y_new(&s->system, method[(size_t)option[OPTION_METHOD]],
+        copysign(first, span), option[OPTION_ABSOLUTE], option[OPTION_RELATIVE]);
+  if (!s->driver) {
+    close(s);
+    return h->fail(h, AMBIT_NOMEM, "gsl: out of memory");
   }
-  *self = t;
+  take_middle(s);
+  *self = s;
   return AMBIT_OK;
 }
 
-/* -- running */
+/* -- the run */
 
-static int32_t emit(trajectory *t, ambit_sink *s, double from, double to) {
-  uint32_t n = t->problem->nx;
-  memcpy(t->lo, t->x, n * sizeof *t->lo);
-  ambit_record r = { .size = sizeof r, .kind = AMBIT_REC_STEP, .t_from = from, .t_to = to, .nx = n, .lo = t->lo, .hi = t->lo };
-  return s->emit(s, &r);
-}
-
-static ambit_status stuck(trajectory *t, int code, double time) {
-  if (code == GSL_EBADFUNC || code == GSL_EFAILED)
-    return t->host->fail(t->host, AMBIT_UNABLE, "the right-hand side has no finite value near t = %.6g", time);
-  return t->host->fail(t->host, AMBIT_UNABLE, "the stepper failed at t = %.6g: %s; try another `method` or a larger `abs`", time,
+static ambit_status give_up(const solver *s, double t, int code) {
+  const char *what = code == GSL_EDOM ? "the right-hand side is not defined, or not finite, beyond here"
+                                      : "no step is short enough for the tolerances: the solution may escape here";
+  return s->host->fail(s->host, AMBIT_UNABLE,
+      "at t = %.9g s %s (GSL: %s); end before it, loosen `relative` or `absolute`, or try another `method`", t, what,
       gsl_strerror(code));
 }
 
-static bool is_finite_state(const trajectory *t) {
-  for (uint32_t i = 0; i < t->problem->nx; i++)
-    if (!isfinite(t->x[i])) return false;
-  return true;
+static int all_finite(const double *x, uint32_t n) {
+  for (uint32_t i = 0; i < n; i++)
+    if (!isfinite(x[i])) return 0;
+  return 1;
 }
 
-/* one accepted step towards `end` */
-static ambit_status advance(trajectory *t, ambit_sink *s, double *time, double end) {
-  gsl_odeiv2_driver *d = t->driver;
-  double before = *time, first = t->problem->time[0], span = t->problem->time[t->problem->ntime - 1] - first;
-  if (fabs(d->h) > t->step_max) d->h = copysign(t->step_max, d->h);
-  int code = gsl_odeiv2_evolve_apply(d->e, d->c, d->s, &t->system, time, end, &d->h, t->x);
-  if (code != GSL_SUCCESS) return stuck(t, code, before);
-  if (*time == before || !is_finite_state(t))
-    return t->host->fail(t->host, AMBIT_UNABLE, "the solution grows without bound or the step became too small near t = %.6g", before);
-  if (emit(t, s, before, *time)) return AMBIT_STOPPED;
-  return s->progress(s, (*time - first) / span, NULL) ? AMBIT_STOPPED : AMBIT_OK;
+static int32_t emit(const solver *s, ambit_sink *sink, double from, double to) {
+  const ambit_problem *p = &s->problem;
+  const ambit_record r = { .size = sizeof r, .kind = AMBIT_REC_STEP, .t_from = from, .t_to = to, .nx = p->nx, .lo = s->x,
+    .hi = s->x, .order = gsl_odeiv2_step_order(s->driver->s) };
+  int32_t stop = sink->emit(sink, &r);
+  double done = (to - p->time[0]) / (p->time[p->ntime - 1] - p->time[0]);
+  return !stop && sink->progress ? sink->progress(sink, done, NULL) : stop;
 }
 
-static ambit_status run(void *self, ambit_sink *s) {
-  trajectory *t = self;
-  const ambit_problem *p = t->problem;
-  for (uint32_t i = 0; i < p->nx; i++) t->x[i] = 0.5 * p->x0_lo[i] + 0.5 * p->x0_hi[i];
-  double time = p->time[0], steps = 0;
-  for (uint32_t k = 1; k < p->ntime; k++)
-    while (time != p->time[k]) {
-      if (++steps > t->steps_max)
-        return t->host->fail(t->host, AMBIT_UNABLE, "gave up after %.0f steps at t = %.6g; raise `steps_max`", t->steps_max, time);
-      ambit_status status = advance(t, s, &time, p->time[k]);
-      if (status != AMBIT_OK) return status;
-    }
+static ambit_status run(void *self, ambit_sink *sink) {
+  solver *s = self;
+  const ambit_problem *p = &s->problem;
+  gsl_odeiv2_driver *d = s->driver;
+  double t = p->time[0], h = d->h;
+  memcpy(s->x, s->start, p->nx * sizeof *s->x);
+  for (uint32_t next = 1; next < p->ntime; next += t == p->time[next]) {
+    double from = t;
+    if (fabs(h) > s->step_max) h = copysign(s->step_max, h);
+    int code = gsl_odeiv2_evolve_apply(d->e, d->c, d->s, &s->system, &t, p->time[next], &h, s->x);
+    if (code != GSL_SUCCESS || t == from || !all_finite(s->x, p->nx)) return give_up(s, from, code ? code : GSL_EFAILED);
+    if (emit(s, sink, from, t)) return AMBIT_STOPPED;
+  }
   return AMBIT_OK;
 }
 
-static const ambit_solver solver = {
-  .size = sizeof solver,
-  .want = AMBIT_WANT_RHS,
+static const ambit_solver interface = {
+  .size = sizeof interface,
+  .want = AMBIT_WANT_RHS | AMBIT_WANT_JACOBIAN,
   .needs_rigorous = 0,
   .arithmetics = "real",
-  .param = params,
+  .param = param,
   .open = open,
   .run = run,
-  .close = close_trajectory,
-  .want_for = want_for,
+  .close = close,
 };
 
-static const void *get(const char *interface_id) { return strcmp(interface_id, AMBIT_SOLVER) == 0 ? &solver : NULL; }
+static const void *get(const char *interface_id) { return strcmp(interface_id, AMBIT_SOLVER) == 0 ? &interface : NULL; }
 
-AMBIT_EXPORT const ambit_plugin ambit_entry = { sizeof ambit_entry, AMBIT_ABI, "solver.gsl", "1.0",
-  "Reference trajectories by the GNU Scientific Library's steppers; they prove nothing.", get };
+const ambit_plugin ambit_entry = { sizeof ambit_entry, AMBIT_ABI, "solver.gsl", "1.0",
+  "The steppers of the GNU Scientific Library: one curve from the middle of the uncertain data, which proves nothing. For reference and "
+  "for sampling.",
+  get };

@@ -3,7 +3,8 @@ local check = require "ambit.check"
 local manual = require "ambit.manual"
 
 local topics = {
-  around = 'around(c, tolerance): a datum within a tolerance, one fresh unknown: around(2, 0.1), around("35 mm", "1%").',
+  around = [[
+around(c, tolerance): a datum within a tolerance, one fresh unknown: around(2, 0.1), around("35 mm", "1%").]],
   between = "between(lo, hi): a datum somewhere in [lo, hi], one fresh unknown.",
   number = 'number(x [, unit]): an expression: number "8/3", number("35 mm", "m").',
   interval = [[
@@ -19,10 +20,11 @@ m:acceleration(frame), m:energy(), m:coordinates(), m:mass_matrix(), m:generalis
   ode = [[
 ode { states = { "x" }, parameters = { a = 1 }, equations = function(s, p, t) return { x = -p.a * s.x } end }]],
   evaluate = [[
-evaluate { expression or table of them, at = { name = value }, arithmetic = "interval" }: enclosures in the same shape.]],
+evaluate { expression or table of them, at = { name = value }, arithmetic = "interval" }: enclosures, in the same
+shape.]],
   simulate = [[
-simulate { ode, initial = { x = 1 }, t = { 0, 1 }, solver = "lohner", <options of the solver> }: a run with status, reason,
-t_reached, cpu_seconds, step_count, rigorous, x, :at(t), :steps().]],
+simulate { ode, initial = { x = 1 }, t = { 0, 1 }, solver = "lohner", <options of the solver> }: a run with status,
+reason, t_reached, cpu_seconds, step_count, rigorous, x, :at(t), :steps().]],
   sample = "sample { expression or ode, n = 1000, seed = 1, ... }: Monte Carlo; proves nothing.",
   derivative = "derivative(e, x): de/dx for a variable, an unknown or ambit.time.",
   simplify = "simplify(e): an equal expression with fewer operations, if one is found.",

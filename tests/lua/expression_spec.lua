@@ -24,6 +24,9 @@ describe("an expression", function()
     assert.is_true(ambit.evaluate({ x ^ "1.5" }):contains(2 * math.sqrt(2)))
     assert.is_true(ambit.evaluate({ x ^ 0.5 }):contains(math.sqrt(2)))
     assert.is_true(ambit.evaluate({ x ^ -1 }):contains(0.5))
+    assert.equal(4, ambit.evaluate({ x ^ "2" }).hi)
+    local nearly = ambit.evaluate { x ^ "2.00000000000000000001" } -- not the square
+    assert.is_true(nearly.hi > 4)
   end)
 
   it("takes no digit from a large integer", function()

@@ -14,16 +14,19 @@ find_program(BUSTED busted)
 if(BUSTED)
   set(busted_environment "${lua_environment}")
   if(AMBIT_SANITIZE) # the interpreter is not sanitized: its runtime comes first, and its own leaks are not ours
-    execute_process(COMMAND ${CMAKE_C_COMPILER} -print-file-name=libasan.so OUTPUT_VARIABLE asan OUTPUT_STRIP_TRAILING_WHITESPACE)
+    execute_process(COMMAND ${CMAKE_C_COMPILER} -print-file-name=libasan.so
+      OUTPUT_VARIABLE asan OUTPUT_STRIP_TRAILING_WHITESPACE)
     list(APPEND busted_environment "LD_PRELOAD=${asan}" "ASAN_OPTIONS=detect_leaks=0")
   endif()
-  add_test(NAME lua.specs.busted COMMAND ${BUSTED} --pattern=_spec%.lua$ tests/lua WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  add_test(NAME lua.specs.busted COMMAND ${BUSTED} --pattern=_spec%.lua$ tests/lua
+    WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
   set_tests_properties(lua.specs.busted PROPERTIES TIMEOUT 300 ENVIRONMENT "${busted_environment}")
 endif()
 
 # A scene must end with this exit code and say this.
 function(ambit_scene name exit_code expected)
-  add_test(NAME scene.${name} COMMAND ${CMAKE_COMMAND} -DCOMMAND=$<TARGET_FILE:ambit> -DSCENE=${PROJECT_SOURCE_DIR}/scripts/${name}.lua
+  add_test(NAME scene.${name} COMMAND ${CMAKE_COMMAND} -DCOMMAND=$<TARGET_FILE:ambit>
+    -DSCENE=${PROJECT_SOURCE_DIR}/scripts/${name}.lua
     -DEXIT_CODE=${exit_code} "-DEXPECTED=${expected}" -P ${PROJECT_SOURCE_DIR}/cmake/check_scene.cmake)
   set_tests_properties(scene.${name} PROPERTIES TIMEOUT 60 ENVIRONMENT "${lua_environment}")
 endfunction()
