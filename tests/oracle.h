@@ -22,18 +22,24 @@ static inline double oracle_rounded(uint32_t op, double x, double y, int32_t n, 
   case AMBIT_OP_MUL: t = mpfr_mul(r, a, b, rounding); break;
   case AMBIT_OP_SQR: t = mpfr_sqr(r, a, rounding); break;
   case AMBIT_OP_POWN:
-    if (x == 0 && n < 0) mpfr_set_nan(r);
-    else t = mpfr_pow_si(r, a, n, rounding);
+    if (x == 0 && n < 0)
+      mpfr_set_nan(r);
+    else
+      t = mpfr_pow_si(r, a, n, rounding);
     break;
   case AMBIT_OP_DIV:
-    if (y == 0) mpfr_set_nan(r);
-    else t = mpfr_div(r, a, b, rounding);
+    if (y == 0)
+      mpfr_set_nan(r);
+    else
+      t = mpfr_div(r, a, b, rounding);
     break;
   case AMBIT_OP_SQRT: t = mpfr_sqrt(r, a, rounding); break;
   case AMBIT_OP_EXP: t = mpfr_exp(r, a, rounding); break;
   case AMBIT_OP_LOG:
-    if (x <= 0) mpfr_set_nan(r);
-    else t = mpfr_log(r, a, rounding);
+    if (x <= 0)
+      mpfr_set_nan(r);
+    else
+      t = mpfr_log(r, a, rounding);
     break;
   case AMBIT_OP_SIN: t = mpfr_sin(r, a, rounding); break;
   case AMBIT_OP_COS: t = mpfr_cos(r, a, rounding); break;
@@ -42,7 +48,8 @@ static inline double oracle_rounded(uint32_t op, double x, double y, int32_t n, 
   case AMBIT_OP_ACOS: t = mpfr_acos(r, a, rounding); break;
   case AMBIT_OP_ATAN: t = mpfr_atan(r, a, rounding); break;
   case AMBIT_OP_ATAN2:
-    if (x == 0 && y == 0) mpfr_set_nan(r);
+    if (x == 0 && y == 0)
+      mpfr_set_nan(r);
     else {
       if (x == 0) mpfr_set_zero(a, 1); /* the signs of zeros are not sets: angle in (-pi, pi] */
       t = mpfr_atan2(r, a, b, rounding);

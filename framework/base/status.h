@@ -11,7 +11,8 @@ typedef struct ambit_failure {
   char message[AMBIT_MESSAGE_MAX];
 } ambit_failure;
 
-ambit_status ambit_fail(ambit_failure *f, ambit_status status, const char *format, ...) AMBIT_PRINTF(3, 4); /* f may be NULL */
+/* f may be NULL */
+ambit_status ambit_fail(ambit_failure *f, ambit_status status, const char *format, ...) AMBIT_PRINTF(3, 4);
 void ambit_failure_clear(ambit_failure *f);
 const char *ambit_status_name(ambit_status status); /* "ok", "domain", "unable", "invalid", ... */
 #endif

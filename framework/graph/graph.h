@@ -1,13 +1,12 @@
 /* graph.h -- expressions: hash-consed nodes, sound folding, derivatives, additive terms.
 **
-** A node is a number; equal expressions have equal numbers. Every node knows bounds that hold for all real values of the
-** symbols (`range`) and whether it is defined for all of them (`total`): rules such as 0*x -> 0, x - x -> 0, x/x -> 1 fire only where x is total
-** (and nonzero). Folding of constants uses the kernel's interval functions and is done only if the result is exact, so that
-** arithmetics of higher precision lose nothing; the tape folds the rest.
-** Algebra: sums and products are kept in a canonical order, a*a -> sqr, repeated products -> pown, sin^2 + cos^2 -> 1,
-** cos a cos b - sin a sin b -> cos(a + b) and its three relatives. Every rule is an identity of real functions on the whole domain,
-** so any enclosure of the result encloses the original (docs/numerics.md).
-** Not thread safe: [main].
+** A node is a number; equal expressions have equal numbers. Every node knows bounds that hold for all real values of
+** the symbols (`range`) and whether it is defined for all of them (`total`): rules such as 0*x -> 0, x - x -> 0, x/x
+** -> 1 fire only where x is total (and nonzero). Folding of constants uses the kernel's interval functions and is
+** done only if the result is exact, so that arithmetics of higher precision lose nothing; the tape folds the rest.
+** Algebra: sums and products are kept in a canonical order, a*a -> sqr, repeated products -> pown, sin^2 + cos^2 ->
+** 1, cos a cos b - sin a sin b -> cos(a + b) and its three relatives. Every rule is an identity of real functions on
+** the whole domain, so any enclosure of the result encloses the original (docs/numerics.md). Not thread safe: [main].
 */
 #ifndef AMBIT_GRAPH_H
 #define AMBIT_GRAPH_H
@@ -27,42 +26,51 @@ typedef struct ambit_graph ambit_graph;
 #define AMBIT_LEAF_TIME 0x103u
 
 typedef struct ambit_node {
-  uint32_t op;        /* AMBIT_OP_* or AMBIT_LEAF_* */
-  ambit_expr a, b;    /* operands; b == a when unary; POWN: b is the int32 exponent */
+  uint32_t op;          /* AMBIT_OP_* or AMBIT_LEAF_* */
+  ambit_expr a, b;      /* operands; b == a when unary; POWN: b is the int32 exponent */
   ambit_interval value; /* leaf CONSTANT, UNKNOWN: its set */
   ambit_interval range; /* bounds over all reals (UNKNOWN: over its set) */
-  bool total;         /* defined for all real values of the leaves */
-  bool constant;      /* no UNKNOWN, SYMBOL or TIME below */
-  const char *text;   /* CONSTANT: literal or "pi"; SYMBOL, UNKNOWN: name or NULL */
-  const char *unit;   /* SYMBOL: SI unit */
+  bool total;           /* defined for all real values of the leaves */
+  bool constant;        /* no UNKNOWN, SYMBOL or TIME below */
+  const char *text;     /* CONSTANT: literal or "pi"; SYMBOL, UNKNOWN: name or NULL */
+  const char *unit;     /* SYMBOL: SI unit */
 } ambit_node;
 
 ambit_graph *ambit_graph_open(void); /* NULL: out of memory; node 0 is the constant 0 */
 void ambit_graph_close(ambit_graph *g);
 const ambit_node *ambit_graph_node(const ambit_graph *g, ambit_expr e); /* valid until the next node is made */
-uint32_t ambit_graph_count(const ambit_graph *g); /* nodes ever made */
+uint32_t ambit_graph_count(const ambit_graph *g);                       /* nodes ever made */
 
-ambit_expr ambit_graph_number(ambit_graph *g, double x);             /* exactly this double; NaN or infinite: NO_EXPR */
-ambit_expr ambit_graph_interval(ambit_graph *g, ambit_interval x);   /* a constant known only to lie in x (nonempty) */
-ambit_expr ambit_graph_decimal(ambit_graph *g, const char *text, ambit_failure *f); /* point literal, rational, "pi" */
+/* exactly this double; NaN or infinite: NO_EXPR */
+ambit_expr ambit_graph_number(ambit_graph *g, double x);
+/* a constant known only to lie in x (nonempty) */
+ambit_expr ambit_graph_interval(ambit_graph *g, ambit_interval x);
+/* point literal, rational, "pi" */
+ambit_expr ambit_graph_decimal(ambit_graph *g, const char *text, ambit_failure *f);
 ambit_expr ambit_graph_pi(ambit_graph *g);
-ambit_expr ambit_graph_unknown(ambit_graph *g, const char *name, ambit_interval range); /* fresh at each call; name may be NULL */
-ambit_expr ambit_graph_symbol(ambit_graph *g, const char *name, const char *unit); /* the same name is the same node */
+/* fresh at each call; name may be NULL */
+ambit_expr ambit_graph_unknown(ambit_graph *g, const char *name, ambit_interval range);
+/* the same name is the same node */
+ambit_expr ambit_graph_symbol(ambit_graph *g, const char *name, const char *unit);
 ambit_expr ambit_graph_time(ambit_graph *g);
 
-ambit_expr ambit_graph_op(ambit_graph *g, uint32_t op, ambit_expr a, ambit_expr b); /* unary: b ignored; POWN: use pown */
+/* unary: b ignored; POWN: use pown */
+ambit_expr ambit_graph_op(ambit_graph *g, uint32_t op, ambit_expr a, ambit_expr b);
 ambit_expr ambit_graph_pown(ambit_graph *g, ambit_expr a, int32_t n);
 
 /* de/dx for a leaf x. ABS, MIN, MAX: AMBIT_NO_EXPR, and the failure names the opcode. */
 ambit_expr ambit_graph_derivative(ambit_graph *g, ambit_expr e, ambit_expr x, ambit_failure *f);
 /* Total time derivative: leaf k counts as a function of time with derivative rate[k] (leaves not listed are fixed; TIME has 1). */
-ambit_expr ambit_graph_time_derivative(ambit_graph *g, ambit_expr e, size_t n, const ambit_expr *leaf, const ambit_expr *rate, ambit_failure *f);
+ambit_expr ambit_graph_time_derivative(
+    ambit_graph *g, ambit_expr e, size_t n, const ambit_expr *leaf, const ambit_expr *rate, ambit_failure *f);
 /* e[i] with leaf from[k] replaced by to[k], in place; shared work. */
-ambit_status ambit_graph_substitute(ambit_graph *g, size_t ne, ambit_expr *e, size_t n, const ambit_expr *from, const ambit_expr *to, ambit_failure *f);
+ambit_status ambit_graph_substitute(
+    ambit_graph *g, size_t ne, ambit_expr *e, size_t n, const ambit_expr *from, const ambit_expr *to, ambit_failure *f);
 /* Additive terms of e: e = sum of term[i]; returns their number, writes at most `room`. */
 size_t ambit_graph_terms(const ambit_graph *g, ambit_expr e, size_t room, ambit_expr *term, bool *negative);
-/* e as a polynomial in its non-polynomial subexpressions, expanded, sin^2 -> 1 - cos^2, collected; returned if it needs fewer
-** operations than e and never more than `limit` terms, otherwise e itself. An identity on the domain of e. */
+/* e as a polynomial in its non-polynomial subexpressions, expanded, sin^2 -> 1 - cos^2, collected; returned if it
+** needs fewer operations than e and never more than `limit` terms, otherwise e itself. An identity on the domain of
+** e. */
 ambit_expr ambit_graph_simplify(ambit_graph *g, ambit_expr e, size_t limit);
 /* The leaves (UNKNOWN, SYMBOL, TIME) that e[0..ne) reach, in the order of their numbers; returns how many, writes at most room. */
 size_t ambit_graph_leaves(const ambit_graph *g, size_t ne, const ambit_expr *e, size_t room, ambit_expr *leaf);

@@ -5,12 +5,13 @@
 #include "num/interval.h"
 #include <ambit/arithmetic.h>
 
-/* full := the plugin's struct with every NULL run[] replaced by the kernel's "hull, interval function, set". INVALID if a required
-** function is missing. */
+/* full := the plugin's struct with every NULL run[] replaced by the kernel's "hull, interval function, set". INVALID
+** if a required function is missing. */
 ambit_status ambit_arithmetic_complete(const ambit_arithmetic *plugin, ambit_arithmetic *full, ambit_failure *f);
 
 typedef struct ambit_block ambit_block; /* slots x lanes of elements for one tape and one context */
-ambit_status ambit_block_open(const ambit_tape *t, const ambit_arithmetic *full, void *ctx, size_t lanes, ambit_block **block, ambit_failure *f);
+ambit_status ambit_block_open(
+    const ambit_tape *t, const ambit_arithmetic *full, void *ctx, size_t lanes, ambit_block **block, ambit_failure *f);
 void ambit_block_close(ambit_block *block);
 /* input number `in`, lane `lane`; var >= 0: an independent variable */
 void ambit_block_set(ambit_block *block, uint32_t in, size_t lane, ambit_interval x, int32_t var);

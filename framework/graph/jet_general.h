@@ -17,8 +17,9 @@ struct ambit_series {
   const ambit_arithmetic *arithmetic;
   void *ctx;
   const ambit_series *centre;
-  uint32_t order, ndir, mean, slope, columns; /* numbers of the mean's and the first slope's column; columns per slot */
-  size_t elem, count;                         /* bytes per element, elements in all */
+  /* numbers of the mean's and the first slope's column; columns per slot */
+  uint32_t order, ndir, mean, slope, columns;
+  size_t elem, count; /* bytes per element, elements in all */
   char *base;
   uint32_t *first, *length;    /* [nslot] first element, coefficients per row */
   uint8_t *weighted;           /* [nslot] */

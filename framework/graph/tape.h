@@ -7,8 +7,9 @@
 /* Flags of sealing besides AMBIT_TAPE_SERIES. KEEP: do not fold inexact constants (for arithmetics of higher precision). */
 #define AMBIT_SEAL_KEEP 0x10000u
 
-/* Inputs are leaves, in this order; a reached leaf that is not among them is INVALID and named. The tape lives in the arena and
-** needs the graph no longer. The first ntime_varying inputs count as functions of time for `degree` (TIME itself: degree 1). */
+/* Inputs are leaves, in this order; a reached leaf that is not among them is INVALID and named. The tape lives in the
+** arena and needs the graph no longer. The first ntime_varying inputs count as functions of time for `degree` (TIME
+** itself: degree 1). */
 ambit_status ambit_tape_seal(ambit_graph *g, ambit_arena *arena, size_t nout, const ambit_expr *out, size_t nin,
     const ambit_expr *in, size_t nvarying, uint32_t flags, const ambit_tape **tape, ambit_failure *f);
 #endif

@@ -37,7 +37,7 @@ typedef struct ambit_lua {
 #define AMBIT_TYPE_TRACK "ambit.track"
 
 /* An expression; `dimension` is what its data said ("35 mm": a length), known only while no operation has touched it.
-** */
+*/
 typedef struct ambit_lua_expression {
   ambit_expr e;
   bool known;

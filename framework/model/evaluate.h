@@ -8,15 +8,16 @@
 typedef struct ambit_evaluate_request {
   ambit_graph *graph;
   ambit_registry *registry;
-  const char *arithmetic;  /* "interval" */
+  const char *arithmetic; /* "interval" */
   size_t noption;
   const ambit_option *option;
   size_t nexpr;
   const ambit_expr *expr;
-  size_t nbinding;         /* `at`: leaf := expression (over unknowns) */
+  size_t nbinding; /* `at`: leaf := expression (over unknowns) */
   const ambit_expr *leaf, *value;
 } ambit_evaluate_request;
 
 /* out [nexpr]; flags: AMBIT_F_*. Only uncertain data become variables of the arithmetic. A symbol without a value is INVALID and named. */
-ambit_status ambit_evaluate(const ambit_evaluate_request *q, ambit_interval *out, uint32_t *flags, ambit_report *report, ambit_failure *f);
+ambit_status ambit_evaluate(
+    const ambit_evaluate_request *q, ambit_interval *out, uint32_t *flags, ambit_report *report, ambit_failure *f);
 #endif

@@ -1,7 +1,8 @@
 /* mechanism.h -- parts (elements with parameters), joined at frames; quantities are pulled on demand and remembered.
 **
-** Part 0 is the world: one OUT frame `world` at rest. Motion is pulled towards the world, forces towards the tips; gravity enters as the
-** proper acceleration of the world frame (minus the sum of all AMBIT_FIELDs), so that dynamics needs no poses.
+** Part 0 is the world: one OUT frame `world` at rest. Motion is pulled towards the world, forces towards the tips;
+** gravity enters as the proper acceleration of the world frame (minus the sum of all AMBIT_FIELDs), so that dynamics
+** needs no poses.
 */
 #ifndef AMBIT_MECHANISM_H
 #define AMBIT_MECHANISM_H
@@ -13,11 +14,11 @@ typedef struct ambit_frame {
   uint32_t part, port; /* an OUT port of a part */
 } ambit_frame;
 
-#define AMBIT_WORLD ((ambit_frame){ 0, 0 })
-#define AMBIT_NOWHERE ((ambit_frame){ UINT32_MAX, 0 }) /* an optional port that is not connected */
+#define AMBIT_WORLD ((ambit_frame) { 0, 0 })
+#define AMBIT_NOWHERE ((ambit_frame) { UINT32_MAX, 0 }) /* an optional port that is not connected */
 
-/* One part to add. param[i]: NULL = absent, else the expressions of parameter i in its declared shape.
-** connection[i]: for IN port i the frame it is connected to (OUT ports: ignored). `where`: "scene.lua:12", for messages. */
+/* One part to add. param[i]: NULL = absent, else the expressions of parameter i in its declared shape. connection[i]:
+** for IN port i the frame it is connected to (OUT ports: ignored). `where`: "scene.lua:12", for messages. */
 typedef struct ambit_part_spec {
   const ambit_element *element;
   const char *type, *name, *where; /* name NULL: type and a number */
@@ -34,17 +35,17 @@ uint32_t ambit_mechanism_count(const ambit_mechanism *m);
 const char *ambit_mechanism_part_name(const ambit_mechanism *m, uint32_t part);
 const ambit_element *ambit_mechanism_part_element(const ambit_mechanism *m, uint32_t part);
 
-/* The quantity at an OUT frame or joint port: motion is that of the frame; AMBIT_WRENCH, AMBIT_EFFORT: the sum over all attached
-** elements; frame AMBIT_NOWHERE: of the mechanism (AMBIT_FIELD, AMBIT_ENERGY). The pointer stays valid. NULL: the failure says which
-** element and why; a loop of elements is named part by part. */
+/* The quantity at an OUT frame or joint port: motion is that of the frame; AMBIT_WRENCH, AMBIT_EFFORT: the sum over
+** all attached elements; frame AMBIT_NOWHERE: of the mechanism (AMBIT_FIELD, AMBIT_ENERGY). The pointer stays valid.
+** NULL: the failure says which element and why; a loop of elements is named part by part. */
 const ambit_expr *ambit_mechanism_pull(ambit_mechanism *m, ambit_frame frame, uint32_t quantity, ambit_failure *f);
 /* how often express() was called, of how many (part, port, quantity) that exist: "leave out" in numbers */
 void ambit_mechanism_pulled(const ambit_mechanism *m, size_t *pulled, size_t *available);
 
 /* The coordinates that b->state() has made, in the order of the parts: symbols of q, q', q''. */
 typedef struct ambit_coordinate {
-  const char *name;  /* "beta1" (several degrees of freedom: "name.1", ...) */
-  const char *unit;  /* of q */
+  const char *name; /* "beta1" (several degrees of freedom: "name.1", ...) */
+  const char *unit; /* of q */
   ambit_expr q, qd, qdd;
   uint32_t part, index;
 } ambit_coordinate;

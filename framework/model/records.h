@@ -1,7 +1,9 @@
-/* records.h -- JSON lines: one object a line, flushed as it is written, so that what is there stays valid if the process dies.
+/* records.h -- JSON lines: one object a line, flushed as it is written, so that what is there stays valid if the
+** process dies.
 **
-** Every object has "record" ("step", "event", "value", "root", "term", "note", "result"); times and enclosures are [lo, hi] doubles that
-** round-trip exactly; infinite bounds are the strings "inf", "-inf"; an empty enclosure is []. A failed write (full disk) is reported once and stops the run.
+** Every object has "record" ("step", "event", "value", "root", "term", "note", "result"); times and enclosures are
+** [lo, hi] doubles that round-trip exactly; infinite bounds are the strings "inf", "-inf"; an empty enclosure is [].
+** A failed write (full disk) is reported once and stops the run.
 */
 #ifndef AMBIT_RECORDS_H
 #define AMBIT_RECORDS_H

@@ -9,26 +9,27 @@
 typedef struct ambit_simulate_request {
   const ambit_system *system;
   ambit_registry *registry;
-  const char *solver;      /* "lohner" */
-  const char *arithmetic;  /* NULL: the solver's default */
+  const char *solver;     /* "lohner" */
+  const char *arithmetic; /* NULL: the solver's default */
   size_t nsolver_option, narithmetic_option;
   const ambit_option *solver_option, *arithmetic_option;
   const ambit_expr *initial; /* [nx] over unknowns; every state */
   size_t ntime;              /* >= 2 */
   const double *time;
-  ambit_sink *sink;          /* sees every record as it is made */
+  ambit_sink *sink; /* sees every record as it is made */
 } ambit_simulate_request;
 
 typedef struct ambit_simulate_result {
-  ambit_status status;   /* OK = complete, UNABLE, STOPPED, DOMAIN */
-  char reason[1024];     /* "" if complete; else why, and which knob to turn */
+  ambit_status status; /* OK = complete, UNABLE, STOPPED, DOMAIN */
+  char reason[1024];   /* "" if complete; else why, and which knob to turn */
   double t_reached;
-  double cpu_seconds;    /* of the integration itself */
+  double cpu_seconds; /* of the integration itself */
   uint32_t steps;
   uint32_t rigorous;
 } ambit_simulate_result;
 
-/* Returns INVALID or NOMEM for requests that cannot start (f explains: pairs that do not fit are refused by name with the list of what fits),
-** otherwise OK with the outcome in `result`. Builds only what the solver wants. */
-ambit_status ambit_simulate(const ambit_simulate_request *q, ambit_simulate_result *result, ambit_report *report, ambit_failure *f);
+/* Returns INVALID or NOMEM for requests that cannot start (f explains: pairs that do not fit are refused by name with
+** the list of what fits), otherwise OK with the outcome in `result`. Builds only what the solver wants. */
+ambit_status ambit_simulate(
+    const ambit_simulate_request *q, ambit_simulate_result *result, ambit_report *report, ambit_failure *f);
 #endif

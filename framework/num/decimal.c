@@ -1,8 +1,8 @@
 /* decimal.c -- literals to enclosures.
 **
-** Bounds come from the C library's strtod in downward and upward mode: glibc's conversion is correctly rounded in the current mode
-** for decimal and hexadecimal text of any length (tested against MPFR). The scan decides what belongs to a literal, so that strtod
-** never sees "nan", "infinity" or a locale's digits.
+** Bounds come from the C library's strtod in downward and upward mode: glibc's conversion is correctly rounded in the
+** current mode for decimal and hexadecimal text of any length (tested against MPFR). The scan decides what belongs to
+** a literal, so that strtod never sees "nan", "infinity" or a locale's digits.
 */
 #include "num/decimal.h"
 #include "num/environment.h"
@@ -96,11 +96,13 @@ static const char *read_bound(const char *s, ambit_interval *x) {
 
 static ambit_status malformed(const char *text, ambit_failure *f) {
   return ambit_fail(f, AMBIT_INVALID,
-      "\"%s\" is no number: expected for example \"0.1\", \"1/3\", \"2e-3\", \"pi\", \"[0.1, 0.2]\" or \"3.56?2\"", text);
+      "\"%s\" is no number: expected for example \"0.1\", \"1/3\", \"2e-3\", \"pi\", \"[0.1, 0.2]\" or \"3.56?2\"",
+      text);
 }
 
 /* "[...]": s is behind the bracket */
-static ambit_status read_brackets(const char *text, const char *s, ambit_interval *x, const char **end, ambit_failure *f) {
+static ambit_status read_brackets(
+    const char *text, const char *s, ambit_interval *x, const char **end, ambit_failure *f) {
   s = skip_blank(s);
   *x = AMBIT_ENTIRE;
   if (starts_with_word(s, "empty")) {
@@ -220,14 +222,17 @@ ambit_status ambit_decimal_read(const char *text, ambit_interval *x, const char 
     uncertain u;
     end = read_uncertain(s, &u);
     if (!end || !enclose_uncertain(&u, x))
-      return ambit_fail(failure, AMBIT_INVALID, "\"%s\": an uncertain literal may have at most %d digits", text, DIGITS_MAX);
+      return ambit_fail(
+          failure, AMBIT_INVALID, "\"%s\": an uncertain literal may have at most %d digits", text, DIGITS_MAX);
   } else {
     end = read_number(s, x);
   }
   if (!end) return malformed(text, failure);
   end = skip_blank(end);
-  if (rest) *rest = end;
-  else if (*end) return malformed(text, failure);
+  if (rest)
+    *rest = end;
+  else if (*end)
+    return malformed(text, failure);
   return AMBIT_OK;
 }
 
@@ -241,8 +246,10 @@ ambit_status ambit_decimal_tolerance(
     end = skip_blank(end + 1);
     *x = ambit_interval_div(*x, (ambit_interval) { 100, 100 });
   }
-  if (rest) *rest = end;
-  else if (*end) return malformed(text, failure);
+  if (rest)
+    *rest = end;
+  else if (*end)
+    return malformed(text, failure);
   if (!(x->lo >= 0) || !ambit_interval_is_bounded(*x))
     return ambit_fail(failure, AMBIT_INVALID, "\"%s\": a tolerance is a finite number that is not negative", text);
   return AMBIT_OK;

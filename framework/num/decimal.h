@@ -1,25 +1,28 @@
 /* decimal.h -- decimal text <-> doubles, rigorous in both directions, in any ambient rounding mode and locale.
 **
-** Reads IEEE 1788-2015 literals: "0.1", "-1e-3", "1/3", "0x1.8p3", "[0.1, 0.2]", "[1/3, 2/3]", "[empty]", "[entire]", "[,]", "[1,]",
-** "3.56?2" (uncertain form: +- 2 ulp of the last place, with u, d, ??, exponent), "inf", "pi". White space is allowed around numbers.
+** Reads IEEE 1788-2015 literals: "0.1", "-1e-3", "1/3", "0x1.8p3", "[0.1, 0.2]", "[1/3, 2/3]", "[empty]", "[entire]",
+** "[,]", "[1,]", "3.56?2" (uncertain form: +- 2 ulp of the last place, with u, d, ??, exponent), "inf", "pi". White
+** space is allowed around numbers.
 */
 #ifndef AMBIT_DECIMAL_H
 #define AMBIT_DECIMAL_H
 #include "base/status.h"
 #include "num/interval.h"
 
-/* The tightest doubles that enclose what the text says. INVALID with a message that quotes the text if it is no literal or reversed.
-** The literal may be followed by white space and a rest (a unit): if rest is not NULL it is set there, otherwise a rest is an error. */
+/* The tightest doubles that enclose what the text says. INVALID with a message that quotes the text if it is no
+** literal or reversed. The literal may be followed by white space and a rest (a unit): if rest is not NULL it is set
+** there, otherwise a rest is an error. */
 ambit_status ambit_decimal_read(const char *text, ambit_interval *x, const char **rest, ambit_failure *failure);
 /* A tolerance >= 0: "0.1%" (*relative, x encloses 0.001) or absolute, "1e-3"; a rest (a unit) as above. */
-ambit_status ambit_decimal_tolerance(const char *text, ambit_interval *x, bool *relative, const char **rest,
-    ambit_failure *failure);
+ambit_status ambit_decimal_tolerance(
+    const char *text, ambit_interval *x, bool *relative, const char **rest, ambit_failure *failure);
 
 #define AMBIT_DECIMAL_MAX 64
-int ambit_decimal_shortest(char out[AMBIT_DECIMAL_MAX], double x);          /* shortest text that reads back as x; "inf", "-inf" */
-int ambit_decimal_down(char out[AMBIT_DECIMAL_MAX], double x, int digits);  /* `digits` significant, not above x */
-int ambit_decimal_up(char out[AMBIT_DECIMAL_MAX], double x, int digits);    /* not below x */
-/* "[2.3205, 2.3916]": rounded outward, `digits` significant digits of the width (1..17); a point that the digits show exactly
-** prints bare: "2.5"; "[empty]", "[entire]". Returns the length. */
+/* shortest text that reads back as x; "inf", "-inf" */
+int ambit_decimal_shortest(char out[AMBIT_DECIMAL_MAX], double x);
+int ambit_decimal_down(char out[AMBIT_DECIMAL_MAX], double x, int digits); /* `digits` significant, not above x */
+int ambit_decimal_up(char out[AMBIT_DECIMAL_MAX], double x, int digits);   /* not below x */
+/* "[2.3205, 2.3916]": rounded outward, `digits` significant digits of the width (1..17); a point that the digits show
+** exactly prints bare: "2.5"; "[empty]", "[entire]". Returns the length. */
 int ambit_decimal_interval(char out[3 * AMBIT_DECIMAL_MAX], ambit_interval x, int digits);
 #endif

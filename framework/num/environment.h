@@ -1,7 +1,7 @@
 /* environment.h -- rounding mode and locale for the C library's conversions.
 **
-** printf and strtod look at the mode of the whole environment (x87 control word included) and at the decimal point of the
-** thread's locale; a host program or os.setlocale may have changed either.
+** printf and strtod look at the mode of the whole environment (x87 control word included) and at the decimal point of
+** the thread's locale; a host program or os.setlocale may have changed either.
 */
 #ifndef AMBIT_ENVIRONMENT_H
 #define AMBIT_ENVIRONMENT_H

@@ -24,8 +24,7 @@ static ambit_interval negate(ambit_interval a) { return (ambit_interval) { -a.hi
 
 static ambit_interval multiply(ambit_interval a, ambit_interval b) {
   double up = larger(larger(times(a.lo, b.lo), times(a.lo, b.hi)), larger(times(a.hi, b.lo), times(a.hi, b.hi)));
-  double down = larger(
-      larger(times(-a.lo, b.lo), times(-a.lo, b.hi)), larger(times(-a.hi, b.lo), times(-a.hi, b.hi)));
+  double down = larger(larger(times(-a.lo, b.lo), times(-a.lo, b.hi)), larger(times(-a.hi, b.lo), times(-a.hi, b.hi)));
   return (ambit_interval) { -down, up };
 }
 
@@ -61,8 +60,8 @@ static ambit_interval square(ambit_interval a) {
   return (ambit_interval) { -(-small * small), large * large };
 }
 
-/* In upward mode r = sqrt(x) >= the root, so r*r - x >= 0; it is 0 exactly if r is the root: a positive residual rounds up to at
-** least the smallest subnormal. */
+/* In upward mode r = sqrt(x) >= the root, so r*r - x >= 0; it is 0 exactly if r is the root: a positive residual
+** rounds up to at least the smallest subnormal. */
 static double root_down(double x) {
   double r = sqrt(x);
   if (r == 0 || r == INFINITY) return r;
@@ -98,9 +97,7 @@ static bool is_binary(uint32_t op) {
   }
 }
 
-static bool is_elementary(uint32_t op) {
-  return (op >= AMBIT_OP_EXP && op <= AMBIT_OP_TANH);
-}
+static bool is_elementary(uint32_t op) { return (op >= AMBIT_OP_EXP && op <= AMBIT_OP_TANH); }
 
 /* nonempty operands, upward mode */
 static ambit_interval basic(uint32_t op, ambit_interval a, ambit_interval b) {
@@ -130,8 +127,7 @@ static AMBIT_WORKER void map_basic(
 
 #define CHUNK 64
 
-static void map_elementary(
-    uint32_t op, size_t n, ambit_interval *r, const ambit_interval *a, const ambit_interval *b) {
+static void map_elementary(uint32_t op, size_t n, ambit_interval *r, const ambit_interval *a, const ambit_interval *b) {
   double alo[CHUNK], ahi[CHUNK], blo[CHUNK], bhi[CHUNK], rlo[CHUNK], rhi[CHUNK];
   for (size_t done = 0; done < n; done += CHUNK) {
     size_t m = n - done < CHUNK ? n - done : CHUNK;
@@ -189,8 +185,8 @@ static uint32_t map_chunk(uint32_t op, size_t n, ambit_interval *r, const ambit_
   return flags;
 }
 
-uint32_t ambit_interval_map(uint32_t op, size_t n, ambit_interval *r, const ambit_interval *a, const ambit_interval *b,
-    int32_t exponent) {
+uint32_t ambit_interval_map(
+    uint32_t op, size_t n, ambit_interval *r, const ambit_interval *a, const ambit_interval *b, int32_t exponent) {
   if (op == AMBIT_OP_POWN) return map_pown(n, r, a, exponent);
   uint32_t flags = 0;
   for (size_t done = 0; done < n; done += CHUNK) {
@@ -222,9 +218,7 @@ static ambit_interval power_even(ambit_interval a, int32_t n) {
   return (ambit_interval) { ambit_power_down(mignitude(a), n), ambit_power_up(magnitude(a), n) };
 }
 
-static double signed_power_up(double x, int32_t n) {
-  return x < 0 ? -ambit_power_down(-x, n) : ambit_power_up(x, n);
-}
+static double signed_power_up(double x, int32_t n) { return x < 0 ? -ambit_power_down(-x, n) : ambit_power_up(x, n); }
 
 static ambit_interval power_odd(ambit_interval a, int32_t n) {
   return (ambit_interval) { -signed_power_up(-a.lo, n), signed_power_up(a.hi, n) };

@@ -1,8 +1,9 @@
 /* interval.h -- the kernel's interval functions: IEEE 1788-2015 set-based, sound in any ambient rounding mode.
 **
-** Empty is {+inf, -inf}; a bound is never NaN. Every function returns AMBIT_F_* flags (PARTIAL: an operand reached outside
-** the domain; EMPTY, UNBOUNDED: of the result) and writes the enclosure of the image of the part inside the domain.
-** Basic operations are the tightest doubles; elementary ones at most 1 ulp wider on each side (num/elementary.h).
+** Empty is {+inf, -inf}; a bound is never NaN. Every function returns AMBIT_F_* flags (PARTIAL: an operand reached
+** outside the domain; EMPTY, UNBOUNDED: of the result) and writes the enclosure of the image of the part inside the
+** domain. Basic operations are the tightest doubles; elementary ones at most 1 ulp wider on each side
+** (num/elementary.h).
 */
 #ifndef AMBIT_INTERVAL_H
 #define AMBIT_INTERVAL_H
@@ -15,8 +16,8 @@ typedef struct ambit_interval {
   double lo, hi;
 } ambit_interval;
 
-#define AMBIT_EMPTY ((ambit_interval){ INFINITY, -INFINITY })
-#define AMBIT_ENTIRE ((ambit_interval){ -INFINITY, INFINITY })
+#define AMBIT_EMPTY ((ambit_interval) { INFINITY, -INFINITY })
+#define AMBIT_ENTIRE ((ambit_interval) { -INFINITY, INFINITY })
 
 static inline bool ambit_interval_is_empty(ambit_interval x) { return !(x.lo <= x.hi); }
 static inline bool ambit_interval_is_point(ambit_interval x) { return x.lo == x.hi; }
@@ -37,8 +38,8 @@ double ambit_interval_mig(ambit_interval x);   /* min |v| */
 uint32_t ambit_interval_op(uint32_t op, ambit_interval *r, ambit_interval a, ambit_interval b);
 uint32_t ambit_interval_pown(ambit_interval *r, ambit_interval a, int32_t n);
 /* The same over arrays: r[i] := op(a[i], b[i]), i < n. POWN: exponent n in `exponent`. r may be a or b. */
-uint32_t ambit_interval_map(uint32_t op, size_t n, ambit_interval *r, const ambit_interval *a, const ambit_interval *b,
-    int32_t exponent);
+uint32_t ambit_interval_map(
+    uint32_t op, size_t n, ambit_interval *r, const ambit_interval *a, const ambit_interval *b, int32_t exponent);
 
 /* Tightest results of the basic operations, for kernel code that needs no flags. */
 ambit_interval ambit_interval_add(ambit_interval a, ambit_interval b);

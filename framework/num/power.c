@@ -1,11 +1,12 @@
 /* power.c -- x^n by repeated squaring in double-double arithmetic.
 **
-** A double-double (h, l) with |l| <= ulp(h)/2 stands for h + l. A product of two of them, computed as below, has a relative
-** error of at most 5 * 2^-106 (Joldes, Muller, Popescu, ACM TOMS 44, 2017, DWTimesDW1); a power with m = |n| uses at most
-** 2 log2(m) products, and the error of a factor that is squared doubles: at most (2m - 1) times the error of one. So the relative error is
-** below m * 2^-102; the inverse adds less than 2^-102. E below is m * 2^-100.
-** While every product is exact (no low part and no remainder), the power is exact. Where exponents could leave the range in which products
-** split exactly, directed rounding of plain products takes over: for nonnegative numbers each rounded product bounds the true one.
+** A double-double (h, l) with |l| <= ulp(h)/2 stands for h + l. A product of two of them, computed as below, has a
+** relative error of at most 5 * 2^-106 (Joldes, Muller, Popescu, ACM TOMS 44, 2017, DWTimesDW1); a power with m = |n|
+** uses at most 2 log2(m) products, and the error of a factor that is squared doubles: at most (2m - 1) times the
+** error of one. So the relative error is below m * 2^-102; the inverse adds less than 2^-102. E below is m * 2^-100.
+** While every product is exact (no low part and no remainder), the power is exact. Where exponents could leave the
+** range in which products split exactly, directed rounding of plain products takes over: for nonnegative numbers each
+** rounded product bounds the true one.
 */
 #include "num/power.h"
 #include "num/rounding.h"

@@ -17,7 +17,8 @@ enum { OPTION_METHOD, OPTION_RELATIVE, OPTION_ABSOLUTE, OPTION_STEP_MAX };
 
 static const ambit_param param[] = {
   { "method", "1", "rk2|rk4|rkf45|rkck|rk8pd|rk2imp|rk4imp|bsimp|msadams|msbdf", "rk8pd",
-    "stepper: rk2 to rk8pd are explicit Runge-Kutta, msadams is for smooth problems; rk2imp, rk4imp, bsimp and msbdf for stiff ones" },
+      "stepper: rk2 to rk8pd are explicit Runge-Kutta, msadams is for smooth problems; rk2imp, rk4imp, bsimp and msbdf "
+      "for stiff ones" },
   { "relative", "1", "", "1e-10", "local error allowed, relative to the state" },
   { "absolute", "1", "", "1e-12", "local error allowed besides, in the units of the state" },
   { "step_max", "s", "", "inf", "longest step" },
@@ -70,7 +71,8 @@ static int evaluate(const solver *s, const program *r, double t, const double *x
   if (a->enter) a->enter(p->actx);
   for (uint32_t i = 0; i < tape->nrun; i++) {
     const ambit_run *run = &tape->run[i];
-    a->run[run->op](a, p->actx, r->base, 1, 1, run->count, tape->dst + run->first, tape->a + run->first, tape->b + run->first);
+    a->run[run->op](
+        a, p->actx, r->base, 1, 1, run->count, tape->dst + run->first, tape->a + run->first, tape->b + run->first);
   }
   if (a->leave) a->leave(p->actx);
   for (uint32_t i = 0; i < tape->nout; i++) {
@@ -108,7 +110,8 @@ static ambit_status check_options(const ambit_host *h, const double *o) {
   static const int bound[] = { OPTION_RELATIVE, OPTION_ABSOLUTE };
   for (size_t i = 0; i < 2; i++)
     if (!(o[bound[i]] >= 0 && o[bound[i]] < INFINITY))
-      return h->fail(h, AMBIT_INVALID, "gsl: option `%s` must be 0 or greater, not %g", param[bound[i]].name, o[bound[i]]);
+      return h->fail(
+          h, AMBIT_INVALID, "gsl: option `%s` must be 0 or greater, not %g", param[bound[i]].name, o[bound[i]]);
   if (o[OPTION_RELATIVE] == 0 && o[OPTION_ABSOLUTE] == 0)
     return h->fail(h, AMBIT_INVALID, "gsl: one of the options `relative` and `absolute` must be greater than 0");
   if (!(o[OPTION_STEP_MAX] > 0))
@@ -153,8 +156,8 @@ static ambit_status open(const ambit_host *h, const ambit_problem *p, const doub
   gsl_set_error_handler_off();
   double span = p->time[p->ntime - 1] - p->time[0], first = fmin(fabs(span) * 1e-6, s->step_max);
   if (allocate(s))
-    s->driver = gsl_odeiv2_driver_alloc_y_new(&s->system, method[(size_t)option[OPTION_METHOD]],
-        copysign(first, span), option[OPTION_ABSOLUTE], option[OPTION_RELATIVE]);
+    s->driver = gsl_odeiv2_driver_alloc_y_new(&s->system, method[(size_t)option[OPTION_METHOD]], copysign(first, span),
+        option[OPTION_ABSOLUTE], option[OPTION_RELATIVE]);
   if (!s->driver) {
     close(s);
     return h->fail(h, AMBIT_NOMEM, "gsl: out of memory");
@@ -182,8 +185,14 @@ static int all_finite(const double *x, uint32_t n) {
 
 static int32_t emit(const solver *s, ambit_sink *sink, double from, double to) {
   const ambit_problem *p = &s->problem;
-  const ambit_record r = { .size = sizeof r, .kind = AMBIT_REC_STEP, .t_from = from, .t_to = to, .nx = p->nx, .lo = s->x,
-    .hi = s->x, .order = gsl_odeiv2_step_order(s->driver->s) };
+  const ambit_record r = { .size = sizeof r,
+    .kind = AMBIT_REC_STEP,
+    .t_from = from,
+    .t_to = to,
+    .nx = p->nx,
+    .lo = s->x,
+    .hi = s->x,
+    .order = gsl_odeiv2_step_order(s->driver->s) };
   int32_t stop = sink->emit(sink, &r);
   double done = (to - p->time[0]) / (p->time[p->ntime - 1] - p->time[0]);
   return !stop && sink->progress ? sink->progress(sink, done, NULL) : stop;
@@ -199,7 +208,8 @@ static ambit_status run(void *self, ambit_sink *sink) {
     double from = t;
     if (fabs(h) > s->step_max) h = copysign(s->step_max, h);
     int code = gsl_odeiv2_evolve_apply(d->e, d->c, d->s, &s->system, &t, p->time[next], &h, s->x);
-    if (code != GSL_SUCCESS || t == from || !all_finite(s->x, p->nx)) return give_up(s, from, code ? code : GSL_EFAILED);
+    if (code != GSL_SUCCESS || t == from || !all_finite(s->x, p->nx))
+      return give_up(s, from, code ? code : GSL_EFAILED);
     if (emit(s, sink, from, t)) return AMBIT_STOPPED;
   }
   return AMBIT_OK;
@@ -219,6 +229,7 @@ static const ambit_solver interface = {
 static const void *get(const char *interface_id) { return strcmp(interface_id, AMBIT_SOLVER) == 0 ? &interface : NULL; }
 
 const ambit_plugin ambit_entry = { sizeof ambit_entry, AMBIT_ABI, "solver.gsl", "1.0",
-  "The steppers of the GNU Scientific Library: one curve from the middle of the uncertain data, which proves nothing. For reference and "
+  "The steppers of the GNU Scientific Library: one curve from the middle of the uncertain data, which proves nothing. "
+  "For reference and "
   "for sampling.",
   get };

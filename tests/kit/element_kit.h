@@ -14,7 +14,8 @@
 **   acceleration  w' and v' + w x v - R^T g
 **   joints        rates are the derivatives of the coordinate
 **   power         sum of wrench.twist at OUT frames + effort.rate
-**                 = sum of wrench.twist at IN frames + balance.rate + dE/dt (not for elements that drive a joint: those have an IN joint)
+**                 = sum of wrench.twist at IN frames + balance.rate + dE/dt (not for elements that drive a joint:
+** those have an IN joint)
 */
 #ifndef AMBIT_ELEMENT_KIT_H
 #define AMBIT_ELEMENT_KIT_H

@@ -43,7 +43,9 @@ static ambit_status run(void *self, ambit_sink *s) {
   for (uint32_t k = 1; k < p->ntime; k++) {
     double from = p->time[k - 1], to = p->time[k], h = (to - from) / e->steps;
     for (double i = 0; i < e->steps; i++) step(e, from + i * h, h);
-    ambit_record r = { .size = sizeof r, .kind = AMBIT_REC_STEP, .t_from = from, .t_to = to, .nx = p->nx, .lo = e->x, .hi = e->x };
+    ambit_record r = {
+      .size = sizeof r, .kind = AMBIT_REC_STEP, .t_from = from, .t_to = to, .nx = p->nx, .lo = e->x, .hi = e->x
+    };
     if (s->emit(s, &r) || s->progress(s, (double)k / (p->ntime - 1), NULL)) return AMBIT_STOPPED;
   }
   return AMBIT_OK;
@@ -51,8 +53,14 @@ static ambit_status run(void *self, ambit_sink *s) {
 
 static void close(void *self) { ambit_lane_close(&((euler *)self)->rhs); }
 
-static const ambit_solver solver = { .size = sizeof solver, .want = AMBIT_WANT_RHS, .arithmetics = "real", .param = params,
-  .open = open, .run = run, .close = close };
+static const ambit_solver solver = { .size = sizeof solver,
+  .want = AMBIT_WANT_RHS,
+  .arithmetics = "real",
+  .param = params,
+  .open = open,
+  .run = run,
+  .close = close };
 
 static const void *get(const char *id) { return strcmp(id, AMBIT_SOLVER) == 0 ? &solver : NULL; }
-const ambit_plugin ambit_entry = { sizeof ambit_entry, AMBIT_ABI, "solver.euler", "1.0", "Euler's method; proves nothing.", get };
+const ambit_plugin ambit_entry = { sizeof ambit_entry, AMBIT_ABI, "solver.euler", "1.0",
+  "Euler's method; proves nothing.", get };

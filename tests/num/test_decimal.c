@@ -84,8 +84,8 @@ static void refused(const char *text, const char *part) {
 
 static void bad_text(void **unused) {
   (void)unused;
-  const char *const bad[] = { "", "abc", "nan", "inf", "1,5", "1 2", "[1, 2", "[1; 2]", "0x", "1/", "1/0", "1/-3", "--1", "[nan]", "pie",
-    "[1,2]x", ".", "e5", "+" };
+  const char *const bad[] = { "", "abc", "nan", "inf", "1,5", "1 2", "[1, 2", "[1; 2]", "0x", "1/", "1/0", "1/-3",
+    "--1", "[nan]", "pie", "[1,2]x", ".", "e5", "+" };
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) refused(bad[i], "is no number");
   refused("[2, 1]", "lower bound");
   refused("[inf, inf]", "no real number");

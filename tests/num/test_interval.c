@@ -32,8 +32,8 @@ static double point_of(ambit_interval x, uint64_t *state) {
   return p < lo ? lo : p > hi ? hi : p;
 }
 
-static void check_inclusion(uint32_t op, ambit_interval a, ambit_interval b, int32_t n, ambit_interval r, uint32_t flags,
-    uint64_t *state) {
+static void check_inclusion(
+    uint32_t op, ambit_interval a, ambit_interval b, int32_t n, ambit_interval r, uint32_t flags, uint64_t *state) {
   for (int i = 0; i < 6; i++) {
     double x = point_of(a, state), y = point_of(b, state);
     double lo = oracle_rounded(op, x, y, n, MPFR_RNDD), hi = oracle_rounded(op, x, y, n, MPFR_RNDU);
@@ -60,9 +60,7 @@ static void every_operation_encloses(void **unused) {
     }
 }
 
-static bool is_basic(uint32_t op) {
-  return op <= AMBIT_OP_SQRT || op >= AMBIT_OP_ABS;
-}
+static bool is_basic(uint32_t op) { return op <= AMBIT_OP_SQRT || op >= AMBIT_OP_ABS; }
 
 static void points_are_tightest(void **unused) {
   (void)unused;
@@ -74,8 +72,10 @@ static void points_are_tightest(void **unused) {
       double lo = oracle_rounded(op, x, y, n, MPFR_RNDD), hi = oracle_rounded(op, x, y, n, MPFR_RNDU);
       if (isnan(lo)) continue;
       ambit_interval r, a = { x, x }, b = { y, y };
-      if (op == AMBIT_OP_POWN) ambit_interval_pown(&r, a, n);
-      else ambit_interval_op(op, &r, a, b);
+      if (op == AMBIT_OP_POWN)
+        ambit_interval_pown(&r, a, n);
+      else
+        ambit_interval_op(op, &r, a, b);
       if (op != AMBIT_OP_POWN && is_basic(op)) {
         if (r.lo != lo || r.hi != hi)
           fail_msg("op %u(%a, %a): [%a, %a] is not the tightest [%a, %a]", op, x, y, r.lo, r.hi, lo, hi);
@@ -90,7 +90,8 @@ static void expect(uint32_t op, ambit_interval a, ambit_interval b, ambit_interv
   ambit_interval r;
   uint32_t flags = ambit_interval_op(op, &r, a, b);
   if (r.lo != want.lo || r.hi != want.hi || flags != want_flags)
-    fail_msg("op %u: [%a, %a] flags %u, expected [%a, %a] flags %u", op, r.lo, r.hi, flags, want.lo, want.hi, want_flags);
+    fail_msg(
+        "op %u: [%a, %a] flags %u, expected [%a, %a] flags %u", op, r.lo, r.hi, flags, want.lo, want.hi, want_flags);
 }
 
 #define I(lo, hi) ((ambit_interval) { lo, hi })
@@ -151,8 +152,10 @@ static void ambient_environment_does_not_matter(void **unused) {
       for (int m = 0; m < 4; m++) {
         ambit_interval r;
         fesetround(mode[m]);
-        if (op == AMBIT_OP_POWN) ambit_interval_pown(&r, a, 5);
-        else ambit_interval_op(op, &r, a, b);
+        if (op == AMBIT_OP_POWN)
+          ambit_interval_pown(&r, a, 5);
+        else
+          ambit_interval_op(op, &r, a, b);
         assert_int_equal(fegetround(), mode[m]);
         fesetround(FE_TONEAREST);
         if (m == 0) first = r;

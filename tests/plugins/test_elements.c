@@ -41,17 +41,8 @@ static void all_plugins_conform(void **state) {
 /* -- the kit finds mistakes: a good element, with one of them */
 
 static const ambit_element *good; /* what `mistaken` wraps */
-static enum {
-  NONE,
-  TWIST_SIGN,
-  NO_CORIOLIS,
-  TORQUE_LOST,
-  NOT_TURNED,
-  HALF_WRITTEN,
-  SILENT,
-  GREEDY,
-  RATE_WRONG
-} mistake;
+enum { NONE, TWIST_SIGN, NO_CORIOLIS, TORQUE_LOST, NOT_TURNED, HALF_WRITTEN, SILENT, GREEDY, RATE_WRONG };
+static int mistake;
 
 static ambit_status mistaken(ambit_build *b, uint32_t port, uint32_t quantity, ambit_expr *out) {
   if (mistake == SILENT && quantity == AMBIT_TWIST) return AMBIT_BROKEN;

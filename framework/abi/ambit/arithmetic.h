@@ -1,11 +1,11 @@
 /* arithmetic.h -- "ambit.arithmetic/1": a way to compute with sets of reals.
 **
-** An element is elem(ctx) bytes, opaque to everybody else. Element (slot s, lane l) of a block lies at
-** base + (s * pitch + l) * elem, with pitch >= lanes. Lanes are independent problems (boxes of a subdivision, samples).
+** An element is elem(ctx) bytes, opaque to everybody else. Element (slot s, lane l) of a block lies at base + (s *
+** pitch + l) * elem, with pitch >= lanes. Lanes are independent problems (boxes of a subdivision, samples).
 **
-** TIER 1 is enough: `elem`, `set` and `bounds` alone give every operation, because the kernel fills each NULL run[] with
-** "hull the operands, apply the kernel's interval function, set", which is valid for any rigorous arithmetic, only loose.
-** TIER 2 is speed only and obeys the same contract: the result encloses the exact image of the operands.
+** TIER 1 is enough: `elem`, `set` and `bounds` alone give every operation, because the kernel fills each NULL run[]
+** with "hull the operands, apply the kernel's interval function, set", which is valid for any rigorous arithmetic,
+** only loose. TIER 2 is speed only and obeys the same contract: the result encloses the exact image of the operands.
 */
 #ifndef AMBIT_ARITHMETIC_H
 #define AMBIT_ARITHMETIC_H
@@ -24,8 +24,8 @@ typedef uint32_t (*ambit_run_fn)(const ambit_arithmetic *self, void *ctx, void *
     size_t count, const uint32_t *dst, const uint32_t *a, const uint32_t *b);
 
 /* Taylor coefficients of every slot of a SERIES tape in the arithmetic's own layout (tier 2; the kernel has a general
-** form for arithmetics that offer none). Value coefficients u_k are given as midpoint +- radius. With ndir > 0 each slot
-** also carries, for each direction j, a coefficient of the slope s_j: for all x in the box and the centre c,
+** form for arithmetics that offer none). Value coefficients u_k are given as midpoint +- radius. With ndir > 0 each
+** slot also carries, for each direction j, a coefficient of the slope s_j: for all x in the box and the centre c,
 ** u(x) - u(c) = sum_j s_j (x_j - c_j) as power series in time. c is a point of the box. */
 typedef struct ambit_jets {
   uint32_t size;
@@ -44,8 +44,8 @@ typedef struct ambit_jets {
   void (*get)(const void *self, uint32_t slot, uint32_t k, double *mid, double *rad, double *dmid, double *drad);
   /* upper bounds: mag[k] >= |u_k|, dmag[k*ndir + j] >= |s_j,k|, k < n; dmag may be NULL */
   void (*magnitude)(const void *self, uint32_t slot, uint32_t n, double *mag, double *dmag);
-  /* coefficient k + 1 of input `in` := coefficient k of `slot` / (k + 1), slopes too; NULL: the kernel does it with get and put,
-  ** which loses what an arithmetic knows besides midpoint and radius */
+  /* coefficient k + 1 of input `in` := coefficient k of `slot` / (k + 1), slopes too; NULL: the kernel does it with
+  ** get and put, which loses what an arithmetic knows besides midpoint and radius */
   void (*integrate)(void *self, uint32_t in, uint32_t slot, uint32_t k);
 } ambit_jets;
 
@@ -57,7 +57,7 @@ struct ambit_arithmetic {
   /* -- life: [ctx], one context per thread; NULL open and close = stateless, ctx is NULL */
   ambit_status (*open)(const ambit_host *h, const double *option, uint32_t nvar, void **ctx);
   void (*close)(void *ctx);
-  size_t (*elem)(void *ctx); /* bytes per element, a multiple of 8 */
+  size_t (*elem)(void *ctx);                             /* bytes per element, a multiple of 8 */
   ambit_status (*init)(void *ctx, void *base, size_t n); /* NULL: zero bytes are a valid element */
   void (*clear)(void *ctx, void *base, size_t n);        /* NULL: nothing owned */
   void (*enter)(void *ctx); /* e.g. set the rounding mode; brackets a batch of run[] calls */
@@ -67,11 +67,12 @@ struct ambit_arithmetic {
   /* dst[i] := [lo[i], hi[i]]; var >= 0: the independent variable of that number, var < nvar */
   void (*set)(void *ctx, void *dst, size_t n, const double *lo, const double *hi, int32_t var);
   void (*bounds)(void *ctx, const void *src, size_t n, double *lo, double *hi); /* outward */
-  ambit_run_fn run[32]; /* by opcode; NULL = kernel default */
+  ambit_run_fn run[32];                                                         /* by opcode; NULL = kernel default */
 
   /* -- TIER 2 (optional) */
   /* dst[l] := sum_{j<m} a[j*sa + l] * b[j*sb + l], the Taylor product; strides in elements */
-  uint32_t (*dot)(void *ctx, void *dst, const void *a, ptrdiff_t sa, const void *b, ptrdiff_t sb, size_t m, size_t lanes);
+  uint32_t (*dot)(
+      void *ctx, void *dst, const void *a, ptrdiff_t sa, const void *b, ptrdiff_t sb, size_t m, size_t lanes);
   uint32_t (*eval_tape)(void *ctx, const ambit_tape *t, void *base, size_t pitch, size_t lanes);
   const ambit_jets *jets;
   /* element from a constant's text, tighter than its enclosure; returns 0 if it has no better than set() */

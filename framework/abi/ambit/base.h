@@ -67,9 +67,9 @@ typedef struct ambit_param {
 /* The only symbol that the kernel looks up. Pure data: loading runs no code. */
 typedef struct ambit_plugin {
   uint32_t size, abi;
-  const char *id;      /* "<kind>.<name>"; must match the file <kind>/<name>.so */
-  const char *version; /* of the plugin */
-  const char *doc;     /* one paragraph, shown by `ambit plugins NAME` */
+  const char *id;                               /* "<kind>.<name>"; must match the file <kind>/<name>.so */
+  const char *version;                          /* of the plugin */
+  const char *doc;                              /* one paragraph, shown by `ambit plugins NAME` */
   const void *(*get)(const char *interface_id); /* [any] "ambit.arithmetic/1" -> ambit_arithmetic, else NULL */
 } ambit_plugin;
 

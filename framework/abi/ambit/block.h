@@ -13,17 +13,18 @@ typedef struct ambit_lane {
   size_t elem;
 } ambit_lane;
 
-static inline void *ambit_lane_at(const ambit_lane *lane, uint32_t slot) { return (char *)lane->base + slot * lane->elem; }
+static inline void *ambit_lane_at(const ambit_lane *lane, uint32_t slot) {
+  return (char *)lane->base + slot * lane->elem;
+}
 
 /* [ctx] room for every slot, constants set; the memory is the host object's */
 static inline ambit_status ambit_lane_open(
     ambit_lane *lane, const ambit_host *h, const ambit_tape *t, const ambit_arithmetic *arithmetic, void *actx) {
-  *lane = (ambit_lane) { t, arithmetic, actx, NULL, arithmetic->elem(actx) };
+  lane->tape = t, lane->arithmetic = arithmetic, lane->ctx = actx, lane->elem = arithmetic->elem(actx);
   lane->base = h->alloc(h, t->nslot * lane->elem);
   if (!lane->base) return AMBIT_NOMEM;
   if (arithmetic->init && arithmetic->init(actx, lane->base, t->nslot) != AMBIT_OK) return AMBIT_NOMEM;
-  for (uint32_t i = 0; i < t->nconst; i++)
-    arithmetic->set(actx, ambit_lane_at(lane, i), 1, &t->lo[i], &t->hi[i], -1);
+  for (uint32_t i = 0; i < t->nconst; i++) arithmetic->set(actx, ambit_lane_at(lane, i), 1, &t->lo[i], &t->hi[i], -1);
   return AMBIT_OK;
 }
 
@@ -44,8 +45,8 @@ static inline uint32_t ambit_lane_run(ambit_lane *lane) {
   if (a->enter) a->enter(lane->ctx);
   for (uint32_t i = 0; i < t->nrun; i++) {
     const ambit_run *run = &t->run[i];
-    flags |= a->run[run->op](a, lane->ctx, lane->base, 1, 1, run->count, t->dst + run->first, t->a + run->first,
-        t->b + run->first);
+    flags |= a->run[run->op](
+        a, lane->ctx, lane->base, 1, 1, run->count, t->dst + run->first, t->a + run->first, t->b + run->first);
   }
   if (a->leave) a->leave(lane->ctx);
   return flags;

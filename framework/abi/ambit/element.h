@@ -3,9 +3,9 @@
 ** Demand driven: the kernel calls express() only for a (port, quantity) that some output, event or solver input
 ** reaches; express() pulls what it needs through b->get(). Nothing that nobody asks for is ever built.
 **
-** The road of motion and force (Kecskemethy & Hiller 1994): motion is pulled from an OUT frame towards the ground, force
-** is pulled from an IN frame towards the tips. All wrenches exerted on the port, inertial ones included, sum to zero
-** (d'Alembert).
+** The road of motion and force (Kecskemethy & Hiller 1994): motion is pulled from an OUT frame towards the ground,
+** force is pulled from an IN frame towards the tips. All wrenches exerted on the port, inertial ones included, sum to
+** zero (d'Alembert).
 */
 #ifndef AMBIT_ELEMENT_H
 #define AMBIT_ELEMENT_H
@@ -24,27 +24,31 @@ typedef uint32_t ambit_expr; /* node number in the graph; 0 is the constant 0 */
 
 /* Quantities of a frame port (count in brackets), SI. Twist, acceleration and wrench are resolved in the frame's own
 ** axes and taken at its origin. */
-#define AMBIT_POSE 1u   /* [12] rotation by rows (own axes -> world), then position in the world, m; OUT frames */
-#define AMBIT_TWIST 2u  /* [6] angular velocity, rad/s, linear velocity, m/s; OUT frames */
-#define AMBIT_ACCEL 3u  /* [6] rad/s^2, m/s^2; the linear part is the proper acceleration: minus the field of gravity; OUT frames */
-#define AMBIT_WRENCH 4u /* [6] torque, N m, force, N, that this element exerts on the frame; IN frames. get(): the sum over all elements attached to that frame */
+#define AMBIT_POSE 1u  /* [12] rotation by rows (own axes -> world), then position in the world, m; OUT frames */
+#define AMBIT_TWIST 2u /* [6] angular velocity, rad/s, linear velocity, m/s; OUT frames */
+/* [6] rad/s^2, m/s^2; the linear part is the proper acceleration: minus the field of gravity; OUT frames */
+#define AMBIT_ACCEL 3u
+/* [6] torque, N m, force, N, that this element exerts on the frame; IN frames. get(): the sum over all elements
+** attached to that frame */
+#define AMBIT_WRENCH 4u
 #define AMBIT_ENERGY 5u /* [2] kinetic, potential, J, of this element; port AMBIT_NO_PORT */
 /* Quantities of a joint port; d = degrees of freedom. */
 #define AMBIT_COORDINATE 16u /* [d] OUT */
 #define AMBIT_RATE 17u       /* [d] OUT */
 #define AMBIT_RATE2 18u      /* [d] OUT: second time derivative */
 #define AMBIT_EFFORT 19u     /* [d] generalised force applied to the joint, IN; get(): the sum over all attached */
-#define AMBIT_BALANCE 20u    /* [d] OUT: generalised force that must vanish: projection of the wrench on the joint plus its effort */
+/* [d] OUT: generalised force that must vanish: projection of the wrench on the joint plus its effort */
+#define AMBIT_BALANCE 20u
 /* Quantities of the mechanism as a whole; port AMBIT_NO_PORT, summed over all elements. */
 #define AMBIT_FIELD 32u /* [3] acceleration of gravity, world axes, m/s^2 */
 #define AMBIT_NO_PORT UINT32_MAX
 #define AMBIT_QUANTITY_MAX 12u /* the largest count above */
 
 typedef struct ambit_port {
-  const char *name;     /* "from" */
-  uint32_t kind, role;  /* AMBIT_PORT_*, AMBIT_ROLE_* */
-  uint32_t dof;         /* of a joint port, else 0 */
-  uint32_t optional;    /* IN ports only: 1 = may be left unconnected */
+  const char *name;    /* "from" */
+  uint32_t kind, role; /* AMBIT_PORT_*, AMBIT_ROLE_* */
+  uint32_t dof;        /* of a joint port, else 0 */
+  uint32_t optional;   /* IN ports only: 1 = may be left unconnected */
   const char *doc;
 } ambit_port;
 
@@ -52,18 +56,21 @@ typedef struct ambit_build ambit_build;
 struct ambit_build { /* [main] valid only during express() */
   uint32_t size;
   ambit_expr (*num)(ambit_build *b, const char *decimal); /* "0.5", "1/3", "pi": rigorous, encloses what it says */
-  ambit_expr (*op)(ambit_build *b, uint32_t opcode, ambit_expr x, ambit_expr y); /* folds, hash-conses; y ignored if unary; POWN: y is the int32 exponent */
+  /* folds, hash-conses; y ignored if unary; POWN: y is the int32 exponent */
+  ambit_expr (*op)(ambit_build *b, uint32_t opcode, ambit_expr x, ambit_expr y);
   const ambit_expr *(*param)(ambit_build *b, uint32_t index); /* in declaration order; NULL: optional and absent */
-  /* the element's own coordinate number i (counted through its OUT joint ports in order), or its first or second time derivative
-  ** (order 0, 1, 2); becomes a state. `unit` is that of the coordinate, whatever the order */
+  /* the element's own coordinate number i (counted through its OUT joint ports in order), or its first or second time
+  ** derivative (order 0, 1, 2); becomes a state. `unit` is that of the coordinate, whatever the order */
   ambit_expr (*state)(ambit_build *b, uint32_t i, uint32_t order, const char *unit);
-  /* pulls a quantity: of an own IN port: motion of the frame it is connected to; of an own OUT port: the sum of what is
-  ** exerted there by all elements attached to it; of AMBIT_NO_PORT: of the mechanism. NULL: return any status but OK and UNABLE (a failure,
-  ** already recorded, or a chain too deep for the stack: the kernel calls express() again); or an optional port is not connected */
+  /* pulls a quantity: of an own IN port: motion of the frame it is connected to; of an own OUT port: the sum of what
+  ** is exerted there by all elements attached to it; of AMBIT_NO_PORT: of the mechanism. NULL: return any status but
+  ** OK and UNABLE (a failure, already recorded, or a chain too deep for the stack: the kernel calls express() again);
+  ** or an optional port is not connected */
   const ambit_expr *(*get)(ambit_build *b, uint32_t port, uint32_t quantity);
   ambit_expr (*unknown)(ambit_build *b, const char *lo, const char *hi); /* a fresh independent unknown in [lo, hi] */
   ambit_status (*fail)(ambit_build *b, ambit_status s, const char *format, ...) AMBIT_PRINTF(3, 4);
-  ambit_expr (*diff_time)(ambit_build *b, ambit_expr x); /* total time derivative of a given motion (of a parameter) */
+  /* total time derivative of a given motion (of a parameter) */
+  ambit_expr (*diff_time)(ambit_build *b, ambit_expr x);
   /* bounds that hold for x whatever the unknowns are, perhaps wide; for checks of data (a mass below zero) */
   void (*range)(ambit_build *b, ambit_expr x, double *lo, double *hi);
 };

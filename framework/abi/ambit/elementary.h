@@ -12,7 +12,8 @@
 typedef struct ambit_elementary_service {
   uint32_t size;
   /* [any] op: AMBIT_OP_EXP .. AMBIT_OP_TANH; (x, y) finite in its domain, y only for ATAN2, the angle of the point
-  ** (y, x). [*lo, *hi] is the tightest enclosure by doubles, lo == hi if the value is one. Called in round-to-nearest. */
+  ** (y, x). [*lo, *hi] is the tightest enclosure by doubles, lo == hi if the value is one. Called in
+  ** round-to-nearest. */
   void (*point)(uint32_t op, double x, double y, double *lo, double *hi);
 } ambit_elementary_service;
 #endif

@@ -16,15 +16,16 @@
 ** its outputs: x(t0) [nx], p [np]. An unknown that several data share occurs once: correlation is kept. */
 typedef struct ambit_problem {
   uint32_t size, nx, np, nu, nevent, uses_time;
-  const char *const *name;             /* [nx] state names, [np] parameter names behind them */
+  const char *const *name;                            /* [nx] state names, [np] parameter names behind them */
   const ambit_tape *rhs, *jacobian, *initial, *event; /* NULL when not wanted */
-  const ambit_arithmetic *arithmetic;  /* completed: every run[] filled */
-  void *actx;                          /* its context, lent to this solver until close */
-  const double *x0_lo, *x0_hi;         /* [nx] hull of the initial set */
-  const double *p_lo, *p_hi;           /* [np] hull of the parameters (only uncertain data are parameters) */
-  const double *u_lo, *u_hi;           /* [nu] ranges of the unknowns */
-  uint32_t ntime;                      /* >= 2 */
-  const double *time;                  /* [ntime] start, instants that a step must end on, end; ascending or descending, s */
+  const ambit_arithmetic *arithmetic;                 /* completed: every run[] filled */
+  void *actx;                                         /* its context, lent to this solver until close */
+  const double *x0_lo, *x0_hi;                        /* [nx] hull of the initial set */
+  const double *p_lo, *p_hi; /* [np] hull of the parameters (only uncertain data are parameters) */
+  const double *u_lo, *u_hi; /* [nu] ranges of the unknowns */
+  uint32_t ntime;            /* >= 2 */
+  /* [ntime] start, instants that a step must end on, end; ascending or descending, s */
+  const double *time;
 } ambit_problem;
 
 /* Result record: header first, so that readers skip kinds they do not know. Enclosures hold for every solution. */
@@ -32,24 +33,25 @@ typedef struct ambit_problem {
 #define AMBIT_REC_EVENT 2u /* event number `event` happens within [t_from, t_to], ordered in time */
 typedef struct ambit_record {
   uint32_t size, kind;
-  double t_from, t_to;            /* s; t_to < t_from when integrating backwards */
+  double t_from, t_to; /* s; t_to < t_from when integrating backwards */
   uint32_t nx, flags, event, rigorous;
-  const double *lo, *hi;          /* [nx] at t_to; valid only during the call */
+  const double *lo, *hi;           /* [nx] at t_to; valid only during the call */
   const double *tube_lo, *tube_hi; /* [nx] over the whole step, or NULL */
-  uint32_t order, ncoef;          /* order used (0 = none) */
+  uint32_t order, ncoef;           /* order used (0 = none) */
 } ambit_record;
 
 typedef struct ambit_sink ambit_sink;
 struct ambit_sink {
   uint32_t size;
-  int32_t (*emit)(ambit_sink *s, const ambit_record *r);              /* nonzero: stop, return AMBIT_STOPPED */
-  int32_t (*progress)(ambit_sink *s, double done, const char *message); /* 0..1; nonzero: stop; call at least every step */
+  int32_t (*emit)(ambit_sink *s, const ambit_record *r); /* nonzero: stop, return AMBIT_STOPPED */
+  /* 0..1; nonzero: stop; call at least every step */
+  int32_t (*progress)(ambit_sink *s, double done, const char *message);
 };
 
 typedef struct ambit_solver {
-  uint32_t size, want;       /* AMBIT_WANT_* */
-  uint32_t needs_rigorous;   /* 1: refuse an arithmetic that is not; 0: results prove nothing */
-  const char *arithmetics;   /* names that fit, blank-separated, the first is the default; NULL: every rigorous one */
+  uint32_t size, want;     /* AMBIT_WANT_* */
+  uint32_t needs_rigorous; /* 1: refuse an arithmetic that is not; 0: results prove nothing */
+  const char *arithmetics; /* names that fit, blank-separated, the first is the default; NULL: every rigorous one */
   const ambit_param *param;
   /* [ctx] allocates everything here; `option` in declaration order, shapes flattened */
   ambit_status (*open)(const ambit_host *h, const ambit_problem *p, const double *option, void **self);

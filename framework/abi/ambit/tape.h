@@ -38,7 +38,7 @@ enum {
 #define AMBIT_X(name, arity, symbol) AMBIT_OP_##name,
   AMBIT_OPS(AMBIT_X)
 #undef AMBIT_X
-  AMBIT_OP_COUNT
+      AMBIT_OP_COUNT
 };
 
 #define AMBIT_NO_SLOT UINT32_MAX
@@ -59,14 +59,20 @@ typedef struct ambit_run {
 typedef struct ambit_tape {
   uint32_t size, flags;
   uint32_t nslot, nconst, nin, nout, ninstr, nrun;
-  const uint32_t *op;            /* [ninstr] opcode of each instruction */
-  const uint32_t *dst, *a, *b;   /* [ninstr] slots; b == a when unary (POWN: the exponent) */
-  const uint32_t *aux;           /* [ninstr] see AMBIT_TAPE_SERIES, else AMBIT_NO_SLOT */
-  const ambit_run *run;          /* [nrun] */
-  const double *lo, *hi;         /* [nconst] tightest known enclosure of each constant */
-  const char *const *text;       /* [nconst] what the constant is ("0.1", "1/3", "pi") for arithmetics of higher precision; NULL: the enclosure is all that is known */
-  const uint32_t *out;           /* [nout] slots of the outputs */
-  const uint32_t *degree;        /* [nslot] degree as a polynomial in time when every state is a general function of time: 0 = constant, AMBIT_DEGREE_ANY */
-  const double *range_lo, *range_hi; /* [nslot] bounds that hold for every real input (cos: [-1, 1]), an unknown datum being in its set; may be infinite */
+  const uint32_t *op;          /* [ninstr] opcode of each instruction */
+  const uint32_t *dst, *a, *b; /* [ninstr] slots; b == a when unary (POWN: the exponent) */
+  const uint32_t *aux;         /* [ninstr] see AMBIT_TAPE_SERIES, else AMBIT_NO_SLOT */
+  const ambit_run *run;        /* [nrun] */
+  const double *lo, *hi;       /* [nconst] tightest known enclosure of each constant */
+  /* [nconst] what the constant is ("0.1", "1/3", "pi") for arithmetics of higher precision; NULL: the enclosure
+  ** is all that is known */
+  const char *const *text;
+  const uint32_t *out; /* [nout] slots of the outputs */
+  /* [nslot] degree as a polynomial in time when every state is a general function of time: 0 = constant,
+  ** AMBIT_DEGREE_ANY */
+  const uint32_t *degree;
+  /* [nslot] bounds that hold for every real input (cos: [-1, 1]), an unknown datum being in its set; may be
+  ** infinite */
+  const double *range_lo, *range_hi;
 } ambit_tape;
 #endif

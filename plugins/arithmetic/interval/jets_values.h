@@ -32,7 +32,7 @@ static inline triple times_order(row a, uint32_t k) {
 }
 
 /* n is rounded up to a multiple of the width: behind one of the rows there are zeros, behind the other finite numbers
-** */
+*/
 static inline triple dot_rows(const double *am, const double *ar, const double *bm, const double *br, size_t n) {
   vector h = splat(0), l = h, r = h, q = h;
   for (size_t i = 0; i < n; i += WIDTH) {

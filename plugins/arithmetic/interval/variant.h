@@ -1,5 +1,5 @@
 /* variant.h -- the plugin for one instruction set: kernels and series, compiled with the flags of the including file.
-** */
+*/
 #include "kernels.h"
 #include "jets_values.h"
 #include "jets_slopes.h"
