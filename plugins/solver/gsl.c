@@ -4,14 +4,17 @@
 ** time, which only the method bsimp reads, is a central difference. GSL allocates its own memory in open(); its error handler, which
 ** would end the process, is switched off there.
 */
+#include <ambit/block.h>
 #include <ambit/solver.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 #include <math.h>
 #include <string.h>
 
-/* in the order of the words of the option `method` */
-#define METHODS(X) X(rk2) X(rk4) X(rkf45) X(rkck) X(rk8pd) X(rk2imp) X(rk4imp) X(bsimp) X(msadams) X(msbdf)
+/* in the order of the words of the option `method`; 1: reads the Jacobian */
+#define METHODS(X)                                                                                                     \
+  X(rk2, 0)                                                                                                            \
+  X(rk4, 0) X(rkf45, 0) X(rkck, 0) X(rk8pd, 0) X(rk2imp, 1) X(rk4imp, 1) X(bsimp, 1) X(msadams, 0) X(msbdf, 1)
 
 enum { OPTION_METHOD, OPTION_RELATIVE, OPTION_ABSOLUTE, OPTION_STEP_MAX };
 
@@ -25,59 +28,27 @@ static const ambit_param param[] = {
   { NULL, NULL, NULL, NULL, NULL },
 };
 
-/* A tape and its slots. */
-typedef struct program {
-  const ambit_tape *tape;
-  char *base;
-} program;
-
 typedef struct solver {
   const ambit_host *host;
   ambit_problem problem;
-  size_t elem;
-  program rhs, jacobian;
+  ambit_lane rhs, jacobian;
   double *x, *start, *p, *before, *after; /* [nx] [nx] [np] [nx] [nx] */
   double step_max;
   gsl_odeiv2_system system;
   gsl_odeiv2_driver *driver;
 } solver;
 
-/* -- tapes */
-
-static int open_program(solver *s, const ambit_tape *t, program *r) {
-  const ambit_arithmetic *a = s->problem.arithmetic;
-  *r = (program) { t, s->host->alloc(s->host, (size_t)t->nslot * s->elem) };
-  if (!r->base || (a->init && a->init(s->problem.actx, r->base, t->nslot) != AMBIT_OK)) return 0;
-  for (uint32_t i = 0; i < t->nconst; i++) a->set(s->problem.actx, r->base + i * s->elem, 1, &t->lo[i], &t->hi[i], -1);
-  return 1;
-}
-
-static void close_program(solver *s, program *r) {
-  if (r->base && s->problem.arithmetic->clear) s->problem.arithmetic->clear(s->problem.actx, r->base, r->tape->nslot);
-}
-
-static void put(const solver *s, const program *r, uint32_t in, double x) {
-  s->problem.arithmetic->set(s->problem.actx, r->base + (r->tape->nconst + in) * s->elem, 1, &x, &x, -1);
-}
-
 /* Outputs at (t, x); GSL_EDOM if one of them is no number: GSL then tries a shorter step. */
-static int evaluate(const solver *s, const program *r, double t, const double *x, double *out) {
+static int evaluate(const solver *s, const ambit_lane *lane, double t, const double *x, double *out) {
   const ambit_problem *p = &s->problem;
-  const ambit_arithmetic *a = p->arithmetic;
-  const ambit_tape *tape = r->tape;
-  for (uint32_t i = 0; i < p->nx; i++) put(s, r, i, x[i]);
-  for (uint32_t i = 0; i < p->np; i++) put(s, r, p->nx + i, s->p[i]);
-  if (p->uses_time) put(s, r, p->nx + p->np, t);
-  if (a->enter) a->enter(p->actx);
-  for (uint32_t i = 0; i < tape->nrun; i++) {
-    const ambit_run *run = &tape->run[i];
-    a->run[run->op](
-        a, p->actx, r->base, 1, 1, run->count, tape->dst + run->first, tape->a + run->first, tape->b + run->first);
-  }
-  if (a->leave) a->leave(p->actx);
-  for (uint32_t i = 0; i < tape->nout; i++) {
+  ambit_lane at = *lane;
+  for (uint32_t i = 0; i < p->nx; i++) ambit_lane_set(&at, i, x[i], x[i]);
+  for (uint32_t i = 0; i < p->np; i++) ambit_lane_set(&at, p->nx + i, s->p[i], s->p[i]);
+  if (p->uses_time) ambit_lane_set(&at, p->nx + p->np, t, t);
+  if (ambit_lane_run(&at) & (AMBIT_F_PARTIAL | AMBIT_F_EMPTY)) return GSL_EDOM;
+  for (uint32_t i = 0; i < at.tape->nout; i++) {
     double lo, hi;
-    a->bounds(p->actx, r->base + tape->out[i] * s->elem, 1, &lo, &hi);
+    ambit_lane_get(&at, i, &lo, &hi);
     if (!(lo <= hi) || !isfinite(lo) || !isfinite(hi)) return GSL_EDOM;
     out[i] = 0.5 * lo + 0.5 * hi;
   }
@@ -104,6 +75,13 @@ static int derivatives(double t, const double y[], double *dfdy, double dfdt[], 
 
 /* -- life */
 
+static uint32_t want_for(const double *option) {
+#define METHOD(name, jacobian) jacobian,
+  static const int reads_jacobian[] = { METHODS(METHOD) };
+#undef METHOD
+  return AMBIT_WANT_RHS | (reads_jacobian[(size_t)option[OPTION_METHOD]] ? AMBIT_WANT_JACOBIAN : 0);
+}
+
 static double middle(double lo, double hi) { return lo == hi ? lo : 0.5 * lo + 0.5 * hi; }
 
 static ambit_status check_options(const ambit_host *h, const double *o) {
@@ -126,14 +104,15 @@ static int allocate(solver *s) {
   for (size_t i = 0; i < sizeof array / sizeof *array; i++)
     if (!(*array[i] = s->host->alloc(s->host, state))) return 0;
   s->p = s->host->alloc(s->host, (p->np + 1u) * sizeof(double));
-  return s->p && open_program(s, p->rhs, &s->rhs) && open_program(s, p->jacobian, &s->jacobian);
+  if (!s->p || ambit_lane_open(&s->rhs, s->host, p->rhs, p->arithmetic, p->actx) != AMBIT_OK) return 0;
+  return !p->jacobian || ambit_lane_open(&s->jacobian, s->host, p->jacobian, p->arithmetic, p->actx) == AMBIT_OK;
 }
 
 static void close(void *self) {
   solver *s = self;
   if (s->driver) gsl_odeiv2_driver_free(s->driver);
-  close_program(s, &s->rhs);
-  close_program(s, &s->jacobian);
+  ambit_lane_close(&s->rhs);
+  ambit_lane_close(&s->jacobian);
 }
 
 static void take_middle(solver *s) {
@@ -143,7 +122,7 @@ static void take_middle(solver *s) {
 }
 
 static ambit_status open(const ambit_host *h, const ambit_problem *p, const double *option, void **self) {
-#define METHOD(name) gsl_odeiv2_step_##name,
+#define METHOD(name, jacobian) gsl_odeiv2_step_##name,
   const gsl_odeiv2_step_type *const method[] = { METHODS(METHOD) };
 #undef METHOD
   ambit_status status = check_options(h, option);
@@ -151,8 +130,8 @@ static ambit_status open(const ambit_host *h, const ambit_problem *p, const doub
   solver *s = h->alloc(h, sizeof *s);
   if (!s) return h->fail(h, AMBIT_NOMEM, "gsl: out of memory");
   memcpy(&s->problem, p, p->size < sizeof s->problem ? p->size : sizeof s->problem);
-  s->host = h, s->elem = p->arithmetic->elem(p->actx), s->step_max = option[OPTION_STEP_MAX];
-  s->system = (gsl_odeiv2_system) { rates, derivatives, p->nx, s };
+  s->host = h, s->step_max = option[OPTION_STEP_MAX];
+  s->system = (gsl_odeiv2_system) { rates, p->jacobian ? derivatives : NULL, p->nx, s };
   gsl_set_error_handler_off();
   double span = p->time[p->ntime - 1] - p->time[0], first = fmin(fabs(span) * 1e-6, s->step_max);
   if (allocate(s))
@@ -203,6 +182,7 @@ static ambit_status run(void *self, ambit_sink *sink) {
   const ambit_problem *p = &s->problem;
   gsl_odeiv2_driver *d = s->driver;
   double t = p->time[0], h = d->h;
+  gsl_odeiv2_driver_reset(d);
   memcpy(s->x, s->start, p->nx * sizeof *s->x);
   for (uint32_t next = 1; next < p->ntime; next += t == p->time[next]) {
     double from = t;
@@ -217,19 +197,19 @@ static ambit_status run(void *self, ambit_sink *sink) {
 
 static const ambit_solver interface = {
   .size = sizeof interface,
-  .want = AMBIT_WANT_RHS | AMBIT_WANT_JACOBIAN,
+  .want = AMBIT_WANT_RHS,
   .needs_rigorous = 0,
   .arithmetics = "real",
   .param = param,
   .open = open,
   .run = run,
   .close = close,
+  .want_for = want_for,
 };
 
 static const void *get(const char *interface_id) { return strcmp(interface_id, AMBIT_SOLVER) == 0 ? &interface : NULL; }
 
 const ambit_plugin ambit_entry = { sizeof ambit_entry, AMBIT_ABI, "solver.gsl", "1.0",
   "The steppers of the GNU Scientific Library: one curve from the middle of the uncertain data, which proves nothing. "
-  "For reference and "
-  "for sampling.",
+  "For reference and for sampling.",
   get };

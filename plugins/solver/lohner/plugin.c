@@ -9,7 +9,7 @@ static const ambit_param param[] = {
   { "set", "1", "auto|qr|history", "auto",
     "how the set is kept: qr, one orthogonal frame (Lohner's); history, also the boxes of past steps; auto: history unless "
     "there are more than 48 states" },
-  { "history", "1", "integer", "32", "boxes of past steps that are kept before the older half is condensed; 0: as set = qr" },
+  { "history", "1", "integer", "32", "boxes of past steps that are kept before the older half is condensed; 1 to 3 count as 4; 0: as set = qr" },
   { "pieces", "1", "integer", "8", "parts, 1 to 16, into which uncertain data are cut to bound how slopes vary; the set stays whole" },
   { "step_max", "s", "", "inf", "longest step" },
   { "step_min", "s", "", "0", "shortest step that is tried before the run gives up; 0: 2^-40 of the time span" },

@@ -11,6 +11,7 @@
 #define THIN 0x1p-40 /* relative radius up to which an initial box is a matter of rounding */
 #define LEAST_TOLERANCE 1e-22  /* far below the rounding errors of a step */
 #define RESOLUTION 0x1p-40     /* automatic step_min over the time span */
+#define LEAST_HISTORY 4        /* so that the older half is at least two groups, and condensing makes fewer of them */
 #define LARGEST_FOR_HISTORY 48 /* states; beyond it, moving the history would dominate */
 
 enum { OPTION_ORDER, OPTION_SLOPE_ORDER, OPTION_TOLERANCE, OPTION_SET, OPTION_HISTORY, OPTION_PIECES, OPTION_STEP_MAX,
@@ -64,7 +65,7 @@ static options choose_options(const ambit_problem *p, const double *o) {
   int classical = o[OPTION_SET] == SET_QR || (o[OPTION_SET] == SET_AUTO && p->nx > LARGEST_FOR_HISTORY);
   if (classical) r.history = 0;
   else if (o[OPTION_SET] == SET_HISTORY && r.history == 0) r.history = 32;
-  if (r.history == 1) r.history = 2;
+  if (r.history > 0 && r.history < LEAST_HISTORY) r.history = LEAST_HISTORY;
   return r;
 }
 

@@ -135,13 +135,23 @@ static int slopes_are_proved(lohner *s) {
   return 0;
 }
 
-/* what the excess of slopes adds to the set is small beside the set */
+static double reach_of(const lohner *s, uint32_t j) {
+  return j < s->nc ? 1 : s->rest[j - s->nc] + fabs(s->low[j - s->nc]);
+}
+
+/* What the excess of slopes adds to the set is small beside the set, or beside what the step makes of it: a component that starts
+** as a point grows by its first two derivatives. */
 static int slopes_are_sharp(const lohner *s) {
+  uint32_t n = s->ndir, q = s->options.slope_order;
+  double H = s->step.length;
   for (uint32_t i = 0; i < s->nx; i++) {
-    double added = 0;
-    for (uint32_t j = 0; j < s->ndir; j++)
-      added += s->slope_excess[(size_t)i * s->ndir + j] * (j < s->nc ? 1 : s->rest[j - s->nc] + fabs(s->low[j - s->nc]));
-    if (!(added <= SLOPPY * s->radius[i] + s->options.tolerance * s->size[i] + TINY)) return 0;
+    const double *slope = s->slope_mid + (size_t)i * (q + 1u) * n;
+    double added = 0, grown = s->radius[i];
+    for (uint32_t j = 0; j < n; j++) {
+      added += s->slope_excess[(size_t)i * n + j] * reach_of(s, j);
+      grown += H * (fabs(slope[n + j]) + H * fabs(slope[2u * n + j])) * reach_of(s, j);
+    }
+    if (!(added <= SLOPPY * grown + s->options.tolerance * s->size[i] + TINY)) return 0;
   }
   return 1;
 }

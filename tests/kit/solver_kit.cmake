@@ -1,0 +1,12 @@
+# The conformance kit of solvers, and the tests that put ours through it.
+add_library(solver_kit STATIC ${PROJECT_SOURCE_DIR}/tests/kit/solver_kit.c ${PROJECT_SOURCE_DIR}/tests/kit/solver_kit_problems.c)
+target_include_directories(solver_kit PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+target_link_libraries(solver_kit PRIVATE ambit_flags PUBLIC libambit m)
+foreach(name lohner gsl)
+  target_link_libraries(test.plugins.solver_${name} PRIVATE solver_kit)
+  if(NOT AMBIT_SANITIZE)
+    target_sources(test.plugins.solver_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests/kit/allocations.c)
+    target_compile_definitions(test.plugins.solver_${name} PRIVATE SOLVER_COUNTS_ALLOCATIONS)
+  endif()
+  add_dependencies(test.plugins.solver_${name} solver_${name} arithmetic_real arithmetic_interval)
+endforeach()
