@@ -142,6 +142,13 @@ typedef struct uncertain {
 
 #define DIGITS_MAX 30 /* with the factor 2 below, far inside 128 bits */
 
+#define EXPONENT_MAX 100000 /* far beyond every double, even after the shift by the digits */
+
+static long bounded_exponent(const char *digits) {
+  long exponent = strtol(digits, NULL, 10); /* saturates */
+  return exponent > EXPONENT_MAX ? EXPONENT_MAX : exponent < -EXPONENT_MAX ? -EXPONENT_MAX : exponent;
+}
+
 static const char *read_uncertain(const char *s, uncertain *u) {
   bool negative = *s == '-';
   int digits = 0;
@@ -179,7 +186,7 @@ static const char *read_uncertain(const char *s, uncertain *u) {
     s++;
   }
   const char *end = skip_exponent(s, 'e');
-  if (end > s) u->exponent += strtol(s + 1, NULL, 10);
+  if (end > s) u->exponent += bounded_exponent(s + 1);
   return end;
 }
 

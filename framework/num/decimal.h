@@ -1,7 +1,7 @@
 /* decimal.h -- decimal text <-> doubles, rigorous in both directions, in any ambient rounding mode and locale.
 **
 ** Reads IEEE 1788-2015 literals: "0.1", "-1e-3", "1/3", "0x1.8p3", "[0.1, 0.2]", "[1/3, 2/3]", "[empty]", "[entire]",
-** "[,]", "[1,]", "3.56?2" (uncertain form: +- 2 ulp of the last place, with u, d, ??, exponent), "inf", "pi". White
+** "[,]", "[1,]", "3.56?2" (uncertain form: +- 2 ulp of the last place, with u, d, ??, exponent), "pi"; "inf" as a bound. White
 ** space is allowed around numbers.
 */
 #ifndef AMBIT_DECIMAL_H

@@ -270,7 +270,7 @@ ambit_interval ambit_interval_intersect(ambit_interval a, ambit_interval b) {
   return ambit_interval_of(larger(a.lo, b.lo), smaller(a.hi, b.hi));
 }
 
-double ambit_interval_mid(ambit_interval x) {
+AMBIT_WORKER double ambit_interval_mid(ambit_interval x) {
   if (ambit_interval_is_empty(x)) return NAN;
   if (x.lo == -INFINITY) return x.hi == INFINITY ? 0 : -DBL_MAX;
   if (x.hi == INFINITY) return DBL_MAX;
@@ -280,6 +280,8 @@ double ambit_interval_mid(ambit_interval x) {
 }
 
 static AMBIT_WORKER double radius_about(ambit_interval x, double mid) { return larger(x.hi - mid, mid - x.lo); }
+
+static AMBIT_WORKER double distance(double lo, double hi) { return hi - lo; }
 
 double ambit_interval_rad(ambit_interval x) {
   if (ambit_interval_is_empty(x)) return 0;
@@ -293,7 +295,7 @@ double ambit_interval_rad(ambit_interval x) {
 double ambit_interval_width(ambit_interval x) {
   if (ambit_interval_is_empty(x)) return 0;
   ambit_rounding old = ambit_round_up();
-  double width = radius_about(x, x.lo);
+  double width = distance(x.lo, x.hi);
   ambit_rounding_restore(old);
   return width;
 }

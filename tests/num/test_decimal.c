@@ -72,6 +72,9 @@ static void literals(void **unused) {
   expect("10??u", 10, INFINITY);
   expect("1.0?5e1", 5, 15);
   expect("1e400", DBL_MAX, INFINITY);
+  expect("1.5?1e-9223372036854775808", 0, 0x1p-1074);
+  expect("5?e-99999999999999999999", 0, 0x1p-1074);
+  expect("5?e99999999999999999999", DBL_MAX, INFINITY);
   expect("1e-400", 0, 0x1p-1074);
 }
 

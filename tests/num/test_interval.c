@@ -171,6 +171,8 @@ static void measures(void **unused) {
   assert_true(ambit_interval_mid(AMBIT_ENTIRE) == 0 && isnan(ambit_interval_mid(AMBIT_EMPTY)));
   assert_true(ambit_interval_width(I(1, 3)) == 2 && ambit_interval_width(AMBIT_EMPTY) == 0);
   assert_true(ambit_interval_width(I(-1, 0x1p-1074)) > 1);
+  assert_true(ambit_interval_width(I(-INFINITY, 5)) == INFINITY && ambit_interval_width(AMBIT_ENTIRE) == INFINITY);
+  assert_true(ambit_interval_rad(I(-INFINITY, -1e308)) == INFINITY && ambit_interval_rad(AMBIT_ENTIRE) == INFINITY);
   assert_true(ambit_interval_is_empty(ambit_interval_of(2, 1)) && ambit_interval_is_empty(ambit_interval_of(NAN, 1)));
   assert_true(ambit_interval_is_empty(ambit_interval_of(INFINITY, INFINITY)));
   assert_true(ambit_interval_is_empty(ambit_interval_intersect(I(0, 1), I(2, 3))));

@@ -3,7 +3,8 @@
 ** Compilers move floating-point operations across a change of the rounding mode (gcc does so even with
 ** -frounding-math). So the rule of this code base: the mode is changed only in a wrapper that contains no
 ** floating-point arithmetic and calls a function marked AMBIT_WORKER, which is never inlined. Each wrapper restores
-** what it found. Setting a mode also clears flush-to-zero and denormals-are-zero that a host program may have set.
+** what it found. On x86, setting a mode also clears flush-to-zero and denormals-are-zero, which a host program may have
+** set; elsewhere C has no name for them, and a host must leave them off.
 */
 #ifndef AMBIT_ABI_ROUNDING_H
 #define AMBIT_ABI_ROUNDING_H
