@@ -3,6 +3,7 @@
 #include "host/path.h"
 #include <dirent.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,9 +20,7 @@ static DIR *open_kind(const char *directory, const char *kind) {
   size_t bytes = strlen(directory) + strlen(kind) + sizeof "/";
   char *place = malloc(bytes);
   if (!place) return NULL;
-  strcpy(place, directory);
-  strcat(place, "/");
-  strcat(place, kind);
+  snprintf(place, bytes, "%s/%s", directory, kind);
   DIR *open = opendir(place);
   free(place);
   return open;

@@ -155,7 +155,7 @@ static ambit_status copy_jets(ambit_registry *r, const entry *e, ambit_arithmeti
 }
 
 static ambit_status make_arithmetic(ambit_registry *r, entry *e, ambit_failure *f) {
-  void *copy;
+  void *copy = NULL;
   ambit_status status =
       copy_interface(r, e, AMBIT_ARITHMETIC, sizeof(ambit_arithmetic), UPTO(ambit_arithmetic, bounds), &copy, f);
   if (status != AMBIT_OK) return status;
@@ -172,7 +172,7 @@ static ambit_status make_arithmetic(ambit_registry *r, entry *e, ambit_failure *
 }
 
 static ambit_status make_element(ambit_registry *r, entry *e, ambit_failure *f) {
-  void *copy;
+  void *copy = NULL;
   ambit_status status =
       copy_interface(r, e, AMBIT_ELEMENT, sizeof(ambit_element), UPTO(ambit_element, express), &copy, f);
   if (status != AMBIT_OK) return status;
@@ -184,7 +184,7 @@ static ambit_status make_element(ambit_registry *r, entry *e, ambit_failure *f) 
 }
 
 static ambit_status make_solver(ambit_registry *r, entry *e, ambit_failure *f) {
-  void *copy;
+  void *copy = NULL;
   ambit_status status = copy_interface(r, e, AMBIT_SOLVER, sizeof(ambit_solver), UPTO(ambit_solver, close), &copy, f);
   if (status != AMBIT_OK) return status;
   ambit_solver *s = copy;
@@ -229,7 +229,7 @@ ambit_status ambit_registry_exports(
   while (e && &e->loaded.plugin != p) e = e->next;
   if (!e) return ambit_fail(f, AMBIT_INVALID, "the plugin was not loaded by this registry");
   if (!e->exports && p->get(AMBIT_EXPORTS)) {
-    void *copy;
+    void *copy = NULL;
     ambit_status status =
         copy_interface(r, e, AMBIT_EXPORTS, sizeof(ambit_exports), UPTO(ambit_exports, function), &copy, f);
     if (status != AMBIT_OK) return status;

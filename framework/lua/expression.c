@@ -5,6 +5,9 @@
 
 static ambit_lua_expression *self(lua_State *L) { return luaL_checkudata(L, 1, AMBIT_TYPE_EXPRESSION); }
 
+/* An expression that shares much can stand for a text of astronomical length. */
+#define TEXT_MAX 10000u
+
 static int text(lua_State *L) {
   ambit_graph *g = AMBIT_LUA(L)->graph;
   ambit_expr e = self(L)->e;
@@ -14,10 +17,13 @@ static int text(lua_State *L) {
     lua_pushlstring(L, small, length);
     return 1;
   }
+  size_t shown = length < TEXT_MAX ? length : TEXT_MAX;
   luaL_Buffer buffer;
-  char *room = luaL_buffinitsize(L, &buffer, length + 1);
-  ambit_graph_text(g, e, room, length + 1);
-  luaL_pushresultsize(&buffer, length);
+  char *room = luaL_buffinitsize(L, &buffer, shown + 1);
+  ambit_graph_text(g, e, room, shown + 1);
+  luaL_pushresultsize(&buffer, shown);
+  if (shown == length) return 1;
+  lua_pushfstring(L, "%s ... (%f characters in all)", lua_tostring(L, -1), (lua_Number)length);
   return 1;
 }
 

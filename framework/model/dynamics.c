@@ -279,7 +279,7 @@ static const char *joined(ambit_arena *arena, const char *a, const char *b) {
 }
 
 ambit_status ambit_dynamics_system(ambit_mechanism *m, ambit_arena *arena, ambit_system *system, ambit_failure *f) {
-  ambit_motion motion;
+  ambit_motion motion = { 0 };
   ambit_status status = ambit_motion_build(m, arena, &motion, f);
   if (status != AMBIT_OK) return status;
   size_t n = motion.n;

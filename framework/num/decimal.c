@@ -245,7 +245,7 @@ ambit_status ambit_decimal_read(const char *text, ambit_interval *x, const char 
 
 ambit_status ambit_decimal_tolerance(
     const char *text, ambit_interval *x, bool *relative, const char **rest, ambit_failure *failure) {
-  const char *end;
+  const char *end = text;
   ambit_status status = ambit_decimal_read(text, x, &end, failure);
   if (status != AMBIT_OK) return status;
   *relative = *end == '%';

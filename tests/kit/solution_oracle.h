@@ -90,7 +90,7 @@ static inline double solution_length(solution_oracle *o) {
   double length = INFINITY;
   for (uint32_t i = 0; i < o->problem->nx; i++)
     for (uint32_t k = SOLUTION_ORDER - 1; k <= SOLUTION_ORDER; k++) {
-      const mpfr_t *c = series_u(&o->rhs, o->problem->rhs->nconst + i, k);
+      mpfr_t *c = series_u(&o->rhs, o->problem->rhs->nconst + i, k);
       if (mpfr_zero_p(*c)) continue;
       double exponent = (double)mpfr_get_exp(*c) * 0.30103 + SOLUTION_DIGITS;
       length = fmin(length, pow(10, -exponent / k));

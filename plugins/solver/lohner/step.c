@@ -8,7 +8,7 @@
 #include "lohner.h"
 
 #define TRIES 200
-#define PROOF_TRIES 4
+#define PROOF_TRIES 6
 #define GUESS 5.0        /* eps over the tail with eps = 0 */
 #define AGAIN 2.0        /* over the last tail */
 #define AIM 0.2          /* share of the tolerance that a new length aims at */
@@ -84,10 +84,14 @@ static int within(size_t n, const double *a, const double *b) {
   return 1;
 }
 
-/* The first guess is a multiple of what eps = 0 gave, the next ones of what the last guess gave: a component whose own derivatives
-** vanish at this order learns from the others. */
+/* The first guess is a multiple of what eps = 0 gave, the next ones of what the last guess gave, and more and more of the largest: a
+** component whose own derivatives vanish at this order learns from the others, even from far ones. */
 static void guess(int attempt, size_t n, const double *excess, double *eps) {
-  for (size_t k = 0; k < n; k++) eps[k] = (attempt ? AGAIN : GUESS) * excess[k] + TINY;
+  static const double share[PROOF_TRIES] = { 0, 1e-6, 1e-4, 1e-2, 0.1, 1 };
+  double largest = 0;
+  for (size_t k = 0; k < n; k++) largest = larger(largest, excess[k]);
+  double floor = attempt ? share[attempt] * largest + TINY : TINY;
+  for (size_t k = 0; k < n; k++) eps[k] = (attempt ? AGAIN : GUESS) * excess[k] + floor;
 }
 
 static int centre_is_proved(lohner *s) {
