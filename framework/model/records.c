@@ -190,7 +190,9 @@ ambit_status ambit_records_close(ambit_records *r, ambit_failure *f) {
   if (!r) return AMBIT_OK;
   bool good = r->file == STDOUT_FILENO || close(r->file) == 0;
   ambit_status status = AMBIT_OK;
-  if (!good && !r->failed)
+  if (r->failed)
+    status = ambit_fail(f, AMBIT_STOPPED, "the records in %s are incomplete: a write failed", r->path);
+  else if (!good)
     status = ambit_fail(f, AMBIT_STOPPED, "cannot write records to %s: %s", r->path, strerror(errno));
   destroy(r);
   return status;

@@ -14,6 +14,7 @@
 
 typedef struct ambit_records ambit_records;
 ambit_status ambit_records_open(const char *path, ambit_records **r, ambit_failure *f); /* "-": stdout */
+/* STOPPED if a write failed, now or earlier */
 ambit_status ambit_records_close(ambit_records *r, ambit_failure *f);
 
 /* Building one line: begin, any fields, end. Keys in a begin/end pair; `end` writes and flushes. No allocation after the first lines. */

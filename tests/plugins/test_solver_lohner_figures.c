@@ -211,7 +211,7 @@ static void random_systems(void **unused) {
     track_close(&k);
     model_close(&m);
   }
-  assert_true(records > 200);
+  assert_true(records > 100);
 }
 
 /* -- ends */

@@ -72,10 +72,10 @@ static ambit_status explain(const lohner *s, enum why why) {
   case WHY_STOPPED: return AMBIT_STOPPED;
   case WHY_CENTRE:
     return h->fail(h, AMBIT_UNABLE,
-        "at t = %.9g s the right-hand side is not defined, or not smooth, at the midpoint of the enclosure; end before it", s->t);
+        "at t = %.9g s the right-hand side is not defined, not smooth or too large at the midpoint of the enclosure; end before it", s->t);
   case WHY_BOX:
     return h->fail(h, AMBIT_UNABLE,
-        "at t = %.9g s the enclosure, up to %.3g wide, reaches a point where the right-hand side is not defined or not smooth; "
+        "at t = %.9g s the enclosure, up to %.3g wide, reaches a point where the right-hand side is not defined, not smooth or too large; "
         "split the initial set, or end before it",
         s->t, width(s));
   case WHY_WIDE:

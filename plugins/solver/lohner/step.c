@@ -15,7 +15,7 @@
 #define LOW_WATER 0.02   /* a longer step is worth another tail below this share */
 #define GROWTH 3.0
 #define SHRINK 0.8
-#define TINY 0x1p-900    /* so that zero is its own proof */
+#define TINY 0x1p-1000   /* so that zero is its own proof */
 #define SLOPPY 0x1p-10   /* most that the excess of slopes may add to the set, relative */
 #define WIDE_SHARE 1e-9  /* of a wide set's radius that truncation may add */
 
