@@ -3,9 +3,10 @@
 ** One identity carries all bilinear rules: a b - a0 b0 = (a + a0)/2 (b - b0) + (b + b0)/2 (a - a0); the mean series
 ** is in the column `mean`. It applies to power series in time, to quotients and roots solved for their result, and to
 ** the differential equation y' = v u' of an elementary function. Order 0 of an elementary function takes a slope of
-** the real function: it lies in f'(U) by the mean value theorem, and for f'' = +-f also in f'(u0) + f''(U)/2 (U - u0)
-** by Taylor's; it is one and the same number, so the sets are intersected. Without a centre the mean is the value,
-** and the same rules are the product rule: derivatives. Proofs in docs/numerics/series.md.
+** the real function: with H the hull of U and u0 it lies in f'(H) by the mean value theorem, and for f'' = +-f also in
+** f'(u0) + f''(H)/2 (U - u0) by Taylor's; it is one and the same number, so the sets are intersected. Without a
+** centre the mean is the value, and the same rules are the product rule: derivatives. Proofs:
+** docs/numerics/series.md.
 */
 #include "graph/jet_general.h"
 
@@ -108,23 +109,32 @@ static ambit_interval derivative_of(uint32_t op, ambit_interval u) {
   return ambit_interval_div(one, slope);
 }
 
+/* coefficient 0 of a slot over the box and at the centre, which need not lie in the box */
+static ambit_interval span_of(const ambit_series *s, uint32_t slot) {
+  ambit_interval u = ambit_series_bounds(s, s->first[slot]);
+  if (!s->centre) return u;
+  return ambit_interval_hull(u, ambit_series_bounds(s->centre, s->centre->first[slot]));
+}
+
 /* A slope of f over U about u0; the intersection is not empty: both sets hold it. */
 static ambit_interval slope_of(const ambit_series *s, uint32_t op, uint32_t slot) {
-  ambit_interval u = ambit_series_bounds(s, s->first[slot]), first, second, first0, second0;
+  ambit_interval u = span_of(s, slot), first, second, first0, second0;
   if (!derivatives_of(op, u, &first, &second)) return derivative_of(op, u);
   if (!s->centre) return first;
   ambit_interval u0 = ambit_series_bounds(s->centre, s->centre->first[slot]);
   derivatives_of(op, u0, &first0, &second0);
-  ambit_interval bend = ambit_interval_mul(half(second), ambit_interval_sub(u, u0));
-  return ambit_interval_intersect(first, ambit_interval_add(first0, bend));
+  ambit_interval away = ambit_interval_sub(ambit_series_bounds(s, s->first[slot]), u0);
+  return ambit_interval_intersect(first, ambit_interval_add(first0, ambit_interval_mul(half(second), away)));
 }
 
-/* the gradient of the angle of (b, a) over the box: (b, -a) / (a^2 + b^2) */
+/* the gradient of the angle of (b, a) over the box and the way to the centre: (b, -a) / (a^2 + b^2), off the cut */
 static void angle_factors(ambit_series *s, uint32_t a, uint32_t b) {
-  ambit_interval y = ambit_series_bounds(s, s->first[a]), x = ambit_series_bounds(s, s->first[b]);
+  ambit_interval y = span_of(s, a), x = span_of(s, b);
   ambit_interval q = ambit_interval_add(op1(AMBIT_OP_SQR, x), op1(AMBIT_OP_SQR, y));
-  ambit_series_set(s, s->factor, ambit_interval_div(x, q));
-  ambit_series_set(s, s->factor + 1, ambit_interval_div(op1(AMBIT_OP_NEG, y), q));
+  bool cut = y.lo <= 0 && y.hi >= 0 && x.lo <= 0;
+  if (cut) s->flags |= AMBIT_F_UNBOUNDED;
+  ambit_series_set(s, s->factor, cut ? AMBIT_ENTIRE : ambit_interval_div(x, q));
+  ambit_series_set(s, s->factor + 1, cut ? AMBIT_ENTIRE : ambit_interval_div(op1(AMBIT_OP_NEG, y), q));
 }
 
 void ambit_series_factor(ambit_series *s, uint32_t i) {
@@ -160,7 +170,7 @@ static void undecided(ambit_series *s, uint32_t i, uint32_t dst, uint32_t k, uin
 }
 
 static void follow_branch(ambit_series *s, uint32_t i, uint32_t dst, uint32_t k, uint32_t a, uint32_t b) {
-  int8_t branch = s->branch[i];
+  int8_t branch = s->centre && s->centre->branch[i] != s->branch[i] ? 0 : s->branch[i]; /* box and centre agree */
   if (branch == 0)
     undecided(s, i, dst, k, a, b);
   else if (s->tape->op[i] == AMBIT_OP_ABS && branch < 0)

@@ -1,8 +1,9 @@
-/* gsl.c -- the steppers of the GNU Scientific Library's odeiv2: one curve from the middle of the data, which proves nothing.
+/* gsl.c -- the steppers of the GNU Scientific Library's odeiv2: one curve from the middle of the data, which proves
+** nothing.
 **
-** It serves as a reference and for sampling. Right-hand side and Jacobian are tapes in the arithmetic `real`; the derivative with respect to
-** time, which only the method bsimp reads, is a central difference. GSL allocates its own memory in open(); its error handler, which
-** would end the process, is switched off there.
+** It serves as a reference and for sampling. Right-hand side and Jacobian are tapes in the arithmetic `real`; the
+** derivative with respect to time, which only the method bsimp reads, is a central difference. GSL allocates its own
+** memory in open(); its error handler, which would end the process, is switched off there.
 */
 #include <ambit/block.h>
 #include <ambit/solver.h>

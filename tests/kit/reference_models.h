@@ -1,5 +1,5 @@
-/* reference_models.h -- the initial-value problems that validated integrators are compared on, as expressions. Shared by tests and
-** benchmarks. */
+/* reference_models.h -- the initial-value problems that validated integrators are compared on, as expressions.
+** Shared by tests and benchmarks. */
 #ifndef AMBIT_REFERENCE_MODELS_H
 #define AMBIT_REFERENCE_MODELS_H
 #include "model/system.h"
@@ -35,7 +35,8 @@ static inline void model_open(model *m, size_t nx, const char *const *name) {
   m->system = (ambit_system) { m->graph, nx, m->name, m->unit, m->state, m->rate };
 }
 
-/* Relative angles and velocities; ValEncIA-IVP paper (Rauh, Auer & Hofer 2006), equations 23 to 25, solved for the accelerations. */
+/* Relative angles and velocities; ValEncIA-IVP paper (Rauh, Auer & Hofer 2006), equations 23 to 25, solved for the
+** accelerations. */
 static inline void model_double_pendulum(model *m, const char *spread) {
   static const char *const name[] = { "psi1", "psi2", "psi1'", "psi2'" };
   model_open(m, 4, name);

@@ -1,8 +1,8 @@
-/* solution_oracle.h -- solutions of a problem in 300-bit arithmetic: Taylor series of high order on the problem's own tape, as the
-** judge of integrators.
+/* solution_oracle.h -- solutions of a problem in 300-bit arithmetic: Taylor series of high order on the problem's own
+** tape, as the judge of integrators.
 **
-** Constants are read from their text, so the problem must be built with AMBIT_SEAL_KEEP. Steps are chosen such that the last terms are
-** below 10^-50: no proof, but forty digits beyond what is judged.
+** Constants are read from their text, so the problem must be built with AMBIT_SEAL_KEEP. Steps are chosen such that the
+** last terms are below 10^-50: no proof, but forty digits beyond what is judged.
 */
 #ifndef AMBIT_SOLUTION_ORACLE_H
 #define AMBIT_SOLUTION_ORACLE_H
@@ -82,7 +82,8 @@ static inline void solution_series(solution_oracle *o) {
   for (uint32_t k = 0; k < SOLUTION_ORDER; k++) {
     for (uint32_t j = 0; j < p->rhs->ninstr; j++) series_instruction(&o->rhs, j, k);
     for (uint32_t i = 0; i < p->nx; i++)
-      mpfr_div_ui(*series_u(&o->rhs, p->rhs->nconst + i, k + 1), *series_u(&o->rhs, p->rhs->out[i], k), k + 1, MPFR_RNDN);
+      mpfr_div_ui(
+          *series_u(&o->rhs, p->rhs->nconst + i, k + 1), *series_u(&o->rhs, p->rhs->out[i], k), k + 1, MPFR_RNDN);
   }
 }
 
@@ -112,8 +113,10 @@ static inline void solution_advance(solution_oracle *o, double end) {
       for (uint32_t k = SOLUTION_ORDER; k-- > 0;) mpfr_fma(o->term, o->term, o->h, x[k], MPFR_RNDN);
       mpfr_set(x[0], o->term, MPFR_RNDN);
     }
-    if (last) mpfr_set_d(o->t, end, MPFR_RNDN);
-    else mpfr_add(o->t, o->t, o->h, MPFR_RNDN);
+    if (last)
+      mpfr_set_d(o->t, end, MPFR_RNDN);
+    else
+      mpfr_add(o->t, o->t, o->h, MPFR_RNDN);
   }
 }
 

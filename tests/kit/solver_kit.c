@@ -8,10 +8,10 @@
 
 #define MESSAGES 5
 #define OPTIONS_MAX 64
-#define SAMPLES 5        /* of the uncertain datum, and of times within a step */
+#define SAMPLES 5 /* of the uncertain datum, and of times within a step */
 #define RECORDS_MAX 100000u
-#define WILD 0.1         /* how long before that end errors of a solver that proves nothing are no matter */
-#define NEAR 1e-2        /* how close before the end of existence a solver must get */
+#define WILD 0.1  /* how long before that end errors of a solver that proves nothing are no matter */
+#define NEAR 1e-2 /* how close before the end of existence a solver must get */
 
 typedef struct state {
   const solver_kit *kit;
@@ -66,7 +66,8 @@ static void check_bounds(watcher *w, const ambit_record *r) {
     if (r->tube_lo && r->tube_hi)
       good = good && r->tube_lo[i] <= r->tube_hi[i] && isfinite(r->tube_lo[i]) && isfinite(r->tube_hi[i]);
     if (!good) find(w->s, "bounds [%a, %a] of state %u at t = %g", r->lo[i], r->hi[i], i, r->t_to);
-    if (!rigorous(w->s) && r->lo[i] != r->hi[i]) find(w->s, "a solver that proves nothing gives [%a, %a]", r->lo[i], r->hi[i]);
+    if (!rigorous(w->s) && r->lo[i] != r->hi[i])
+      find(w->s, "a solver that proves nothing gives [%a, %a]", r->lo[i], r->hi[i]);
   }
 }
 
@@ -78,8 +79,8 @@ static void check_point(state *s, double t, double u, const double *lo, const do
   for (uint32_t i = 0; i < s->problem.nx; i++) {
     double slack = rigorous(s) ? 0 : s->kit->tolerance * (1 + fabs(truth[i].hi));
     if (!(lo[i] <= truth[i].hi + slack && hi[i] >= truth[i].lo - slack))
-      find(s, "%s at t = %a misses the solution for u = %a: [%a, %a], truth in [%a, %a]", what, t, u, lo[i], hi[i], truth[i].lo,
-          truth[i].hi);
+      find(s, "%s at t = %a misses the solution for u = %a: [%a, %a], truth in [%a, %a]", what, t, u, lo[i], hi[i],
+          truth[i].lo, truth[i].hi);
   }
 }
 
@@ -162,10 +163,12 @@ static uint32_t wanted(const state *s) {
 
 static void check_complete(state *s, const watcher *w, const outcome *o) {
   if (o->status != AMBIT_OK) find(s, "ended with status %d at t = %g: %s", o->status, w->t, o->reason);
-  if (w->next != s->problem.ntime) find(s, "ended at t = %g and left out %zu instants", w->t, s->problem.ntime - w->next);
+  if (w->next != s->problem.ntime)
+    find(s, "ended at t = %g and left out %zu instants", w->t, s->problem.ntime - w->next);
   if (o->status == AMBIT_OK && o->reason[0]) find(s, "a failure although it is done: %s", o->reason);
   bool correlated = rigorous(s) && (wanted(s) & AMBIT_WANT_INITIAL);
-  if (correlated && !(w->hi[0] - w->lo[0] <= s->p->widest)) find(s, "%g wide at the end: a datum was taken for two", w->hi[0] - w->lo[0]);
+  if (correlated && !(w->hi[0] - w->lo[0] <= s->p->widest))
+    find(s, "%g wide at the end: a datum was taken for two", w->hi[0] - w->lo[0]);
 }
 
 /* A solver that proves nothing may step over the end without noticing. */
@@ -180,8 +183,10 @@ static void check_unable(state *s, const watcher *w, const outcome *o) {
 static void check_run(state *s) {
   watcher w = { .s = s }, again = { .s = s };
   outcome o = run(s, &w);
-  if (s->p->ends < INFINITY) check_unable(s, &w, &o);
-  else check_complete(s, &w, &o);
+  if (s->p->ends < INFINITY)
+    check_unable(s, &w, &o);
+  else
+    check_complete(s, &w, &o);
   if (w.calls < w.records) find(s, "%u calls of progress in %u steps", w.calls, w.records);
   if (w.records > 1 && w.last_count != w.first_count)
     find(s, "%zu allocations between the first and the last record", w.last_count - w.first_count);
@@ -206,7 +211,8 @@ static void run_problem(state *s) {
   ambit_arena *arena = ambit_arena_open();
   kit_model_open(&m, s->p);
   const ambit_problem_request q = { &m.system, m.initial, s->p->ntime, s->p->time, wanted(s), 0 };
-  if (!arena || ambit_problem_build(&q, arena, &s->problem, &f) != AMBIT_OK) find(s, "cannot be built: %s", f.message);
+  if (!arena || ambit_problem_build(&q, arena, &s->problem, &f) != AMBIT_OK)
+    find(s, "cannot be built: %s", f.message);
   else {
     s->problem.arithmetic = s->kit->arithmetic;
     s->problem.actx = s->kit->actx;

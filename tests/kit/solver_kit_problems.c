@@ -1,7 +1,9 @@
 /* solver_kit_problems.c -- small problems, each for one thing that a solver may get wrong. */
 #include "kit/solver_kit_problems.h"
 
-static ambit_expr op(kit_model *m, uint32_t code, ambit_expr a, ambit_expr b) { return ambit_graph_op(m->graph, code, a, b); }
+static ambit_expr op(kit_model *m, uint32_t code, ambit_expr a, ambit_expr b) {
+  return ambit_graph_op(m->graph, code, a, b);
+}
 static ambit_expr number(kit_model *m, double x) { return ambit_graph_number(m->graph, x); }
 static ambit_expr negative(kit_model *m, ambit_expr a) { return op(m, AMBIT_OP_NEG, a, a); }
 
@@ -112,7 +114,8 @@ static void truth_edge(double t, double u, ambit_interval *x) {
 
 const kit_problem kit_problems[] = {
   { "decay", build_decay, truth_decay, 0, 0, INFINITY, 5, { 0, 0x1p-30, 0.1, 0.7, 3 }, INFINITY },
-  { "oscillator backwards", build_oscillator, truth_oscillator, 0, 0, INFINITY, 4, { 2, 1.3, 0x1.1p-40, -5 }, INFINITY },
+  { "oscillator backwards", build_oscillator, truth_oscillator, 0, 0, INFINITY, 4, { 2, 1.3, 0x1.1p-40, -5 },
+      INFINITY },
   { "logistic", build_logistic, truth_logistic, 1, 1.25, INFINITY, 3, { 0, 1, 2 }, INFINITY },
   { "explicit time", build_bell, truth_bell, 0, 0, INFINITY, 5, { -1, -0.3, 0x1p-60, 0.5, 2 }, INFINITY },
   { "shared datum", build_shared, truth_shared, 1, 3, INFINITY, 3, { 0, 0.5, 1 }, 1e-12 },

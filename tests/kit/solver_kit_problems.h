@@ -23,7 +23,7 @@ typedef struct kit_problem {
   double ends;       /* no solution exists from here on; infinite: the run must be complete */
   size_t ntime;
   double time[KIT_TIMES];
-  double widest;     /* at the end, for a solver that wants the initial set as a tape; infinite: no matter */
+  double widest; /* at the end, for a solver that wants the initial set as a tape; infinite: no matter */
 } kit_problem;
 
 extern const kit_problem kit_problems[];

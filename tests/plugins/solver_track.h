@@ -40,13 +40,21 @@ static inline int32_t track_emit(ambit_sink *sink, const ambit_record *r) {
   return 0;
 }
 
-static inline track track_run(const model *m, size_t ntime, const double *time, size_t noption, const ambit_option *option) {
+static inline track track_run(
+    const model *m, size_t ntime, const double *time, size_t noption, const ambit_option *option) {
   track k = { .sink = { sizeof(ambit_sink), track_emit, NULL } };
   ambit_failure f = { 0 };
   ambit_registry *registry = ambit_registry_open(NULL);
   k.record = malloc(TRACK_RECORDS * sizeof *k.record);
-  const ambit_simulate_request q = { .system = &m->system, .registry = registry, .solver = "lohner", .nsolver_option = noption,
-    .solver_option = option, .initial = m->initial, .ntime = ntime, .time = time, .sink = &k.sink };
+  const ambit_simulate_request q = { .system = &m->system,
+    .registry = registry,
+    .solver = "lohner",
+    .nsolver_option = noption,
+    .solver_option = option,
+    .initial = m->initial,
+    .ntime = ntime,
+    .time = time,
+    .sink = &k.sink };
   if (!k.record || ambit_simulate(&q, &k.result, NULL, &f) != AMBIT_OK) fail_msg("%s%s", m->failure.message, f.message);
   ambit_registry_close(registry);
   return k;
@@ -77,7 +85,8 @@ static inline size_t track_misses(const track *k, solution_oracle *o, const doub
     solution_advance(o, 0.5 * (r->from + r->to));
     for (uint32_t i = 0; i < k->nx; i++) {
       if (solution_within(o, i, r->tube_lo[i], r->tube_hi[i])) continue;
-      if (show && !misses) print_error("tube of state %u in [%g, %g]: [%.17g, %.17g]\n", i, r->from, r->to, r->tube_lo[i], r->tube_hi[i]);
+      if (show && !misses)
+        print_error("tube of state %u in [%g, %g]: [%.17g, %.17g]\n", i, r->from, r->to, r->tube_lo[i], r->tube_hi[i]);
       misses++;
     }
     solution_advance(o, r->to);
@@ -91,7 +100,8 @@ static inline size_t track_misses(const track *k, solution_oracle *o, const doub
 }
 
 /* `samples` solutions: corners of the data's box first, then random ones */
-static inline size_t track_check(const track *k, const model *m, size_t ntime, const double *time, int samples, int show) {
+static inline size_t track_check(
+    const track *k, const model *m, size_t ntime, const double *time, int samples, int show) {
   ambit_arena *arena = ambit_arena_open();
   ambit_failure f = { 0 };
   ambit_problem p;
@@ -106,8 +116,9 @@ static inline size_t track_check(const track *k, const model *m, size_t ntime, c
   for (int n = 0; n < samples; n++) {
     double u[TRACK_UNKNOWNS];
     for (uint32_t i = 0; i < p.nu; i++)
-      u[i] = n == 0 ? 0.5 * (p.u_lo[i] + p.u_hi[i]) : n <= 1 << p.nu ? (n - 1) >> i & 1 ? p.u_hi[i] : p.u_lo[i]
-                                                                     : oracle_uniform(&random, p.u_lo[i], p.u_hi[i]);
+      u[i] = n == 0           ? 0.5 * (p.u_lo[i] + p.u_hi[i])
+             : n <= 1 << p.nu ? (n - 1) >> i & 1 ? p.u_hi[i] : p.u_lo[i]
+                              : oracle_uniform(&random, p.u_lo[i], p.u_hi[i]);
     misses += track_misses(k, &o, u, show);
   }
   solution_close(&o);

@@ -9,8 +9,9 @@ typedef struct method {
 
 static void every_method_passes_the_kit(void **unused) {
   (void)unused;
-  static const method methods[] = { { "rk2", 1, 0 }, { "rk4", 0, 0 }, { "rkf45", 0, 0 }, { "rkck", 0, 0 }, { "rk8pd", 0, 0 },
-    { "rk2imp", 1, 1 }, { "rk4imp", 0, 1 }, { "bsimp", 0, 1 }, { "msadams", 1, 0 }, { "msbdf", 1, 1 } };
+  static const method methods[] = { { "rk2", 1, 0 }, { "rk4", 0, 0 }, { "rkf45", 0, 0 }, { "rkck", 0, 0 },
+    { "rk8pd", 0, 0 }, { "rk2imp", 1, 1 }, { "rk4imp", 0, 1 }, { "bsimp", 0, 1 }, { "msadams", 1, 0 },
+    { "msbdf", 1, 1 } };
   solver_case c;
   case_open(&c, "gsl", "real");
   assert_int_equal(c.kit.plugin->needs_rigorous, 0);

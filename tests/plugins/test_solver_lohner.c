@@ -1,13 +1,13 @@
-/* The Lohner integrator: it passes the kit of solvers in every configuration and over any arithmetic, and the kit would notice if the
-** remainder were missing. */
+/* The Lohner integrator: it passes the kit of solvers in every configuration and over any arithmetic, and the kit
+** would notice if the remainder were missing. */
 #include "solver_case.h"
 #include <ambit/jet.h>
 
 static void passes_the_kit(void **unused) {
   (void)unused;
   static const ambit_option option[] = { { "set", "auto" }, { "set", "qr" }, { "history", "0" }, { "history", "1" },
-    { "history", "3" }, { "pieces", "1" }, { "pieces", "16" }, { "order", "4" }, { "order", "60" }, { "jacobian_order", "3" },
-    { "tolerance", "1e-300" }, { "tolerance", "1e-9" }, { "step_max", "0.01" } };
+    { "history", "3" }, { "pieces", "1" }, { "pieces", "16" }, { "order", "4" }, { "order", "60" },
+    { "jacobian_order", "3" }, { "tolerance", "1e-300" }, { "tolerance", "1e-9" }, { "step_max", "0.01" } };
   solver_case c;
   case_open(&c, "lohner", "interval");
   assert_int_equal(c.kit.plugin->needs_rigorous, 1);
@@ -46,7 +46,8 @@ static ambit_status small_tail(ambit_jet *jet, uint32_t K, double h, const doubl
 }
 
 /* slopes whose radii are dropped */
-static void sharp_get(const ambit_jet *jet, uint32_t slot, uint32_t k, double *mid, double *rad, double *dmid, double *drad) {
+static void sharp_get(
+    const ambit_jet *jet, uint32_t slot, uint32_t k, double *mid, double *rad, double *dmid, double *drad) {
   truthful.get(jet, slot, k, mid, rad, dmid, drad);
   if (drad) drad[0] = 0;
 }

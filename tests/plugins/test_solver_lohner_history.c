@@ -1,4 +1,5 @@
-/* The integrator's generators: moving them, and condensing them into orthogonal frames, loses no point. The judge is long double. */
+/* The integrator's generators: moving them, and condensing them into orthogonal frames, loses no point. The judge is
+** long double. */
 #include "solver/lohner/frame.c"
 #include "solver/lohner/history.c"
 #include "host/services.h"
@@ -40,8 +41,8 @@ static long double support(const history *g, const long double *a) {
   return total;
 }
 
-/* A set of boxes moved by random matrices, beside what it must contain: sum of |a M_k ... M_j| box_j over all steps is the support of the
-** exact set, so ours must be as large in every direction, up to the judge's own rounding. */
+/* A set of boxes moved by random matrices, beside what it must contain: sum of |a M_k ... M_j| box_j over all steps
+** is the support of the exact set, so ours must be as large in every direction, up to the judge's own rounding. */
 #define STEPS 300
 #define STATES_MAX 6
 
@@ -76,7 +77,8 @@ static void check_supports(rig *r, const step *steps, int count) {
     long double a[STATES_MAX];
     for (uint32_t i = 0; i < n; i++) a[i] = d < (int)n ? d == (int)i : oracle_uniform(&r->random, -1, 1);
     long double ours = support(&r->g, a), exact = exact_support(steps, count, n, a);
-    if (!(ours * (1 + 1e-15L) >= exact)) fail_msg("n = %u, keep = %u, step %d: %Lg < %Lg", n, r->g.keep, count, ours, exact);
+    if (!(ours * (1 + 1e-15L) >= exact))
+      fail_msg("n = %u, keep = %u, step %d: %Lg < %Lg", n, r->g.keep, count, ours, exact);
   }
   ambit_rounding old = ambit_round_up();
   sum(&r->g, rest);
@@ -159,7 +161,8 @@ static void rounding_is_paid_for(void **unused) {
 
 static AMBIT_WORKER double defect(uint32_t n, const double *Q) { return frame_defect(n, Q); }
 static AMBIT_WORKER void axes(uint32_t n, double *S, double *Q) { frame_axes(n, S, Q); }
-static AMBIT_WORKER void gram_schmidt(uint32_t n, const double *A, const double *w, double *Q, uint32_t *order, double *size) {
+static AMBIT_WORKER void gram_schmidt(
+    uint32_t n, const double *A, const double *w, double *Q, uint32_t *order, double *size) {
   frame_orthogonal(n, A, n, w, Q, order, size);
 }
 

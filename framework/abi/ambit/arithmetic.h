@@ -26,7 +26,7 @@ typedef uint32_t (*ambit_run_fn)(const ambit_arithmetic *self, void *ctx, void *
 /* Taylor coefficients of every slot of a SERIES tape in the arithmetic's own layout (tier 2; the kernel has a general
 ** form for arithmetics that offer none). Value coefficients u_k are given as midpoint +- radius. With ndir > 0 each
 ** slot also carries, for each direction j, a coefficient of the slope s_j: for all x in the box and the centre c,
-** u(x) - u(c) = sum_j s_j (x_j - c_j) as power series in time. c is a point of the box. */
+** u(x) - u(c) = sum_j s_j (x_j - c_j) as power series in time. c need not be a point of the box. */
 typedef struct ambit_jets {
   uint32_t size;
   /* [ctx] Orders 0..order. With ndir > 0, `centre` is another object of this kind, on the same tape, that holds the

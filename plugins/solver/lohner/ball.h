@@ -1,7 +1,8 @@
 /* ball.h -- numbers known as midpoint +- radius, in upward mode.
 **
-** Everything in this plugin below lohner_run() and lohner_open() runs in upward mode (ambit/rounding.h): an upper bound is what is
-** computed, a lower bound is minus the upward-rounded negated value. A set [-low, high] becomes a ball by `ball_of`.
+** Everything in this plugin below lohner_run() and lohner_open() runs in upward mode (ambit/rounding.h): an upper bound
+** is what is computed, a lower bound is minus the upward-rounded negated value. A set [-low, high] becomes a ball by
+** `ball_of`.
 */
 #ifndef LOHNER_BALL_H
 #define LOHNER_BALL_H
@@ -41,8 +42,8 @@ static inline ball ball_horner(ball v, span t, ball c) {
   return (ball) { r.mid, r.rad + (v.rad * t.length + fabs(v.mid) * t.error + c.rad) };
 }
 
-/* a + b = sum + error, |error| bounded as a ball: Knuth's idea with both roundings of every difference, so that no theorem about
-** exactness in upward mode is needed */
+/* a + b = sum + error, |error| bounded as a ball: Knuth's idea with both roundings of every difference, so that no
+** theorem about exactness in upward mode is needed */
 static inline ball ball_two_sum(double a, double b, double *sum) {
   double big = fabs(a) >= fabs(b) ? a : b, small = fabs(a) >= fabs(b) ? b : a;
   *sum = big + small;

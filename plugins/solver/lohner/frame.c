@@ -1,8 +1,8 @@
-/* frame.c -- orthogonal frames: principal axes by Jacobi's rotations, Gram-Schmidt with pivoting, and how far a frame is from
-** orthogonal.
+/* frame.c -- orthogonal frames: principal axes by Jacobi's rotations, Gram-Schmidt with pivoting, and how far a frame
+** is from orthogonal.
 **
-** A frame need not be exact: whoever changes coordinates with it pads by the proved defect (history.c).
-** Sources: Jacobi, J. reine angew. Math. 30 (1846); pivoting by length times width: Lohner 1988, Nedialkov 1999.
+** A frame need not be exact: whoever changes coordinates with it pads by the proved defect (history.c). Sources:
+** Jacobi, J. reine angew. Math. 30 (1846); pivoting by length times width: Lohner 1988, Nedialkov 1999.
 */
 #include "lohner.h"
 #include <float.h>
@@ -41,8 +41,10 @@ static double off_diagonal(uint32_t n, const double *A, double *diagonal) {
   *diagonal = 0;
   for (uint32_t i = 0; i < n; i++)
     for (uint32_t j = 0; j < n; j++)
-      if (i == j) *diagonal += fabs(A[(size_t)i * n + j]);
-      else off += fabs(A[(size_t)i * n + j]);
+      if (i == j)
+        *diagonal += fabs(A[(size_t)i * n + j]);
+      else
+        off += fabs(A[(size_t)i * n + j]);
   return off;
 }
 
@@ -90,8 +92,8 @@ static void sort(uint32_t n, uint32_t *order, const double *size) {
   }
 }
 
-void frame_orthogonal(uint32_t n, const double *A, size_t pitch, const double *weight, double *frame, uint32_t *order,
-    double *size) {
+void frame_orthogonal(
+    uint32_t n, const double *A, size_t pitch, const double *weight, double *frame, uint32_t *order, double *size) {
   for (uint32_t c = 0; c < n; c++) size[c] = sqrt(dot(n, A + c, A + c, pitch)) * weight[c];
   sort(n, order, size);
   for (uint32_t c = 0; c < n; c++) {

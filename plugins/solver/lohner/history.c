@@ -1,14 +1,15 @@
 /* history.c -- the generators of everything that is not due to the unknowns: a box per step, condensed by and by.
 **
-** A group is n generators. The youngest groups are the boxes of the last steps, moved along with the flow and so not wrapped at all.
-** When `keep` groups of one level are there, the older half is replaced by one group of the next level: the box along the principal
-** axes of their sum. Groups of the highest level are condensed into their own level. So after N steps about log N boxes have
-** been wrapped about log N times each, and memory is bounded. keep = 0 is Lohner's classical set: one orthogonal frame, renewed
-** at every step [Lohner 1988].
+** A group is n generators. The youngest groups are the boxes of the last steps, moved along with the flow and so not
+** wrapped at all. When `keep` groups of one level are there, the older half is replaced by one group of the next level:
+** the box along the principal axes of their sum. Groups of the highest level are condensed into their own level. So
+** after N steps about log N boxes have been wrapped about log N times each, and memory is bounded. keep = 0 is Lohner's
+** classical set: one orthogonal frame, renewed at every step [Lohner 1988].
 **
-** Change of frame: with F = D Q, D powers of two, and E = I - Q^T Q, |E| <= eps < 1 in the row-sum norm:
-** z = sum_c w_c e_c d_c = F y with y = (I - E)^-1 Q^T D^-1 z, so |y_j| <= v_j + eps / (1 - eps) max v, v_j = sum_c w_c |Q^T D^-1 d_c|_j.
-** Principal axes are taken in coordinates in which every state has about the same size, so they do not depend on units.
+** Change of frame: with F = D Q, D powers of two, and E = I - Q^T Q, |E| <= eps < 1 in the row-sum norm: z = sum_c w_c
+** e_c d_c = F y with y = (I - E)^-1 Q^T D^-1 z, so |y_j| <= v_j + eps / (1 - eps) max v, v_j = sum_c w_c |Q^T D^-1
+** d_c|_j. Principal axes are taken in coordinates in which every state has about the same size, so they do not depend
+** on units.
 */
 #include "lohner.h"
 #include <string.h>
@@ -73,8 +74,8 @@ static void multiply_block(history *g, const double *M, size_t pitch, size_t c) 
   }
 }
 
-/* A sum of n products, each operation with relative error 2^-52 at most, is off by (n + 1) 2^-52 times the sum of magnitudes at
-** most [Higham, Accuracy and Stability, ch. 3], and by 2^-1074 for each product that underflows. */
+/* A sum of n products, each operation with relative error 2^-52 at most, is off by (n + 1) 2^-52 times the sum of
+** magnitudes at most [Higham, Accuracy and Stability, ch. 3], and by 2^-1074 for each product that underflows. */
 void history_multiply(history *g, const double *M, size_t pitch, const double *rest, double *pad) {
   double weight = 0, gamma = (double)(g->n + 1) * 0x1p-52;
   for (size_t c = 0; c < columns(g); c++) weight += g->weight[c];
@@ -124,8 +125,7 @@ static void choose_axes(history *g, size_t from, size_t to) {
 static void choose_frame(history *g, size_t from) {
   uint32_t n = g->n;
   for (uint32_t i = 0; i < n; i++)
-    for (uint32_t j = 0; j < n; j++)
-      g->shape[(size_t)i * n + j] = g->direction[i * g->pitch + from + j] / g->unit[i];
+    for (uint32_t j = 0; j < n; j++) g->shape[(size_t)i * n + j] = g->direction[i * g->pitch + from + j] / g->unit[i];
   frame_orthogonal(n, g->shape, n, g->weight + from, g->frame, g->order, g->size);
 }
 
@@ -164,8 +164,10 @@ static void condense(history *g, uint32_t first, uint32_t count, uint32_t level)
   uint32_t n = g->n;
   size_t from = (size_t)first * n, to = from + (size_t)count * n, end = columns(g), gone = (size_t)(count - 1) * n;
   choose_units(g, from, to);
-  if (g->keep) choose_axes(g, from, to);
-  else choose_frame(g, from);
+  if (g->keep)
+    choose_axes(g, from, to);
+  else
+    choose_frame(g, from);
   double defect = settle_frame(g), most = 0;
   project(g, from, to);
   for (uint32_t j = 0; j < n; j++) most = larger(most, g->sum[j]);
@@ -204,6 +206,8 @@ void history_push(history *g, const double *box) {
     g->weight[from + i] = box[i];
   }
   g->level[g->group++] = 0;
-  if (g->keep) compact(g);
-  else if (g->group == 2) condense(g, 0, 2, 0);
+  if (g->keep)
+    compact(g);
+  else if (g->group == 2)
+    condense(g, 0, 2, 0);
 }

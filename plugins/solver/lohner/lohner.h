@@ -2,9 +2,9 @@
 **
 ** The set of states at time t is
 **   { centre + low + C xi + G e : xi in [-1,1]^nc, e in [-1,1]^m }
-** with centre + low the midpoint in double-double, C the columns of the unknowns (never condensed) and G the generators of everything
-** that was added on the way (history.c). The parameters are fixed + F xi, with the same xi.
-** Arrays of rows and columns are by rows. All arithmetic is in upward mode (ball.h). Proofs: docs/numerics/lohner.md.
+** with centre + low the midpoint in double-double, C the columns of the unknowns (never condensed) and G the generators
+** of everything that was added on the way (history.c). The parameters are fixed + F xi, with the same xi. Arrays of
+** rows and columns are by rows. All arithmetic is in upward mode (ball.h). Proofs: docs/numerics/lohner.md.
 */
 #ifndef LOHNER_H
 #define LOHNER_H
@@ -16,16 +16,16 @@
 
 /* Generators w_c d_c, oldest first, in groups of n columns; a group has a level (history.c). */
 typedef struct history {
-  uint32_t n;          /* states */
-  uint32_t keep;       /* groups of one level before the older half is condensed; 0: one frame, condensed at every step */
-  uint32_t group, room; /* groups held, and how many fit */
-  uint32_t *level;     /* [room] */
-  size_t pitch;        /* columns per row */
-  double *direction;   /* [n x pitch] */
-  double *weight;      /* [pitch] */
-  double *block;       /* [n x BLOCK] scratch of the product */
+  uint32_t n;    /* states */
+  uint32_t keep; /* groups of one level before the older half is condensed; 0: one frame, condensed at every step */
+  uint32_t group, room;                      /* groups held, and how many fit */
+  uint32_t *level;                           /* [room] */
+  size_t pitch;                              /* columns per row */
+  double *direction;                         /* [n x pitch] */
+  double *weight;                            /* [pitch] */
+  double *block;                             /* [n x BLOCK] scratch of the product */
   double *frame, *shape, *size, *sum, *unit; /* scratch of condensing: [n x n] [n x n] [n] [n] [n] */
-  uint32_t *order;     /* [n] */
+  uint32_t *order;                           /* [n] */
 } history;
 
 /* Why no step could be made; the run ends with a sentence about it (run.c). */
@@ -64,23 +64,24 @@ typedef struct lohner {
   /* -- the step */
   double t, t_next;
   span step;
-  int at_instant;         /* the step ends on an instant of the problem */
-  double guess;           /* next step length to try */
-  uint32_t next;          /* the instant ahead */
-  double *series_mid, *series_rad; /* [nx x (order + 1)] of the centre */
-  double *slope_mid, *slope_rad;   /* [nx x (slope_order + 1) x ndir] over the box */
+  int at_instant;                             /* the step ends on an instant of the problem */
+  double guess;                               /* next step length to try */
+  uint32_t next;                              /* the instant ahead */
+  double *series_mid, *series_rad;            /* [nx x (order + 1)] of the centre */
+  double *slope_mid, *slope_rad;              /* [nx x (slope_order + 1) x ndir] over the box */
   double *excess, *box_excess, *slope_excess; /* [nx] [nx] [nx x ndir] what the polynomials lack on the step */
-  double *slope_guess;             /* [nx x ndir] */
-  double *tail_in, *dtail_in;      /* [nin] [nin x ndir] scratch of the proof */
-  double *tail_out, *dtail_out;    /* [nx] [nx x ndir] */
-  double *transfer_mid, *transfer_rad; /* [PIECES_MAX x nx x ndir] slopes at the end of the step, one matrix for each piece */
-  double *whole_mid, *whole_rad;   /* [nx x ndir] the same for the whole set */
-  double *matrix;                  /* [nx x ndir] the point matrix that the set is moved with */
-  double *seed, *no_radius; /* [ndir] */
-  double *added;                   /* [nx] new box of the step */
-  double *piece_from, *piece_to;   /* [PIECES_MAX x nc] ranges of xi */
-  double *curvature;               /* [nc] how much slopes vary */
-  uint32_t pieces, *cuts;          /* of this step; [nc] into how many parts each xi is cut */
+  double *slope_guess;                        /* [nx x ndir] */
+  double *tail_in, *dtail_in;                 /* [nin] [nin x ndir] scratch of the proof */
+  double *tail_out, *dtail_out;               /* [nx] [nx x ndir] */
+  double *transfer_mid,
+      *transfer_rad;             /* [PIECES_MAX x nx x ndir] slopes at the end of the step, one matrix for each piece */
+  double *whole_mid, *whole_rad; /* [nx x ndir] the same for the whole set */
+  double *matrix;                /* [nx x ndir] the point matrix that the set is moved with */
+  double *seed, *no_radius;      /* [ndir] */
+  double *added;                 /* [nx] new box of the step */
+  double *piece_from, *piece_to; /* [PIECES_MAX x nc] ranges of xi */
+  double *curvature;             /* [nc] how much slopes vary */
+  uint32_t pieces, *cuts;        /* of this step; [nc] into how many parts each xi is cut */
 
   /* -- the record */
   double *lo, *hi, *tube_lo, *tube_hi; /* [nx] */
@@ -99,9 +100,9 @@ enum why lohner_find_step(lohner *s); /* step.c: series, a length, and its proof
 /* series.c: coefficients of jets, values of polynomials */
 uint32_t lohner_centre_series(lohner *s);
 uint32_t lohner_box_series(lohner *s, const double *from, const double *to); /* from, to [nc]: part of xi's box */
-ball lohner_increment(const lohner *s, uint32_t i);                       /* of the centre over the step, with its excess */
-void lohner_transfer(const lohner *s, double *mid, double *rad);          /* slopes at the end of the step */
-void lohner_tube(lohner *s);                                              /* bounds over the whole step */
+ball lohner_increment(const lohner *s, uint32_t i);              /* of the centre over the step, with its excess */
+void lohner_transfer(const lohner *s, double *mid, double *rad); /* slopes at the end of the step */
+void lohner_tube(lohner *s);                                     /* bounds over the whole step */
 /* set.c */
 void lohner_pieces(lohner *s); /* slopes at the end of the step for the pieces of the set; destroys the box series */
 void lohner_move(lohner *s);   /* the set, from the start of the step to its end */
@@ -110,15 +111,18 @@ void lohner_hull(lohner *s);   /* rest, radius, lo, hi of the set */
 /* history.c */
 int history_open(const ambit_host *h, history *g, uint32_t n, uint32_t keep);
 void history_clear(history *g);
-/* G := M G, rounded; adds what rounding may have changed to pad[n]. M [n x n], rows `pitch` apart; rest[n] is the sum before */
+/* G := M G, rounded; adds what rounding may have changed to pad[n]. M [n x n], rows `pitch` apart; rest[n] is the
+** sum before */
 void history_multiply(history *g, const double *M, size_t pitch, const double *rest, double *pad);
-void history_push(history *g, const double *box);                 /* n new generators: the box, one for each state */
-void history_sum(const history *g, double *rest);                  /* rest[i] >= sum over columns of |G_ic| */
+void history_push(history *g, const double *box); /* n new generators: the box, one for each state */
+void history_sum(const history *g, double *rest); /* rest[i] >= sum over columns of |G_ic| */
 
 /* frame.c: orthogonal frames; results are approximate, bounds are not */
-void frame_axes(uint32_t n, double *shape, double *frame); /* principal axes of the symmetric matrix `shape`, which is destroyed */
+void frame_axes(
+    uint32_t n, double *shape, double *frame); /* principal axes of the symmetric matrix `shape`, which is destroyed */
 /* Gram-Schmidt of n columns of A [n x pitch], longest of length times weight first; order, size: scratch [n] */
-void frame_orthogonal(uint32_t n, const double *A, size_t pitch, const double *weight, double *frame, uint32_t *order,
-    double *size);
-double frame_defect(uint32_t n, const double *frame); /* >= the row-sum norm of I - Q^T Q; infinite if anything is not finite */
+void frame_orthogonal(
+    uint32_t n, const double *A, size_t pitch, const double *weight, double *frame, uint32_t *order, double *size);
+double frame_defect(
+    uint32_t n, const double *frame); /* >= the row-sum norm of I - Q^T Q; infinite if anything is not finite */
 #endif

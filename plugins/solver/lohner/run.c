@@ -16,8 +16,17 @@ static AMBIT_WORKER int32_t deliver(ambit_sink *sink, const ambit_record *r, dou
 
 static int32_t emit(const lohner *s, ambit_sink *sink, double t_from) {
   const ambit_problem *p = &s->problem;
-  const ambit_record r = { .size = sizeof r, .kind = AMBIT_REC_STEP, .t_from = t_from, .t_to = s->t, .nx = s->nx,
-    .rigorous = 1, .lo = s->lo, .hi = s->hi, .tube_lo = s->tube_lo, .tube_hi = s->tube_hi, .order = s->options.order };
+  const ambit_record r = { .size = sizeof r,
+    .kind = AMBIT_REC_STEP,
+    .t_from = t_from,
+    .t_to = s->t,
+    .nx = s->nx,
+    .rigorous = 1,
+    .lo = s->lo,
+    .hi = s->hi,
+    .tube_lo = s->tube_lo,
+    .tube_hi = s->tube_hi,
+    .order = s->options.order };
   double done = (s->t - p->time[0]) / (p->time[p->ntime - 1] - p->time[0]);
   return deliver(sink, &r, smaller(larger(done, 0), 1));
 }
@@ -25,8 +34,8 @@ static int32_t emit(const lohner *s, ambit_sink *sink, double t_from) {
 /* -- steps */
 
 static int is_good(const lohner *s, uint32_t i) {
-  return s->hi[i] - s->lo[i] <= s->limit[i] && s->lo[i] > -INFINITY && s->hi[i] < INFINITY && s->tube_lo[i] > -INFINITY &&
-         s->tube_hi[i] < INFINITY && s->tube_lo[i] <= s->tube_hi[i];
+  return s->hi[i] - s->lo[i] <= s->limit[i] && s->lo[i] > -INFINITY && s->hi[i] < INFINITY &&
+         s->tube_lo[i] > -INFINITY && s->tube_hi[i] < INFINITY && s->tube_lo[i] <= s->tube_hi[i];
 }
 
 static enum why advance(lohner *s) {
@@ -72,21 +81,27 @@ static ambit_status explain(const lohner *s, enum why why) {
   case WHY_STOPPED: return AMBIT_STOPPED;
   case WHY_CENTRE:
     return h->fail(h, AMBIT_UNABLE,
-        "at t = %.9g s the right-hand side is not defined, not smooth or too large at the midpoint of the enclosure; end before it", s->t);
+        "at t = %.9g s the right-hand side is not defined, not smooth or too large at the midpoint of the enclosure; "
+        "end before it",
+        s->t);
   case WHY_BOX:
     return h->fail(h, AMBIT_UNABLE,
-        "at t = %.9g s the enclosure, up to %.3g wide, reaches a point where the right-hand side is not defined, not smooth or too large; "
+        "at t = %.9g s the enclosure, up to %.3g wide, reaches a point where the right-hand side is not defined, not "
+        "smooth or too large; "
         "split the initial set, or end before it",
         s->t, width(s));
   case WHY_WIDE:
     return h->fail(h, AMBIT_UNABLE,
-        "the enclosure of `%s` grew wider than %.4g in the step from t = %.9g s; split the initial set, raise `order`, or allow more by "
+        "the enclosure of `%s` grew wider than %.4g in the step from t = %.9g s; split the initial set, raise `order`, "
+        "or allow more by "
         "`width_max`",
         s->problem.name[s->culprit], s->limit[s->culprit], s->t);
   default:
     return h->fail(h, AMBIT_UNABLE,
-        "at t = %.9g s no step of at least %.3g s could be proved, with an enclosure up to %.3g wide: a solution may escape or leave "
-        "the domain of the right-hand side near here; if not, split the initial set, lower `step_min` or raise `tolerance`",
+        "at t = %.9g s no step of at least %.3g s could be proved, with an enclosure up to %.3g wide: a solution may "
+        "escape or leave "
+        "the domain of the right-hand side near here; if not, split the initial set, lower `step_min` or raise "
+        "`tolerance`",
         s->t, s->options.step_min, width(s));
   }
 }

@@ -1,7 +1,9 @@
-/* series.c -- Taylor coefficients of the centre and of the slopes over the set's box, and the values of their polynomials.
+/* series.c -- Taylor coefficients of the centre and of the slopes over the set's box, and the values of their
+** polynomials.
 **
-** x(t) = sum_{k<=p} x_k t^k +- excess for the solution from the centre, and for any other state of the set
-** x(t) - centre(t) = sum_j (sum_{k<=q} s_jk t^k +- slope_excess_j) v_j, where v are the coordinates (xi, G e + low) of that state.
+** x(t) = sum_{k<=p} x_k t^k +- excess for the solution from the centre, and for any other state of the set x(t) -
+** centre(t) = sum_j (sum_{k<=q} s_jk t^k +- slope_excess_j) v_j, where v are the coordinates (xi, G e + low) of that
+** state.
 */
 #include "lohner.h"
 
@@ -109,8 +111,8 @@ static bounds widest(bounds a, ball b) {
   return (bounds) { larger(a.low, b.rad - b.mid), larger(a.high, b.mid + b.rad) };
 }
 
-/* Of sum_{k<n} c_k t^k over the step, n >= 4: with s = t/h the first four terms are a cubic on [0, 1], which lies within its Bernstein
-** coefficients b_0 .. b_3 [Farouki 2012]; here three times these. The rest by magnitudes. */
+/* Of sum_{k<n} c_k t^k over the step, n >= 4: with s = t/h the first four terms are a cubic on [0, 1], which lies
+** within its Bernstein coefficients b_0 .. b_3 [Farouki 2012]; here three times these. The rest by magnitudes. */
 static bounds range(const lohner *s, size_t n, const double *mid, const double *rad, size_t stride) {
   double length = s->step.length, h = s->step.h < 0 ? -length : length, rest = 0;
   for (size_t k = n; k-- > 4;) rest = rest * length + (fabs(mid[k * stride]) + rad[k * stride]);

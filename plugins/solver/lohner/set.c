@@ -2,11 +2,11 @@
 **
 ** With v = (xi, G e + low) the coordinates of a state relative to the centre m, and S any matrix of slopes,
 **   x(t+h) = phi(m) + S v = phi(m) + M v + (S - M) v
-** for a point matrix M near all S. M v is linear: the set keeps its form. (S - M) v is the effect of nonlinearity, put into a box. Since
-** S depends on the state and is proportional to v for small sets, the box is bounded piece by piece of the unknowns' cube:
-** (S - M) v is of one sign where it is quadratic, so that the hull over pieces is half as wide as one bound for all, and its midpoint
-** moves the centre. Each piece needs the slopes' coefficients over it, but no proof of its own: what is beyond the polynomials is bounded
-** over the whole set.
+** for a point matrix M near all S. M v is linear: the set keeps its form. (S - M) v is the effect of nonlinearity, put
+** into a box. Since S depends on the state and is proportional to v for small sets, the box is bounded piece by piece
+** of the unknowns' cube: (S - M) v is of one sign where it is quadratic, so that the hull over pieces is half as wide
+** as one bound for all, and its midpoint moves the centre. Each piece needs the slopes' coefficients over it, but no
+** proof of its own: what is beyond the polynomials is bounded over the whole set.
 */
 #include "lohner.h"
 #include <string.h>
@@ -68,8 +68,10 @@ void lohner_pieces(lohner *s) {
   for (uint32_t k = 0; k < s->pieces; k++) {
     double *mid = s->transfer_mid + k * entries, *rad = s->transfer_rad + k * entries;
     uint32_t flags = lohner_box_series(s, s->piece_from + (size_t)k * s->nc, s->piece_to + (size_t)k * s->nc);
-    if (!flags) lohner_transfer(s, mid, rad);
-    else memcpy(mid, s->whole_mid, bytes), memcpy(rad, s->whole_rad, bytes);
+    if (!flags)
+      lohner_transfer(s, mid, rad);
+    else
+      memcpy(mid, s->whole_mid, bytes), memcpy(rad, s->whole_rad, bytes);
   }
 }
 

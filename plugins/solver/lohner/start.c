@@ -1,21 +1,31 @@
 /* start.c -- memory, options and the initial set.
 **
-** The initial states and the parameters are functions g of the unknowns u = mid + radius xi, so g(u) = g(mid) + sum_j s_j radius_j xi_j
-** with slopes s about the midpoint: the midpoints of s_j radius_j are the columns of the set, what remains goes into boxes. A
-** box that is not thin, of an initial value given as a plain interval, becomes a column of its own, because columns are never condensed; so
-** does every box of a parameter, which must stay the same number for all time.
+** The initial states and the parameters are functions g of the unknowns u = mid + radius xi, so g(u) = g(mid) + sum_j
+** s_j radius_j xi_j with slopes s about the midpoint: the midpoints of s_j radius_j are the columns of the set, what
+** remains goes into boxes. A box that is not thin, of an initial value given as a plain interval, becomes a column of
+** its own, because columns are never condensed; so does every box of a parameter, which must stay the same number for
+** all time.
 */
 #include "lohner.h"
 #include <string.h>
 
-#define THIN 0x1p-40 /* relative radius up to which an initial box is a matter of rounding */
+#define THIN 0x1p-40           /* relative radius up to which an initial box is a matter of rounding */
 #define LEAST_TOLERANCE 1e-22  /* far below the rounding errors of a step */
 #define RESOLUTION 0x1p-40     /* automatic step_min over the time span */
 #define LEAST_HISTORY 4        /* so that the older half is at least two groups, and condensing makes fewer of them */
 #define LARGEST_FOR_HISTORY 48 /* states; beyond it, moving the history would dominate */
 
-enum { OPTION_ORDER, OPTION_SLOPE_ORDER, OPTION_TOLERANCE, OPTION_SET, OPTION_HISTORY, OPTION_PIECES, OPTION_STEP_MAX,
-  OPTION_STEP_MIN, OPTION_WIDTH_MAX };
+enum {
+  OPTION_ORDER,
+  OPTION_SLOPE_ORDER,
+  OPTION_TOLERANCE,
+  OPTION_SET,
+  OPTION_HISTORY,
+  OPTION_PIECES,
+  OPTION_STEP_MAX,
+  OPTION_STEP_MIN,
+  OPTION_WIDTH_MAX
+};
 enum { SET_AUTO, SET_QR, SET_HISTORY };
 
 /* -- options */
@@ -41,9 +51,9 @@ static ambit_status check_options(const ambit_host *h, const double *o) {
   return AMBIT_OK;
 }
 
-/* Orders: with errors going like (h/R)^p, R the radius of convergence, a step to tolerance e has h/R = e^(1/p), and work per unit of time
-** goes like p^a / (h/R); that is least at p = ln(1/e) / a, flat around it; measured, 1/a = 0.6. Slopes over the box need only be as
-** sharp as the set's own growth: (h/R)^(q+1) about 1e-6. */
+/* Orders: with errors going like (h/R)^p, R the radius of convergence, a step to tolerance e has h/R = e^(1/p), and
+** work per unit of time goes like p^a / (h/R); that is least at p = ln(1/e) / a, flat around it; measured, 1/a =
+** 0.6. Slopes over the box need only be as sharp as the set's own growth: (h/R)^(q+1) about 1e-6. */
 static uint32_t automatic_order(double tolerance) {
   double order = log(1 / tolerance) * 0.6;
   return order < 4 ? 4 : order > 40 ? 40 : (uint32_t)order;
@@ -55,16 +65,21 @@ static uint32_t automatic_slope_order(uint32_t order, double tolerance) {
 }
 
 static options choose_options(const ambit_problem *p, const double *o) {
-  options r = { .history = (uint32_t)o[OPTION_HISTORY], .pieces = (uint32_t)o[OPTION_PIECES],
-    .step_max = o[OPTION_STEP_MAX], .step_min = o[OPTION_STEP_MIN], .width_max = o[OPTION_WIDTH_MAX] };
+  options r = { .history = (uint32_t)o[OPTION_HISTORY],
+    .pieces = (uint32_t)o[OPTION_PIECES],
+    .step_max = o[OPTION_STEP_MAX],
+    .step_min = o[OPTION_STEP_MIN],
+    .width_max = o[OPTION_WIDTH_MAX] };
   r.tolerance = larger(o[OPTION_TOLERANCE], LEAST_TOLERANCE);
   double counted = smaller(r.tolerance, 1e-3);
   r.order = o[OPTION_ORDER] != 0 ? (uint32_t)o[OPTION_ORDER] : automatic_order(counted);
-  r.slope_order = o[OPTION_SLOPE_ORDER] != 0 ? (uint32_t)o[OPTION_SLOPE_ORDER]
-                                             : automatic_slope_order(r.order, counted);
+  r.slope_order =
+      o[OPTION_SLOPE_ORDER] != 0 ? (uint32_t)o[OPTION_SLOPE_ORDER] : automatic_slope_order(r.order, counted);
   int classical = o[OPTION_SET] == SET_QR || (o[OPTION_SET] == SET_AUTO && p->nx > LARGEST_FOR_HISTORY);
-  if (classical) r.history = 0;
-  else if (o[OPTION_SET] == SET_HISTORY && r.history == 0) r.history = 32;
+  if (classical)
+    r.history = 0;
+  else if (o[OPTION_SET] == SET_HISTORY && r.history == 0)
+    r.history = 32;
   if (r.history > 0 && r.history < LEAST_HISTORY) r.history = LEAST_HISTORY;
   return r;
 }
@@ -84,8 +99,12 @@ static ambit_status open_origin(const lohner *s, origin *o) {
   const ambit_host *h = s->host;
   const ambit_problem *p = &s->problem;
   size_t n = (size_t)p->nx + p->np, nu = p->nu;
-  *o = (origin) { .mid = room(h, n, 8), .rad = room(h, n, 8), .slope_mid = room(h, n * nu, 8),
-    .slope_rad = room(h, n * nu, 8), .seed = room(h, nu, 8), .no_radius = room(h, nu, 8) };
+  *o = (origin) { .mid = room(h, n, 8),
+    .rad = room(h, n, 8),
+    .slope_mid = room(h, n * nu, 8),
+    .slope_rad = room(h, n * nu, 8),
+    .seed = room(h, nu, 8),
+    .no_radius = room(h, nu, 8) };
   if (!o->mid || !o->rad || !o->slope_mid || !o->slope_rad || !o->seed || !o->no_radius) return no_memory(h);
   ambit_status status = s->jet->open(h, p->initial, p->arithmetic, p->actx, 1, 0, NULL, &o->centre);
   if (status != AMBIT_OK) return status;
@@ -135,8 +154,10 @@ static void keep_origin(lohner *s, const origin *o) {
     if (nu) memcpy(row, o->slope_mid + (size_t)i * nu, nu * sizeof *row);
     int column = is_column(s, o, i);
     if (column) row[own++] = o->rad[i];
-    if (i >= s->nx) s->fixed[i - s->nx] = o->mid[i];
-    else s->start[i] = o->mid[i], s->start_rest[i] = column ? 0 : o->rad[i];
+    if (i >= s->nx)
+      s->fixed[i - s->nx] = o->mid[i];
+    else
+      s->start[i] = o->mid[i], s->start_rest[i] = column ? 0 : o->rad[i];
   }
 }
 
@@ -156,8 +177,8 @@ static int allocate_vectors(lohner *s) {
     { &s->slope_guess, nx * nd }, { &s->tail_in, nin }, { &s->dtail_in, nin * nd }, { &s->tail_out, nx },
     { &s->dtail_out, nx * nd }, { &s->transfer_mid, m * nx * nd }, { &s->transfer_rad, m * nx * nd },
     { &s->whole_mid, nx * nd }, { &s->whole_rad, nx * nd }, { &s->matrix, nx * nd }, { &s->seed, nd },
-    { &s->no_radius, nd }, { &s->added, nx }, { &s->curvature, nc }, { &s->piece_from, m * nc }, { &s->piece_to, m * nc },
-    { &s->lo, nx }, { &s->hi, nx }, { &s->tube_lo, nx }, { &s->tube_hi, nx } };
+    { &s->no_radius, nd }, { &s->added, nx }, { &s->curvature, nc }, { &s->piece_from, m * nc },
+    { &s->piece_to, m * nc }, { &s->lo, nx }, { &s->hi, nx }, { &s->tube_lo, nx }, { &s->tube_hi, nx } };
   for (size_t i = 0; i < sizeof list / sizeof *list; i++)
     if (!(*list[i].array = room(s->host, list[i].count, sizeof(double)))) return 0;
   s->cuts = room(s->host, nc, sizeof *s->cuts);
@@ -179,7 +200,8 @@ static ambit_status open_set(lohner *s, origin *o) {
   ambit_rounding_restore(old);
   if (flags)
     return s->host->fail(s->host, AMBIT_UNABLE,
-        "the initial values are not defined, or not bounded, for all values of their uncertain data; narrow the ranges of the data");
+        "the initial values are not defined, or not bounded, for all values of their uncertain data; narrow the ranges "
+        "of the data");
   s->nc = count_columns(s, o);
   s->ndir = s->nc + s->nx;
   if (!allocate_vectors(s)) return no_memory(s->host);
@@ -201,8 +223,10 @@ ambit_status lohner_open(const ambit_host *h, const ambit_problem *p, const doub
   status = open_origin(s, &o);
   if (status == AMBIT_OK) status = open_set(s, &o);
   close_origin(s, &o);
-  if (status == AMBIT_OK) *self = s;
-  else lohner_close(s);
+  if (status == AMBIT_OK)
+    *self = s;
+  else
+    lohner_close(s);
   return status;
 }
 

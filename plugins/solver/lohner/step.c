@@ -1,23 +1,24 @@
 /* step.c -- choosing a step and proving it.
 **
-** The series are computed once; for each length that is tried only tails are. The truncation error for a length comes from the tail
-** with eps = 0, which is what Picard's inclusion converges to; then the inclusion itself is checked with eps = GUESS times that, for
-** the centre and for the slopes over the whole set. If it holds, every solution from the set exists on the whole step and lies
-** within the polynomials and their excess [Nedialkov, Jackson & Pryce 2001 for the high-order form; docs/numerics/lohner.md].
+** The series are computed once; for each length that is tried only tails are. The truncation error for a length comes
+** from the tail with eps = 0, which is what Picard's inclusion converges to; then the inclusion itself is checked with
+** eps = GUESS times that, for the centre and for the slopes over the whole set. If it holds, every solution from the
+** set exists on the whole step and lies within the polynomials and their excess [Nedialkov, Jackson & Pryce 2001 for
+** the high-order form; docs/numerics/lohner.md].
 */
 #include "lohner.h"
 
 #define TRIES 200
 #define PROOF_TRIES 6
-#define GUESS 5.0        /* eps over the tail with eps = 0 */
-#define AGAIN 2.0        /* over the last tail */
-#define AIM 0.2          /* share of the tolerance that a new length aims at */
-#define LOW_WATER 0.02   /* a longer step is worth another tail below this share */
+#define GUESS 5.0      /* eps over the tail with eps = 0 */
+#define AGAIN 2.0      /* over the last tail */
+#define AIM 0.2        /* share of the tolerance that a new length aims at */
+#define LOW_WATER 0.02 /* a longer step is worth another tail below this share */
 #define GROWTH 3.0
 #define SHRINK 0.8
-#define TINY 0x1p-1000   /* so that zero is its own proof */
-#define SLOPPY 0x1p-10   /* most that the excess of slopes may add to the set, relative */
-#define WIDE_SHARE 1e-9  /* of a wide set's radius that truncation may add */
+#define TINY 0x1p-1000  /* so that zero is its own proof */
+#define SLOPPY 0x1p-10  /* most that the excess of slopes may add to the set, relative */
+#define WIDE_SHARE 1e-9 /* of a wide set's radius that truncation may add */
 
 /* -- the length */
 
@@ -29,11 +30,13 @@ static void set_span(lohner *s, double t_next) {
   s->step.length += s->step.error;
 }
 
-/* A step of about `length` > 0 that ends on the instant ahead or leaves room for a step of its own size before it. 0: it is none. */
+/* A step of about `length` > 0 that ends on the instant ahead or leaves room for a step of its own size before it.
+** 0: it is none. */
 static int plan(lohner *s, double length) {
   double goal = s->problem.time[s->next], ahead = fabs(goal - s->t);
   s->at_instant = length >= ahead;
-  if (s->at_instant) set_span(s, goal);
+  if (s->at_instant)
+    set_span(s, goal);
   else {
     if (length > 0.5 * ahead) length = 0.5 * ahead;
     set_span(s, goal > s->t ? s->t + length : s->t - length);
@@ -84,8 +87,8 @@ static int within(size_t n, const double *a, const double *b) {
   return 1;
 }
 
-/* The first guess is a multiple of what eps = 0 gave, the next ones of what the last guess gave, and more and more of the largest: a
-** component whose own derivatives vanish at this order learns from the others, even from far ones. */
+/* The first guess is a multiple of what eps = 0 gave, the next ones of what the last guess gave, and more and more
+** of the largest: a component whose own derivatives vanish at this order learns from the others, even from far ones. */
 static void guess(int attempt, size_t n, const double *excess, double *eps) {
   static const double share[PROOF_TRIES] = { 0, 1e-6, 1e-4, 1e-2, 0.1, 1 };
   double largest = 0;
@@ -143,8 +146,8 @@ static double reach_of(const lohner *s, uint32_t j) {
   return j < s->nc ? 1 : s->rest[j - s->nc] + fabs(s->low[j - s->nc]);
 }
 
-/* What the excess of slopes adds to the set is small beside the set, or beside what the step makes of it: a component that starts
-** as a point grows by its first two derivatives. */
+/* What the excess of slopes adds to the set is small beside the set, or beside what the step makes of it: a
+** component that starts as a point grows by its first two derivatives. */
 static int slopes_are_sharp(const lohner *s) {
   uint32_t n = s->ndir, q = s->options.slope_order;
   double H = s->step.length;
