@@ -3,7 +3,8 @@
 **
 ** It serves as a reference and for sampling. Right-hand side and Jacobian are tapes in the arithmetic `real`; the
 ** derivative with respect to time, which only the method bsimp reads, is a central difference. GSL allocates its own
-** memory in open(); its error handler, which would end the process, is switched off there.
+** memory in open(); its error handler, which would end the process, is switched off there. The implicit methods also
+** allocate while they run: GSL's LU decomposition does, from 2.6 on.
 */
 #include <ambit/block.h>
 #include <ambit/solver.h>
@@ -15,7 +16,15 @@
 /* in the order of the words of the option `method`; 1: reads the Jacobian */
 #define METHODS(X)                                                                                                     \
   X(rk2, 0)                                                                                                            \
-  X(rk4, 0) X(rkf45, 0) X(rkck, 0) X(rk8pd, 0) X(rk2imp, 1) X(rk4imp, 1) X(bsimp, 1) X(msadams, 0) X(msbdf, 1)
+  X(rk4, 0)                                                                                                            \
+  X(rkf45, 0)                                                                                                          \
+  X(rkck, 0)                                                                                                           \
+  X(rk8pd, 0)                                                                                                          \
+  X(rk2imp, 1)                                                                                                         \
+  X(rk4imp, 1)                                                                                                         \
+  X(bsimp, 1)                                                                                                          \
+  X(msadams, 0)                                                                                                        \
+  X(msbdf, 1)
 
 enum { OPTION_METHOD, OPTION_RELATIVE, OPTION_ABSOLUTE, OPTION_STEP_MAX };
 

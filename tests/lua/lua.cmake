@@ -4,7 +4,7 @@ target_link_libraries(test_callbacks PRIVATE ambit_flags)
 set_target_properties(test_callbacks PROPERTIES PREFIX "" OUTPUT_NAME callbacks
   LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests/lua/plugins/service)
 
-set(lua_environment "AMBIT_PATH=${PROJECT_BINARY_DIR}/tests/lua/plugins:${PROJECT_BINARY_DIR}/plugins"
+set(lua_environment "AMBIT_PATH=${PROJECT_BINARY_DIR}/tests/lua/plugins:${PROJECT_BINARY_DIR}/tests/plugins:${PROJECT_BINARY_DIR}/plugins"
   "LUA_CPATH=${PROJECT_BINARY_DIR}/lua/?.so\\;\\;" "AMBIT_COMMAND=$<TARGET_FILE:ambit>" "NO_COLOR=1")
 
 add_test(NAME lua.specs.command COMMAND ambit test tests/lua WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})

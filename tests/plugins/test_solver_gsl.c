@@ -21,7 +21,10 @@ static void every_method_passes_the_kit(void **unused) {
       { "absolute", m->weak ? "1e-8" : "1e-12" } };
     c.kit.noption = 3, c.kit.option = option;
     c.kit.tolerance = m->weak ? 1e-3 : 1e-6;
-    c.kit.allocations = m->implicit ? NULL : SOLVER_ALLOCATIONS;
+    if (m->implicit)
+      c.kit.allocations = NULL;
+    else
+      c.kit.allocations = SOLVER_ALLOCATIONS;
     size_t findings = solver_kit_run(&c.kit);
     if (findings) fail_msg("method %s: %zu findings", m->name, findings);
   }

@@ -16,6 +16,8 @@ typedef struct ball {
 } ball;
 
 static inline double larger(double a, double b) { return a > b ? a : b; }
+/* a NaN on either side is kept: what claims nothing must not be forgotten */
+static inline double larger_or_nan(double a, double b) { return a > b || a != a ? a : b; }
 static inline double smaller(double a, double b) { return a < b ? a : b; }
 
 /* Any midpoint is valid as long as the radius reaches both ends from it. */
@@ -28,8 +30,6 @@ static inline ball ball_add(ball a, ball b) {
   ball r = ball_of(-a.mid - b.mid, a.mid + b.mid);
   return (ball) { r.mid, r.rad + a.rad + b.rad };
 }
-
-static inline double ball_magnitude(ball a) { return fabs(a.mid) + a.rad; }
 
 /* The time from the start of a step to a point in it or to its end: h +- error, |h| + error <= length. */
 typedef struct span {

@@ -1,15 +1,16 @@
 /* history.c -- the generators of everything that is not due to the unknowns: a box per step, condensed by and by.
 **
 ** A group is n generators. The youngest groups are the boxes of the last steps, moved along with the flow and so not
-** wrapped at all. When `keep` groups of one level are there, the older half is replaced by one group of the next level:
-** the box along the principal axes of their sum. Groups of the highest level are condensed into their own level. So
-** after N steps about log N boxes have been wrapped about log N times each, and memory is bounded. keep = 0 is Lohner's
-** classical set: one orthogonal frame, renewed at every step [Lohner 1988].
+** wrapped at all. When `keep` groups of one level are there, the older half is replaced by one group of the next
+** level: the box along the principal axes of their sum. Groups of the highest level are condensed into their own
+** level. With keep = 32 no box is wrapped more than three times in the first 65536 steps, and memory is bounded.
+** keep = 0 is Lohner's classical set: one orthogonal frame, renewed at every step [Lohner 1988].
 **
-** Change of frame: with F = D Q, D powers of two, and E = I - Q^T Q, |E| <= eps < 1 in the row-sum norm: z = sum_c w_c
-** e_c d_c = F y with y = (I - E)^-1 Q^T D^-1 z, so |y_j| <= v_j + eps / (1 - eps) max v, v_j = sum_c w_c |Q^T D^-1
-** d_c|_j. Principal axes are taken in coordinates in which every state has about the same size, so they do not depend
-** on units.
+** Change of frame: let F = D Q, D powers of two, and E = I - Q^T Q with |E| <= eps < 1 in the row-sum norm. Then
+**   z = sum_c w_c e_c d_c = F y,  y = (I - E)^-1 Q^T D^-1 z,  |y_j| <= v_j + eps / (1 - eps) max v,
+**   v_j = sum_c w_c |Q^T D^-1 d_c|_j.
+** Principal axes are taken in coordinates in which every state has about the same size, so they do not depend on
+** units.
 */
 #include "lohner.h"
 #include <string.h>

@@ -73,13 +73,13 @@ typedef struct lohner {
   double *slope_guess;                        /* [nx x ndir] */
   double *tail_in, *dtail_in;                 /* [nin] [nin x ndir] scratch of the proof */
   double *tail_out, *dtail_out;               /* [nx] [nx x ndir] */
-  double *transfer_mid,
-      *transfer_rad;             /* [PIECES_MAX x nx x ndir] slopes at the end of the step, one matrix for each piece */
+  /* slopes at the end of the step, one matrix for each piece: [options.pieces x nx x ndir] */
+  double *transfer_mid, *transfer_rad;
   double *whole_mid, *whole_rad; /* [nx x ndir] the same for the whole set */
   double *matrix;                /* [nx x ndir] the point matrix that the set is moved with */
   double *seed, *no_radius;      /* [ndir] */
   double *added;                 /* [nx] new box of the step */
-  double *piece_from, *piece_to; /* [PIECES_MAX x nc] ranges of xi */
+  double *piece_from, *piece_to; /* [options.pieces x nc] ranges of xi */
   double *curvature;             /* [nc] how much slopes vary */
   uint32_t pieces, *cuts;        /* of this step; [nc] into how many parts each xi is cut */
 
@@ -96,7 +96,9 @@ void lohner_start(lohner *s); /* the set at time[0] */
 /* run.c */
 ambit_status lohner_run(void *self, ambit_sink *sink);
 
-enum why lohner_find_step(lohner *s); /* step.c: series, a length, and its proof */
+/* step.c */
+enum why lohner_find_step(lohner *s); /* series, a length, and its proof */
+
 /* series.c: coefficients of jets, values of polynomials */
 uint32_t lohner_centre_series(lohner *s);
 uint32_t lohner_box_series(lohner *s, const double *from, const double *to); /* from, to [nc]: part of xi's box */

@@ -92,7 +92,8 @@ static ambit_status explain(const lohner *s, enum why why) {
         s->t, width(s));
   case WHY_WIDE:
     return h->fail(h, AMBIT_UNABLE,
-        "the enclosure of `%s` grew wider than %.4g in the step from t = %.9g s; split the initial set, raise `order`, "
+        "the enclosure of `%s` grew wider than %.4g in the step from t = %.9g s; split the initial set, raise "
+        "`pieces`, "
         "or allow more by "
         "`width_max`",
         s->problem.name[s->culprit], s->limit[s->culprit], s->t);

@@ -84,8 +84,8 @@ static void choose_matrix(lohner *s) {
     double low = -INFINITY, high = -INFINITY;
     for (uint32_t k = 0; k < s->pieces; k++) {
       double mid = s->transfer_mid[k * entries + a], rad = s->transfer_rad[k * entries + a];
-      low = larger(low, rad - mid);
-      high = larger(high, mid + rad);
+      low = larger_or_nan(low, rad - mid);
+      high = larger_or_nan(high, mid + rad);
     }
     s->matrix[a] = s->pieces == 1 ? s->transfer_mid[a] : 0.5 * (high - low);
   }
@@ -115,7 +115,7 @@ static ball nonlinear(const lohner *s, uint32_t i) {
   for (uint32_t k = 0; k < s->pieces; k++) {
     double l, h;
     nonlinear_part(s, i, k, &l, &h);
-    low = larger(low, l), high = larger(high, h);
+    low = larger_or_nan(low, l), high = larger_or_nan(high, h);
   }
   return ball_of(low, high);
 }

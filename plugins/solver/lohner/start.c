@@ -75,6 +75,7 @@ static options choose_options(const ambit_problem *p, const double *o) {
   r.order = o[OPTION_ORDER] != 0 ? (uint32_t)o[OPTION_ORDER] : automatic_order(counted);
   r.slope_order =
       o[OPTION_SLOPE_ORDER] != 0 ? (uint32_t)o[OPTION_SLOPE_ORDER] : automatic_slope_order(r.order, counted);
+  if (r.order < r.slope_order) r.order = r.slope_order; /* the centre's series serve the slopes */
   int classical = o[OPTION_SET] == SET_QR || (o[OPTION_SET] == SET_AUTO && p->nx > LARGEST_FOR_HISTORY);
   if (classical)
     r.history = 0;

@@ -17,7 +17,8 @@
 #define GROWTH 3.0
 #define SHRINK 0.8
 #define TINY 0x1p-1000  /* so that zero is its own proof */
-#define SLOPPY 0x1p-10  /* most that the excess of slopes may add to the set, relative */
+#define SLOPPY 0x1p-10  /* most that the excess of slopes may add to the set in a step, relative, ... */
+#define SLOPPY_STEPS 64 /* ... in a run of so many steps; of longer runs less, so that the sum stays bounded */
 #define WIDE_SHARE 1e-9 /* of a wide set's radius that truncation may add */
 
 /* -- the length */
@@ -150,7 +151,9 @@ static double reach_of(const lohner *s, uint32_t j) {
 ** component that starts as a point grows by its first two derivatives. */
 static int slopes_are_sharp(const lohner *s) {
   uint32_t n = s->ndir, q = s->options.slope_order;
-  double H = s->step.length;
+  const double *time = s->problem.time;
+  double H = s->step.length, span = fabs(time[s->problem.ntime - 1] - time[0]);
+  double share = SLOPPY * smaller(1, SLOPPY_STEPS * H / span);
   for (uint32_t i = 0; i < s->nx; i++) {
     const double *slope = s->slope_mid + (size_t)i * (q + 1u) * n;
     double added = 0, grown = s->radius[i];
@@ -158,7 +161,7 @@ static int slopes_are_sharp(const lohner *s) {
       added += s->slope_excess[(size_t)i * n + j] * reach_of(s, j);
       grown += H * (fabs(slope[n + j]) + H * fabs(slope[2u * n + j])) * reach_of(s, j);
     }
-    if (!(added <= SLOPPY * grown + s->options.tolerance * s->size[i] + TINY)) return 0;
+    if (!(added <= share * grown + s->options.tolerance * s->size[i] + TINY)) return 0;
   }
   return 1;
 }
@@ -173,12 +176,13 @@ static double rescaled(const lohner *s, double ratio) {
 }
 
 static enum why search(lohner *s) {
-  double most = s->options.step_max, length = smaller(s->guess, most);
+  double most = s->options.step_max, length = smaller(larger(s->guess, s->options.step_min), most);
   for (int i = 0; i < TRIES; i++) {
     if (!plan(s, length) || (s->step.length < s->options.step_min && !s->at_instant)) return WHY_NO_STEP;
     double ratio = truncation(s);
-    if (ratio > 1) {
-      length = rescaled(s, ratio);
+    if (ratio > 1) { /* never again as long: an infinite ratio would otherwise shrink and grow in turn */
+      most = smaller(most, SHRINK * s->step.length);
+      length = smaller(rescaled(s, ratio), most);
       continue;
     }
     int cut_short = s->at_instant || s->step.length < 0.99 * length;

@@ -1,0 +1,67 @@
+-- The lohner solver through the whole road: steps where they are hard to find, pieces of wide sets, other arithmetics.
+local ambit = require "ambit"
+
+local function ode(rate) return ambit.ode { states = { "x" }, equations = function(s, p, t) return { x = rate(s.x, t) } end } end
+
+describe("lohner", function()
+  it("goes where the right-hand side is smooth, up to where it is not", function()
+    local root = ambit.simulate { ode(ambit.sqrt), initial = { x = 1 }, t = { 0, -1 } }
+    assert.equal("complete", root.status)
+    assert.is_true(root.x.x:contains(0.25))
+    local kink = ambit.simulate { ode(function(x) return ambit.min(x, 1) end), initial = { x = "0.5" }, t = { 0, 3 } }
+    assert.equal("unable", kink.status)
+    assert.is_true(kink.t_reached > 0.6931 and kink.t_reached <= math.log(2))
+  end)
+
+  it("does not take a domain for granted that a branch hides", function()
+    local run = ambit.simulate {
+      ode(function(x) return ambit.min(ambit.sqrt(x), -1) end), initial = { x = "0.5" }, t = { 0, 10 },
+    }
+    assert.equal("unable", run.status)
+    assert.is_true(run.t_reached <= 0.5)
+  end)
+
+  it("steps on from listed times that are close together", function()
+    for _, times in ipairs { { 0, 1e-13, 1 }, { 0, 1e-11, 100 } } do
+      local run = ambit.simulate { ode(function(x) return -x end), initial = { x = 1 }, t = times }
+      assert.equal("complete", run.status)
+    end
+  end)
+
+  it("encloses wide sets piece by piece, whatever the arithmetic", function()
+    local sin, log, atan, atan2, tanh = ambit.sin, ambit.log, ambit.atan, ambit.atan2, ambit.tanh
+    local system = ambit.ode {
+      states = { "a", "b", "c" },
+      equations = function(s)
+        return {
+          a = 0.5 * sin(0.828125 * tanh(1.671875)),
+          b = 0.5 * (atan2(s.b, 1.5 + atan(s.a) ^ 2) - s.b),
+          c = 0.5 * log(1.25 + s.b ^ 2) * (s.b + s.a) ^ 3,
+        }
+      end,
+    }
+    local t = { 1, 0x1.c16d20bc5519bp-1 }
+    local true_c = 0.5431867967 -- the largest of sampled solutions, by a Taylor method with 30 digits
+    for _, arithmetic in ipairs { "interval", "minimal" } do
+      for _, pieces in ipairs { 1, 8, 16 } do
+        local run = ambit.simulate {
+          system, t = t, solver = "lohner", order = 4, history = 0, arithmetic = arithmetic, pieces = pieces,
+          initial = {
+            a = log(1.25 + tanh(-0.078125) ^ 2),
+            b = ambit.between(-1.9982412240138256, -1.7205087759861744),
+            c = ambit.between(-0.6671800978404474, -0.08281990215955265),
+          },
+        }
+        assert.equal("complete", run.status)
+        assert.is_true(run.x.c.hi >= true_c)
+      end
+    end
+  end)
+
+  it("takes a slope order above the order that it would choose", function()
+    local run = ambit.simulate {
+      ode(function(x) return -x end), initial = { x = ambit.around(1, "1%") }, t = { 0, 1 }, jacobian_order = 60,
+    }
+    assert.equal("complete", run.status)
+  end)
+end)
