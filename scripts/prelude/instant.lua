@@ -33,10 +33,10 @@ function instant.list(t, what)
   if #times < 2 then
     check.fail("%s: expected { start, ..., end }, got %d time%s", what, #times, #times == 1 and "" or "s")
   end
-  local sign = times[#times] - times[1]
-  if sign == 0 then check.fail("%s: the horizon is zero: start and end are both %s", what, core.literal(times[1])) end
+  local forward = times[#times] > times[1]
+  if times[#times] == times[1] then check.fail("%s: the horizon is zero: start and end are both %s", what, core.literal(times[1])) end
   for i = 2, #times do
-    if (times[i] - times[i - 1]) * sign <= 0 then
+    if times[i] == times[i - 1] or (times[i] > times[i - 1]) ~= forward then
       check.fail("%s: the times must go one way, but %s follows %s", what, core.literal(times[i]),
         core.literal(times[i - 1]))
     end
