@@ -76,9 +76,12 @@ static double angle(const ambit_tails *t, uint32_t i, uint32_t a, uint32_t b, ui
   return defect / next_order(t) / floor + shift / -(-floor / sqrt(floor));
 }
 
+/* The branch that is taken, provided both operands exist on the whole step: the range of a square root may decide a minimum, but an
+** operand without a finite tail may leave its domain. */
 static double follow(const ambit_tails *t, uint32_t i) {
   uint32_t operand = ambit_tails_branch(t, i);
-  return operand == AMBIT_NO_SLOT ? INFINITY : t->tau[operand];
+  bool defined = t->tau[t->tape->a[i]] < INFINITY && t->tau[t->tape->b[i]] < INFINITY;
+  return operand == AMBIT_NO_SLOT || !defined ? INFINITY : t->tau[operand];
 }
 
 static double value(const ambit_tails *t, uint32_t i) {
