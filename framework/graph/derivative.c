@@ -2,7 +2,8 @@
 **
 ** The derivative of a node uses the node itself where it can (exp, sqrt, quotients, tan, tanh), so that values and
 ** derivatives share work on a tape. ABS, MIN and MAX have no derivative where they switch, so they are refused unless
-** their operands are fixed.
+** their operands are fixed. ATAN2 jumps on its cut, b < 0 at a = 0, yet its formula is defined there: a derivative
+** holds only where the original is defined and differentiable (graph.h).
 */
 #include "graph/fold.h"
 #include "graph/walk.h"

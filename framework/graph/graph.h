@@ -58,9 +58,12 @@ ambit_expr ambit_graph_time(ambit_graph *g);
 ambit_expr ambit_graph_op(ambit_graph *g, uint32_t op, ambit_expr a, ambit_expr b);
 ambit_expr ambit_graph_pown(ambit_graph *g, ambit_expr a, int32_t n);
 
-/* de/dx for a leaf x. ABS, MIN, MAX: AMBIT_NO_EXPR, and the failure names the opcode. */
+/* de/dx for a leaf x, by the chain rule: valid where e is defined and differentiable, that is inside the domains (not
+** at 0 of sqrt, at +-1 of asin) and off the cut of atan2, where the result may be defined although e jumps. ABS, MIN,
+** MAX: AMBIT_NO_EXPR, and the failure names the opcode. */
 ambit_expr ambit_graph_derivative(ambit_graph *g, ambit_expr e, ambit_expr x, ambit_failure *f);
-/* Total time derivative: leaf k counts as a function of time with derivative rate[k] (leaves not listed are fixed; TIME has 1). */
+/* Total time derivative: leaf k counts as a function of time with derivative rate[k] (leaves not listed are fixed; TIME
+** has 1). Valid where the derivative is. */
 ambit_expr ambit_graph_time_derivative(
     ambit_graph *g, ambit_expr e, size_t n, const ambit_expr *leaf, const ambit_expr *rate, ambit_failure *f);
 /* e[i] with leaf from[k] replaced by to[k], in place; shared work. */
@@ -72,7 +75,8 @@ size_t ambit_graph_terms(const ambit_graph *g, ambit_expr e, size_t room, ambit_
 ** needs fewer operations than e and never more than `limit` terms, otherwise e itself. An identity on the domain of
 ** e. */
 ambit_expr ambit_graph_simplify(ambit_graph *g, ambit_expr e, size_t limit);
-/* The leaves (UNKNOWN, SYMBOL, TIME) that e[0..ne) reach, in the order of their numbers; returns how many, writes at most room. */
+/* The leaves (UNKNOWN, SYMBOL, TIME) that e[0..ne) reach, in the order of their numbers; returns how many, writes at
+** most room. */
 size_t ambit_graph_leaves(const ambit_graph *g, size_t ne, const ambit_expr *e, size_t room, ambit_expr *leaf);
 size_t ambit_graph_size(const ambit_graph *g, size_t ne, const ambit_expr *e); /* distinct operations below */
 /* "0.5*sin(beta1) + x"; at most room bytes, always terminated; returns the full length. */

@@ -110,7 +110,7 @@ uint32_t ambit_block_run(ambit_block *block) {
 ambit_interval ambit_block_get(const ambit_block *block, uint32_t out, size_t lane) {
   ambit_interval x;
   block->arithmetic->bounds(block->ctx, element(block, block->tape->out[out], lane), 1, &x.lo, &x.hi);
-  return isnan(x.lo) || isnan(x.hi) ? AMBIT_ENTIRE : x; /* whatever a plugin does: a bound is never NaN */
+  return ambit_bounds_reported(x.lo, x.hi);
 }
 
 void *ambit_block_base(ambit_block *block, size_t *pitch) {

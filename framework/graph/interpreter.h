@@ -9,6 +9,12 @@
 ** if a required function is missing. */
 ambit_status ambit_arithmetic_complete(const ambit_arithmetic *plugin, ambit_arithmetic *full, ambit_failure *f);
 
+/* Bounds as an arithmetic reports them, whatever it does: NaN and points at infinity bound nothing. */
+static inline ambit_interval ambit_bounds_reported(double lo, double hi) {
+  bool senseless = isnan(lo) || isnan(hi) || (lo == hi && isinf(lo));
+  return senseless ? AMBIT_ENTIRE : (ambit_interval) { lo, hi };
+}
+
 typedef struct ambit_block ambit_block; /* slots x lanes of elements for one tape and one context */
 ambit_status ambit_block_open(
     const ambit_tape *t, const ambit_arithmetic *full, void *ctx, size_t lanes, ambit_block **block, ambit_failure *f);

@@ -6,12 +6,16 @@
 #include <math.h>
 #include <string.h>
 
+#define PROVES_NOTHING (AMBIT_F_PARTIAL | AMBIT_F_UNBOUNDED | AMBIT_F_EMPTY)
+
 struct ambit_jet {
-  ambit_jets jets; /* completed copy */
+  const ambit_host *host;
+  const ambit_jet *centre; /* of slopes; NULL: derivatives */
+  ambit_jets jets;         /* completed copy */
   void *self;
   const ambit_tape *tape;
   uint32_t order, ndir;
-  uint32_t known;          /* orders that are computed */
+  uint32_t known;          /* orders that are computed, all from 0 on */
   uint32_t flags;          /* raised by them */
   ambit_jet_source source; /* the general jets' context */
   ambit_tails *tails;
@@ -72,10 +76,11 @@ static ambit_status check_centre(const ambit_host *h, const ambit_jet *jet, cons
       jet->order);
 }
 
-static ambit_jet *allocate(const ambit_host *h, const ambit_tape *t, uint32_t order, uint32_t ndir) {
+static ambit_jet *allocate(
+    const ambit_host *h, const ambit_tape *t, uint32_t order, uint32_t ndir, const ambit_jet *centre) {
   ambit_jet *jet = h->alloc(h, sizeof *jet);
   if (!jet) return NULL;
-  *jet = (ambit_jet) { .tape = t, .order = order, .ndir = ndir };
+  *jet = (ambit_jet) { .host = h, .centre = centre, .tape = t, .order = order, .ndir = ndir };
   jet->mid = h->alloc(h, ndir * sizeof(double));
   jet->rad = h->alloc(h, ndir * sizeof(double));
   return jet->mid && jet->rad ? jet : NULL;
@@ -88,7 +93,7 @@ static ambit_status open(const ambit_host *h, const ambit_tape *t, const ambit_a
   if (status != AMBIT_OK) return status;
   if (order > UINT32_MAX / 4 || ndir > UINT32_MAX / 4)
     return h->fail(h, AMBIT_INVALID, "power series to order %u with %u directions are too large", order, ndir);
-  ambit_jet *made = allocate(h, t, order, ndir);
+  ambit_jet *made = allocate(h, t, order, ndir, centre);
   if (!made) return h->fail(h, AMBIT_NOMEM, "out of memory for power series");
   made->source = (ambit_jet_source) { arithmetic, actx };
   choose_jets(made, arithmetic);
@@ -113,12 +118,18 @@ static void close(ambit_jet *jet) {
 
 static void put(
     ambit_jet *jet, uint32_t in, uint32_t k, double mid, double rad, const double *dmid, const double *drad) {
+  if (k > jet->order) return;
   if (jet->known > k) jet->known = k;
+  jet->tails->fetched = 0;
   jet->jets.put(jet->self, in, k, mid, rad, dmid, drad);
 }
 
+/* An order builds on all below it, slopes also on the centre's. */
 static uint32_t advance(ambit_jet *jet, uint32_t k) {
+  const ambit_jet *centre = jet->centre;
+  if (k > jet->known || k > jet->order || (centre && k >= centre->known)) return AMBIT_F_UNBOUNDED;
   uint32_t flags = jet->jets.advance(jet->self, k);
+  if (centre && (centre->flags & PROVES_NOTHING)) flags |= AMBIT_F_UNBOUNDED;
   jet->tails->fetched = 0;
   jet->known = k + 1;
   jet->flags = k ? jet->flags | flags : flags;
@@ -168,14 +179,41 @@ static void claim_nothing(const ambit_jet *jet, double *tail_out, double *dtail_
   for (size_t o = 0; o < (size_t)jet->tape->nout * jet->ndir && dtail_out; o++) dtail_out[o] = INFINITY;
 }
 
+/* a bound of a tail; of an input that is constant in time: none */
+static bool is_tail(double x, bool steady) { return steady ? x == 0 : x >= 0; }
+
+static ambit_status check_input(const ambit_jet *jet, uint32_t i, double tail, const double *dtail) {
+  bool steady = jet->tape->degree[jet->tape->nconst + i] == 0;
+  const char *expected = steady ? "0, for the tape takes the input for constant in time" : "a number >= 0";
+  if (!is_tail(tail, steady))
+    return jet->host->fail(jet->host, AMBIT_INVALID, "the tail of input %u is %g, not %s", i, tail, expected);
+  for (uint32_t d = 0; d < jet->ndir && dtail; d++)
+    if (!is_tail(dtail[d], steady))
+      return jet->host->fail(
+          jet->host, AMBIT_INVALID, "the tail of input %u in direction %u is %g, not %s", i, d, dtail[d], expected);
+  return AMBIT_OK;
+}
+
+static ambit_status check_tail(
+    const ambit_jet *jet, uint32_t K, double h, const double *tail_in, const double *dtail_in) {
+  if (K >= jet->known)
+    return jet->host->fail(jet->host, AMBIT_INVALID,
+        "a tail beyond order %u needs all orders up to it, but only %u are computed", K, jet->known);
+  if (!isfinite(h)) return jet->host->fail(jet->host, AMBIT_INVALID, "a tail needs a finite step, not %g", h);
+  ambit_status status = AMBIT_OK;
+  for (uint32_t i = 0; i < jet->tape->nin && status == AMBIT_OK; i++)
+    status = check_input(jet, i, tail_in ? tail_in[i] : 0, dtail_in ? dtail_in + (size_t)i * jet->ndir : NULL);
+  return status;
+}
+
 static ambit_status tail(ambit_jet *jet, uint32_t K, double h, const double *tail_in, const double *dtail_in,
     double *tail_out, double *dtail_out) {
-  if (K >= jet->known) return AMBIT_INVALID;
-  if (jet->flags & (AMBIT_F_PARTIAL | AMBIT_F_UNBOUNDED | AMBIT_F_EMPTY)) {
+  ambit_status status = check_tail(jet, K, h, tail_in, dtail_in);
+  if (status != AMBIT_OK || (jet->flags & PROVES_NOTHING))
     claim_nothing(jet, tail_out, dtail_out);
-    return AMBIT_OK;
-  }
-  return ambit_tails_run(jet->tails, &jet->jets, jet->self, K, h, tail_in, dtail_in, tail_out, dtail_out);
+  else
+    ambit_tails_run(jet->tails, &jet->jets, jet->self, K, h, tail_in, dtail_in, tail_out, dtail_out);
+  return status;
 }
 
 const ambit_jet_service ambit_jet_service_v1 = {

@@ -4,7 +4,8 @@
 #include <ambit/jet.h>
 
 extern const ambit_jet_service ambit_jet_service_v1;
-/* The general form over run[] of a completed arithmetic, in the shape that an arithmetic would offer itself. `ctx` here is an ambit_jet_source. */
+/* The general form over run[] of a completed arithmetic, in the shape that an arithmetic would offer itself. `ctx` here
+** is an ambit_jet_source. */
 typedef struct ambit_jet_source {
   const ambit_arithmetic *arithmetic;
   void *actx;

@@ -5,6 +5,7 @@
 ** radius, rounded outward. Speed is secondary: an arithmetic that wants the integrators at full speed offers
 ** ambit_jets of its own.
 */
+#include "graph/interpreter.h"
 #include "graph/jet_general.h"
 #include "num/rounding.h"
 #include <string.h>
@@ -28,7 +29,7 @@ uint32_t ambit_series_at(const ambit_series *s, ambit_row a, uint32_t k) {
 ambit_interval ambit_series_bounds(const ambit_series *s, uint32_t element) {
   ambit_interval x;
   s->arithmetic->bounds(s->ctx, place(s, element), 1, &x.lo, &x.hi);
-  return isnan(x.lo) || isnan(x.hi) ? AMBIT_ENTIRE : x;
+  return ambit_bounds_reported(x.lo, x.hi);
 }
 
 void ambit_series_set(ambit_series *s, uint32_t element, ambit_interval x) {
@@ -165,7 +166,8 @@ static void integrate(void *self, uint32_t in, uint32_t slot, uint32_t k) {
 
 static AMBIT_WORKER void ball(double mid, double rad, ambit_interval *x) {
   double lo = -(rad - mid), hi = mid + rad;
-  *x = lo <= hi ? (ambit_interval) { lo, hi } : AMBIT_ENTIRE; /* false for NaN: claim nothing */
+  bool is_set = lo <= hi && lo < INFINITY && hi > -INFINITY; /* false for NaN and for points at infinity */
+  *x = is_set ? (ambit_interval) { lo, hi } : AMBIT_ENTIRE;
 }
 
 static void put_element(ambit_series *s, uint32_t in, uint32_t column, uint32_t k, double mid, double rad) {

@@ -116,7 +116,8 @@ static ambit_interval span_of(const ambit_series *s, uint32_t slot) {
   return ambit_interval_hull(u, ambit_series_bounds(s->centre, s->centre->first[slot]));
 }
 
-/* A slope of f over U about u0; the intersection is not empty: both sets hold it. */
+/* A slope of f over U about u0. Both sets hold it, so their intersection is empty only if an arithmetic without rigour
+** reported bounds that no number meets. */
 static ambit_interval slope_of(const ambit_series *s, uint32_t op, uint32_t slot) {
   ambit_interval u = span_of(s, slot), first, second, first0, second0;
   if (!derivatives_of(op, u, &first, &second)) return derivative_of(op, u);
@@ -124,7 +125,9 @@ static ambit_interval slope_of(const ambit_series *s, uint32_t op, uint32_t slot
   ambit_interval u0 = ambit_series_bounds(s->centre, s->centre->first[slot]);
   derivatives_of(op, u0, &first0, &second0);
   ambit_interval away = ambit_interval_sub(ambit_series_bounds(s, s->first[slot]), u0);
-  return ambit_interval_intersect(first, ambit_interval_add(first0, ambit_interval_mul(half(second), away)));
+  ambit_interval taylor = ambit_interval_add(first0, ambit_interval_mul(half(second), away));
+  ambit_interval both = ambit_interval_intersect(first, taylor);
+  return ambit_interval_is_empty(both) ? first : both;
 }
 
 /* the gradient of the angle of (b, a) over the box and the way to the centre: (b, -a) / (a^2 + b^2), off the cut */

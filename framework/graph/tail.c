@@ -28,9 +28,10 @@ static void mark_flows(ambit_tails *t) {
 }
 
 static bool allocate(const ambit_host *h, ambit_tails *t) {
-  size_t n = t->tape->nslot, row = n * t->stride, lanes = t->ndir, size = sizeof(double);
-  size_t check;
-  if (__builtin_mul_overflow(row * size, lanes + 1, &check)) return false;
+  size_t n = t->tape->nslot, lanes = t->ndir, size = sizeof(double), row, all;
+  if (__builtin_mul_overflow(n, t->stride, &row) || __builtin_mul_overflow(row, lanes + 1, &all) ||
+      __builtin_mul_overflow(all, size, &all))
+    return false;
   double **const rows[] = { &t->mag, &t->U, &t->W, &t->R, &t->RW };
   double **const each[] = { &t->lo, &t->hi, &t->sum, &t->swing, &t->tau };
   for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
@@ -70,9 +71,10 @@ ambit_status ambit_tails_open(
 /* -- coefficients */
 
 static AMBIT_WORKER void bounds_of(double mid, double rad, double *lo, double *hi) {
-  *lo = -(rad - mid);
-  *hi = mid + rad;
-  if (!(*lo <= *hi)) *lo = -INFINITY, *hi = INFINITY;
+  double low = -(rad - mid), high = mid + rad;
+  bool is_set = low <= high && low < INFINITY && high > -INFINITY; /* false for NaN and for points at infinity */
+  *lo = is_set ? low : -INFINITY;
+  *hi = is_set ? high : INFINITY;
 }
 
 /* NaN or negative: claims nothing */
@@ -96,9 +98,17 @@ static void fetch_slot(ambit_tails *t, const ambit_jets *jets, const void *self,
   for (uint32_t d = 0; d < t->ndir && dmag; d++) t->V[at * t->ndir + d] = t->vsum[(size_t)v * t->ndir + d] = dmag[d];
 }
 
+/* orders that a pass reads: of an input that is a polynomial, those above K as well */
+static uint32_t orders_of(const ambit_tails *t, uint32_t v, uint32_t K) {
+  const ambit_tape *tape = t->tape;
+  bool is_input = v >= tape->nconst && v < tape->nconst + tape->nin;
+  if (!t->moving[v]) return 1;
+  return is_input && tape->degree[v] <= t->order && tape->degree[v] > K ? tape->degree[v] + 1 : K + 1;
+}
+
 static void fetch(ambit_tails *t, const ambit_jets *jets, const void *self, uint32_t K) {
   if (t->fetched > K) return;
-  for (uint32_t v = 0; v < t->tape->nslot; v++) fetch_slot(t, jets, self, v, t->moving[v] ? K + 1 : 1);
+  for (uint32_t v = 0; v < t->tape->nslot; v++) fetch_slot(t, jets, self, v, orders_of(t, v, K));
   t->fetched = K + 1;
   t->scaled = false;
 }
@@ -160,45 +170,59 @@ static void scale(ambit_tails *t, uint32_t K, double h) {
 
 /* -- the pass */
 
-static bool take_inputs(ambit_tails *t, const double *tail_in, const double *dtail_in) {
-  for (uint32_t i = 0; i < t->tape->nin; i++) {
-    uint32_t v = t->tape->nconst + i;
-    double tail = tail_in ? tail_in[i] : 0;
-    if (!(tail >= 0) || (tail > 0 && !t->moving[v])) return false;
-    t->tau[v] = tail;
-    for (uint32_t d = 0; d < t->ndir && t->moving[v]; d++) {
-      double change = dtail_in ? dtail_in[(size_t)i * t->ndir + d] : 0;
-      if (!(change >= 0)) return false;
-      t->sigma[(size_t)v * t->ndir + d] = change;
-    }
+/* x += sum_{K<k<=degree} |u_k| h^k, the coefficients `step` apart; NaN claims nothing */
+static double with_rest(double x, const double *mag, size_t step, uint32_t K, uint32_t degree, double h) {
+  double power = 1;
+  for (uint32_t k = 1; k <= degree; k++) {
+    power *= h;
+    if (k > K) x += mag[k * step] * power;
   }
-  return true;
+  return x >= 0 ? x : INFINITY;
 }
 
-static AMBIT_WORKER bool pass(ambit_tails *t, uint32_t K, double h, const double *tail_in, const double *dtail_in) {
-  if (!take_inputs(t, tail_in, dtail_in)) return false;
+/* What of an input polynomial lies above order K belongs to its tail; above the order of the series it is unknown. */
+static void add_rest(ambit_tails *t, uint32_t v, uint32_t K, double h) {
+  uint32_t degree = t->tape->degree[v];
+  size_t nd = t->ndir, at = (size_t)v * t->stride;
+  if (degree == AMBIT_DEGREE_ANY || degree <= K) return;
+  bool held = degree <= t->order;
+  t->tau[v] = held ? with_rest(t->tau[v], t->mag + at, 1, K, degree, h) : INFINITY;
+  for (size_t d = 0; d < nd; d++) {
+    double *sigma = &t->sigma[v * nd + d];
+    *sigma = held ? with_rest(*sigma, t->dmag + at * nd + d, nd, K, degree, h) : INFINITY;
+  }
+}
+
+static void take_inputs(ambit_tails *t, uint32_t K, double h, const double *tail_in, const double *dtail_in) {
+  for (uint32_t i = 0; i < t->tape->nin; i++) {
+    uint32_t v = t->tape->nconst + i;
+    if (!t->moving[v]) continue;
+    t->tau[v] = tail_in ? tail_in[i] : 0;
+    for (size_t d = 0; d < t->ndir; d++)
+      t->sigma[(size_t)v * t->ndir + d] = dtail_in ? dtail_in[(size_t)i * t->ndir + d] : 0;
+    add_rest(t, v, K, h);
+  }
+}
+
+static AMBIT_WORKER void pass(ambit_tails *t, uint32_t K, double h, const double *tail_in, const double *dtail_in) {
+  take_inputs(t, K, h, tail_in, dtail_in);
   if (!t->scaled || t->K != K || t->h != h) scale(t, K, h);
   for (uint32_t i = 0; i < t->nactive; i++) {
     ambit_tails_values(t, t->active[i]);
     if (t->ndir) ambit_tails_slopes(t, t->active[i]);
   }
-  return true;
 }
 
-ambit_status ambit_tails_run(ambit_tails *t, const ambit_jets *jets, const void *self, uint32_t K, double h,
+void ambit_tails_run(ambit_tails *t, const ambit_jets *jets, const void *self, uint32_t K, double h,
     const double *tail_in, const double *dtail_in, double *tail_out, double *dtail_out) {
-  double length = fabs(h);
-  if (K > t->order || !(length < INFINITY)) return AMBIT_INVALID;
   fetch(t, jets, self, K);
   ambit_rounding old = ambit_round_up();
-  bool valid = pass(t, K, length, tail_in, dtail_in);
+  pass(t, K, fabs(h), tail_in, dtail_in);
   ambit_rounding_restore(old);
-  if (!valid) return AMBIT_INVALID;
   const ambit_tape *tape = t->tape;
   for (uint32_t o = 0; o < tape->nout; o++) {
     tail_out[o] = t->tau[tape->out[o]];
     if (!dtail_out || !t->ndir) continue;
     memcpy(dtail_out + (size_t)o * t->ndir, t->sigma + (size_t)tape->out[o] * t->ndir, t->ndir * sizeof(double));
   }
-  return AMBIT_OK;
 }

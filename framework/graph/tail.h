@@ -34,9 +34,9 @@ typedef struct ambit_tails {
 
 ambit_status ambit_tails_open(
     const ambit_host *h, const ambit_tape *t, uint32_t order, uint32_t ndir, ambit_tails **tails);
-/* Contract of ambit_jet_service.tail; the coefficients come from `jets`. INVALID: K beyond the order, h not finite, an
-** input tail that is negative, NaN, or not 0 where the input is constant in time. No allocation. */
-ambit_status ambit_tails_run(ambit_tails *t, const ambit_jets *jets, const void *self, uint32_t K, double h,
+/* Contract of ambit_jet_service.tail for arguments that it does not refuse; the coefficients come from `jets`. No
+** allocation. */
+void ambit_tails_run(ambit_tails *t, const ambit_jets *jets, const void *self, uint32_t K, double h,
     const double *tail_in, const double *dtail_in, double *tail_out, double *dtail_out);
 
 /* -- between the files of the pass; upward mode */
@@ -63,7 +63,7 @@ double ambit_tails_flow(const ambit_tails *t, uint32_t u, uint32_t v);
 double ambit_tails_atan_floor(const ambit_tails *t, uint32_t i);
 double ambit_tails_atan2_floor(const ambit_tails *t, uint32_t i);
 double ambit_tails_sqrt_floor(const ambit_tails *t, uint32_t u); /* below sqrt u */
-/* ABS, MIN, MAX: the operand whose branch holds on the whole step, or AMBIT_NO_SLOT */
+/* ABS, MIN, MAX: the operand whose branch holds on the whole step, on which both are defined; or AMBIT_NO_SLOT */
 uint32_t ambit_tails_branch(const ambit_tails *t, uint32_t i);
 
 /* tau of instruction i's slot; sigma of its directions, after tau */

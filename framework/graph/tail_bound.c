@@ -92,6 +92,9 @@ uint32_t ambit_tails_branch(const ambit_tails *t, uint32_t i) {
   uint32_t op = t->tape->op[i], a = t->tape->a[i], b = t->tape->b[i];
   ambit_span x = ambit_tails_value(t, a), y = ambit_tails_value(t, b);
   if (op == AMBIT_OP_ABS) return x.lo > 0 || x.hi < 0 ? a : AMBIT_NO_SLOT;
+  /* Both must exist on the whole step: the range of a square root may decide a minimum, but an operand without a finite
+  ** tail may leave its domain. */
+  if (!(t->tau[a] < INFINITY && t->tau[b] < INFINITY)) return AMBIT_NO_SLOT;
   if (op == AMBIT_OP_MAX) return x.lo > y.hi ? a : y.lo > x.hi ? b : AMBIT_NO_SLOT;
   return x.hi < y.lo ? a : y.hi < x.lo ? b : AMBIT_NO_SLOT;
 }

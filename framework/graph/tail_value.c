@@ -50,11 +50,14 @@ static double turn(const ambit_tails *t, uint32_t u, uint32_t s, uint32_t c) {
   return sqrt(ds * ds + dc * dc) / next_order(t) + t->tau[u];
 }
 
+/* infinite if one is NaN */
+static double larger(double a, double b) { return a <= b ? b : b <= a ? a : INFINITY; }
+
 /* (E_s, E_c) under [cosh, sinh; sinh, cosh] of P(s) - P(r): at most e^swing times the larger defect */
 static double hyperbola(const ambit_tails *t, uint32_t u, uint32_t s, uint32_t c, bool sine_first) {
-  double ds = ambit_tails_flow(t, u, c), dc = ambit_tails_flow(t, u, s), larger = ds > dc ? ds : dc;
+  double ds = ambit_tails_flow(t, u, c), dc = ambit_tails_flow(t, u, s);
   double cosh_first = ambit_tails_row(t, t->U, sine_first ? c : s)[0];
-  return ambit_tails_exp(t->swing[u]) * larger / next_order(t) + exp_shift(t, u, cosh_first);
+  return ambit_tails_exp(t->swing[u]) * larger(ds, dc) / next_order(t) + exp_shift(t, u, cosh_first);
 }
 
 static double logarithm(const ambit_tails *t, uint32_t u, uint32_t y) {
@@ -76,12 +79,9 @@ static double angle(const ambit_tails *t, uint32_t i, uint32_t a, uint32_t b, ui
   return defect / next_order(t) / floor + shift / -(-floor / sqrt(floor));
 }
 
-/* The branch that is taken, provided both operands exist on the whole step: the range of a square root may decide a minimum, but an
-** operand without a finite tail may leave its domain. */
 static double follow(const ambit_tails *t, uint32_t i) {
   uint32_t operand = ambit_tails_branch(t, i);
-  bool defined = t->tau[t->tape->a[i]] < INFINITY && t->tau[t->tape->b[i]] < INFINITY;
-  return operand == AMBIT_NO_SLOT || !defined ? INFINITY : t->tau[operand];
+  return operand == AMBIT_NO_SLOT ? INFINITY : t->tau[operand];
 }
 
 static double value(const ambit_tails *t, uint32_t i) {

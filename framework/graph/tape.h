@@ -4,7 +4,8 @@
 #include "graph/graph.h"
 #include <ambit/tape.h>
 
-/* Flags of sealing besides AMBIT_TAPE_SERIES. KEEP: do not fold inexact constants (for arithmetics of higher precision). */
+/* Flags of sealing besides AMBIT_TAPE_SERIES. KEEP: do not fold inexact constants (for arithmetics of higher
+** precision). */
 #define AMBIT_SEAL_KEEP 0x10000u
 
 /* Inputs are leaves, in this order; a reached leaf that is not among them is INVALID and named. The tape lives in the

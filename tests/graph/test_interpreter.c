@@ -208,12 +208,46 @@ static void refusals(void **unused) {
   fixture_host_close(&host);
 }
 
+static void senseless_bounds(void *ctx, const void *src, size_t n, double *lo, double *hi) {
+  box_bounds(NULL, src, n, lo, hi);
+  for (size_t i = 0; i < n; i++)
+    if (lo[i] == 1 && hi[i] == 2) lo[i] = hi[i] = *(const double *)ctx;
+}
+
+/* Bounds that are no set are unknown, not proved empty. */
+static void senseless_bounds_bound_nothing(void **unused) {
+  (void)unused;
+  fixture_host host;
+  fixture_host_open(&host);
+  ambit_arithmetic full = fixture_arithmetic();
+  full.bounds = senseless_bounds;
+  fixture_tape *x = fixture_tape_open(&host);
+  uint32_t one = fixture_constant(x, 1, 1), u = fixture_input(x, 0);
+  fixture_output(x, fixture_op(x, AMBIT_OP_DIV, one, u)), fixture_output(x, fixture_op(x, AMBIT_OP_EXP, u, u));
+  fixture_output(x, u);
+  const double value[] = { NAN, INFINITY, -INFINITY };
+  for (size_t i = 0; i < 3; i++) {
+    double no_bound = value[i];
+    ambit_block *block;
+    assert_int_equal(ambit_block_open(&x->tape, &full, &no_bound, 1, &block, NULL), AMBIT_OK);
+    ambit_block_set(block, 0, 0, (ambit_interval) { 1, 2 }, -1);
+    assert_int_equal(ambit_block_run(block), AMBIT_F_PARTIAL | AMBIT_F_UNBOUNDED); /* 1/u */
+    ambit_interval inverse = ambit_block_get(block, 0, 0), power = ambit_block_get(block, 1, 0),
+                   input = ambit_block_get(block, 2, 0);
+    assert_true(inverse.lo == -INFINITY && inverse.hi == INFINITY && power.lo == 0 && power.hi == INFINITY);
+    assert_true(input.lo == -INFINITY && input.hi == INFINITY);
+    ambit_block_close(block);
+  }
+  fixture_host_close(&host);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(filled_operations_are_the_kernels),
     cmocka_unit_test(completing),
     cmocka_unit_test(a_block_keeps_the_contract),
     cmocka_unit_test(refusals),
+    cmocka_unit_test(senseless_bounds_bound_nothing),
   };
   return cmocka_run_group_tests_name("interpreter", tests, NULL, NULL);
 }

@@ -428,6 +428,114 @@ static void bad_coefficients_prove_nothing(void **unused) {
   fixture_host_close(&host);
 }
 
+/* 1/u at an infinite u is not 0. */
+static void infinite_coefficients_prove_nothing(void **unused) {
+  (void)unused;
+  fixture_host host;
+  fixture_host_open(&host);
+  ambit_arithmetic full = fixture_arithmetic();
+  fixture_tape *x = fixture_tape_open(&host);
+  uint32_t one = fixture_constant(x, 1, 1), u = fixture_input(x, AMBIT_DEGREE_ANY);
+  uint32_t y = fixture_op(x, AMBIT_OP_DIV, one, u);
+  fixture_output(x, y);
+  const double far[] = { INFINITY, -INFINITY }, radius[] = { 0, 1 };
+  for (size_t i = 0; i < 4; i++) {
+    ambit_jet *jet = open_jet(&host, &x->tape, &full, 3, 0, NULL);
+    double mid, rad;
+    service->put(jet, 0, 0, far[i % 2], radius[i / 2], NULL, NULL);
+    assert_true(service->advance(jet, 0) & AMBIT_F_UNBOUNDED);
+    service->get(jet, y, 0, &mid, &rad, NULL, NULL);
+    assert_true(isfinite(mid) && rad == INFINITY);
+  }
+  fixture_host_close(&host);
+}
+
+static bool is_known(ambit_jet *jet, uint32_t K) {
+  double tail;
+  return service->tail(jet, K, 0.5, NULL, NULL, &tail, NULL) == AMBIT_OK;
+}
+
+/* An order needs those below it, and of slopes the centre's. */
+static void orders_ascend(void **unused) {
+  (void)unused;
+  fixture_host host;
+  fixture_host_open(&host);
+  ambit_arithmetic full = fixture_arithmetic();
+  fixture_tape *x = pendulum_tape(&host);
+  ambit_jet *jet = open_jet(&host, &x->tape, &full, 3, 0, NULL), *box = open_jet(&host, &x->tape, &full, 3, 1, jet);
+  for (uint32_t i = 0; i < 2; i++) service->put(jet, i, 0, 1, 0, NULL, NULL), service->put(box, i, 0, 1, 0, NULL, NULL);
+  assert_int_equal(service->advance(jet, 1), AMBIT_F_UNBOUNDED);
+  assert_false(is_known(jet, 1) || is_known(jet, 0));
+  assert_int_equal(service->advance(box, 0), AMBIT_F_UNBOUNDED); /* the centre has nothing yet */
+  assert_false(is_known(box, 0));
+  for (uint32_t k = 0; k <= 3; k++) assert_int_equal(service->advance(jet, k), 0);
+  assert_int_equal(service->advance(jet, 4), AMBIT_F_UNBOUNDED); /* beyond the order */
+  service->put(jet, 0, 4, 1, 0, NULL, NULL);
+  assert_true(is_known(jet, 3));
+  for (uint32_t k = 0; k < 2; k++) assert_int_equal(service->advance(box, k), 0);
+  service->put(jet, 0, 1, 0.5, 0, NULL, NULL); /* orders from 1 on are void */
+  assert_int_equal(service->advance(jet, 2), AMBIT_F_UNBOUNDED);
+  assert_int_equal(service->advance(box, 2), AMBIT_F_UNBOUNDED);
+  assert_true(is_known(box, 1) && !is_known(box, 2) && is_known(jet, 0) && !is_known(jet, 1));
+  for (uint32_t k = 1; k <= 3; k++) assert_int_equal(service->advance(jet, k) | service->advance(box, k - 1), 0);
+  fixture_host_close(&host);
+}
+
+/* sqrt u is not defined at the centre -1: there are no slopes about it. */
+static void a_centre_outside_the_domain_proves_nothing(void **unused) {
+  (void)unused;
+  fixture_host host;
+  fixture_host_open(&host);
+  ambit_arithmetic full = fixture_arithmetic();
+  fixture_tape *x = fixture_tape_open(&host);
+  uint32_t u = fixture_input(x, AMBIT_DEGREE_ANY);
+  fixture_output(x, fixture_op(x, AMBIT_OP_SQRT, u, u));
+  ambit_jet *centre = open_jet(&host, &x->tape, &full, 1, 0, NULL),
+            *box = open_jet(&host, &x->tape, &full, 1, 1, centre);
+  const double one = 1, none = 0;
+  service->put(centre, 0, 0, 0, 1, NULL, NULL), service->put(box, 0, 0, 2, 0.5, &one, &none);
+  assert_true(service->advance(centre, 0) & AMBIT_F_PARTIAL);
+  assert_true(service->advance(box, 0) & AMBIT_F_UNBOUNDED);
+  fixture_host_close(&host);
+}
+
+/* -- an arithmetic without rigour, whose bounds cross by rounding */
+
+static uint32_t crossed_log(const ambit_arithmetic *self, void *ctx, void *base, size_t pitch, size_t lanes,
+    size_t count, const uint32_t *dst, const uint32_t *a, const uint32_t *b) {
+  (void)self, (void)ctx, (void)b, (void)lanes;
+  ambit_interval *x = base;
+  for (size_t i = 0; i < count; i++) {
+    double y = log(x[a[i] * pitch].lo);
+    x[dst[i] * pitch] = (ambit_interval) { nextafter(y, INFINITY), y };
+  }
+  return 0;
+}
+
+static void crossed_bounds_leave_slopes(void **unused) {
+  (void)unused;
+  fixture_host host;
+  fixture_host_open(&host);
+  ambit_arithmetic full = fixture_arithmetic();
+  full.rigorous = 0, full.run[AMBIT_OP_LOG] = crossed_log;
+  fixture_tape *x = fixture_tape_open(&host);
+  uint32_t u = fixture_input(x, AMBIT_DEGREE_ANY), l = fixture_op(x, AMBIT_OP_LOG, u, u);
+  uint32_t y = fixture_function(x, AMBIT_OP_EXP, l, l, 0);
+  fixture_output(x, y);
+  ambit_jet *centre = open_jet(&host, &x->tape, &full, 1, 0, NULL),
+            *jet = open_jet(&host, &x->tape, &full, 1, 1, centre);
+  const double one = 1, none = 0;
+  double mid, rad, dmid, drad;
+  full.run[AMBIT_OP_LOG] = fixture_arithmetic().run[AMBIT_OP_LOG];
+  service->put(centre, 0, 0, 3, 0, NULL, NULL), service->put(jet, 0, 0, 3, 0, &one, &none);
+  service->advance(centre, 0);
+  full.run[AMBIT_OP_LOG] = crossed_log;
+  service->advance(jet, 0);
+  service->get(jet, y, 0, &mid, &rad, &dmid, &drad);
+  assert_true(fabs(dmid - 1) < 1e-14 && drad < 1e-14); /* exp log u = u */
+  fixture_host_close(&host);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(closed_forms),
@@ -440,6 +548,10 @@ int main(void) {
     cmocka_unit_test(products_by_dot),
     cmocka_unit_test(refusals),
     cmocka_unit_test(bad_coefficients_prove_nothing),
+    cmocka_unit_test(infinite_coefficients_prove_nothing),
+    cmocka_unit_test(orders_ascend),
+    cmocka_unit_test(a_centre_outside_the_domain_proves_nothing),
+    cmocka_unit_test(crossed_bounds_leave_slopes),
   };
   return cmocka_run_group_tests_name("jet", tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 /* Tails: the true functions, sampled over the step, must lie within the polynomial and the tail; changes of the tail
 ** over the box within its slopes. Without the tail the check must fail. */
 #include "graph/series_scene.h"
+#include "graph/tail.h"
 #include <setjmp.h>
 #include <stddef.h>
 #include <cmocka.h>
@@ -253,6 +254,175 @@ static void refusals(void **unused) {
   fixture_host_close(&host);
 }
 
+/* What is refused says why, and leaves +inf behind for those who do not look. */
+static void refusals_claim_nothing(void **unused) {
+  (void)unused;
+  fixture_host host;
+  fixture_host_open(&host);
+  ambit_arithmetic full = fixture_arithmetic();
+  fixture_tape *x = fixture_tape_open(&host);
+  uint32_t u = fixture_input(x, AMBIT_DEGREE_ANY), p = fixture_input(x, 0);
+  fixture_output(x, fixture_op(x, AMBIT_OP_MUL, u, p));
+  ambit_jet *jet;
+  assert_int_equal(service->open(&host.host, &x->tape, &full, NULL, 3, 2, NULL, &jet), AMBIT_OK);
+  service->put(jet, 0, 0, 1, 0, NULL, NULL), service->put(jet, 1, 0, 2, 0, NULL, NULL);
+  for (uint32_t k = 0; k < 3; k++) assert_int_equal(service->advance(jet, k), 0);
+  const struct {
+    uint32_t K;
+    double h, in[2], din[4];
+    const char *word;
+  } bad[] = {
+    { 3, 0.5, { 1, 0 }, { 0 }, "beyond order 3" },
+    { 2, NAN, { 1, 0 }, { 0 }, "finite step" },
+    { 2, 0.5, { -1, 0 }, { 0 }, "input 0 is -1" },
+    { 2, 0.5, { 0, 1 }, { 0 }, "input 1 is 1, not 0" },
+    { 2, 0.5, { 1, 0 }, { 0, -2, 0, 0 }, "input 0 in direction 1 is -2" },
+    { 2, 0.5, { 1, 0 }, { 0, 0, 0, 3 }, "input 1 in direction 1 is 3, not 0" },
+  };
+  for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+    double out = 0, dout[2] = { 0 };
+    host.message[0] = 0;
+    assert_int_equal(service->tail(jet, bad[i].K, bad[i].h, bad[i].in, bad[i].din, &out, dout), AMBIT_INVALID);
+    if (!strstr(host.message, bad[i].word)) fail_msg("`%s` is not in: %s", bad[i].word, host.message);
+    assert_true(out == INFINITY && dout[0] == INFINITY && dout[1] == INFINITY);
+  }
+  fixture_host_close(&host);
+}
+
+/* min(sqrt u, -1): where sqrt u is defined its range decides, but u = 1/2 - t leaves its domain. */
+static void both_operands_of_a_minimum_must_exist(void **unused) {
+  (void)unused;
+  const uint32_t op[] = { AMBIT_OP_MIN, AMBIT_OP_MAX };
+  for (size_t o = 0; o < 2; o++) {
+    fixture_host host;
+    fixture_host_open(&host);
+    ambit_arithmetic full = fixture_arithmetic();
+    fixture_tape *x = fixture_tape_open(&host);
+    uint32_t minus = fixture_constant(x, -1, -1), plus = fixture_constant(x, 1, 1),
+             u = fixture_input(x, AMBIT_DEGREE_ANY), root = fixture_op(x, AMBIT_OP_SQRT, u, u);
+    if (op[o] == AMBIT_OP_MAX) root = fixture_op(x, AMBIT_OP_NEG, root, root);
+    fixture_output(x, fixture_op(x, op[o], root, op[o] == AMBIT_OP_MIN ? minus : plus));
+    ambit_jet *jet;
+    assert_int_equal(service->open(&host.host, &x->tape, &full, NULL, 4, 1, NULL, &jet), AMBIT_OK);
+    service->put(jet, 0, 0, 0.5, 0, NULL, NULL), service->put(jet, 0, 1, -1, 0, NULL, NULL);
+    for (uint32_t k = 0; k <= 4; k++) assert_int_equal(service->advance(jet, k), 0);
+    double in = 1e-3, tail, change;
+    for (uint32_t K = 1; K <= 4; K += 3) {
+      assert_int_equal(service->tail(jet, K, 10, &in, NULL, &tail, &change), AMBIT_OK);
+      assert_true(tail == INFINITY && change == INFINITY);
+      assert_int_equal(service->tail(jet, K, 0.1, &in, NULL, &tail, &change), AMBIT_OK);
+      assert_true(tail == 0 && change == 0);
+    }
+    fixture_host_close(&host);
+  }
+}
+
+/* t = 1/4 + 2 t beyond K = 0: its coefficient of order 1 is all tail. */
+static void polynomials_above_the_order(void **unused) {
+  (void)unused;
+  fixture_host host;
+  fixture_host_open(&host);
+  ambit_arithmetic full = fixture_arithmetic();
+  fixture_tape *x = fixture_tape_open(&host);
+  uint32_t t = fixture_input(x, 1);
+  fixture_output(x, t), fixture_output(x, fixture_op(x, AMBIT_OP_SQR, t, t));
+  ambit_jet *jet;
+  double tail[2], change[2], one = 1, three = 3, none = 0, in = 0.5;
+  assert_int_equal(service->open(&host.host, &x->tape, &full, NULL, 2, 1, NULL, &jet), AMBIT_OK);
+  service->put(jet, 0, 0, 0.25, 0, &one, &none), service->put(jet, 0, 1, 2, 0, &three, &none);
+  assert_int_equal(service->advance(jet, 0), 0);
+  assert_int_equal(service->tail(jet, 0, -0.5, NULL, NULL, tail, change), AMBIT_OK);
+  assert_true(tail[0] == 1 && change[0] == 1.5);
+  assert_true(tail[1] >= 1.5 * 1 && tail[1] < 1.51); /* (1/4 + s)^2 - 1/16 = s/2 + s^2 */
+  assert_int_equal(service->tail(jet, 0, 0.5, &in, NULL, tail, change), AMBIT_OK);
+  assert_true(tail[0] == 1.5); /* beside what the caller knows */
+  service->put(jet, 0, 1, -4, 0, NULL, NULL);
+  assert_int_equal(service->tail(jet, 0, 0.5, NULL, NULL, tail, change), AMBIT_OK);
+  assert_true(tail[0] == 2 && change[0] == 0); /* the new coefficient counts */
+  assert_int_equal(service->advance(jet, 1), 0);
+  assert_int_equal(service->tail(jet, 1, 0.5, NULL, NULL, tail, NULL), AMBIT_OK);
+  assert_true(tail[0] == 0 && tail[1] == 4);
+  assert_int_equal(service->open(&host.host, &x->tape, &full, NULL, 0, 1, NULL, &jet), AMBIT_OK);
+  service->put(jet, 0, 0, 0.25, 0, NULL, NULL), service->put(jet, 0, 1, 2, 0, NULL, NULL);
+  assert_int_equal(service->advance(jet, 0), 0);
+  assert_int_equal(service->tail(jet, 0, 0.5, NULL, NULL, tail, change), AMBIT_OK);
+  assert_true(tail[0] == INFINITY && change[0] == INFINITY); /* order 1 could not be kept */
+  fixture_host_close(&host);
+}
+
+/* -- an arithmetic that cannot bound everything it computes, and says so without a flag */
+
+static uint32_t blind_slot;
+
+static void blind_magnitude(const void *self, uint32_t slot, uint32_t n, double *mag, double *dmag) {
+  ambit_jets_general.magnitude(self, slot, n, mag, dmag);
+  for (uint32_t k = 2; k < n && slot == blind_slot; k++) mag[k] = INFINITY;
+}
+
+static void blind_get(
+    const void *self, uint32_t slot, uint32_t k, double *mid, double *rad, double *dmid, double *drad) {
+  ambit_jets_general.get(self, slot, k, mid, rad, dmid, drad);
+  if (slot == blind_slot) *mid = INFINITY, *rad = 0;
+}
+
+/* tail of op(u), u = start + t/10 + 0 t^2, with jets that are blind for one slot: op's operand or its helper */
+static double blind_tail(uint32_t op, double start, ambit_jets jets, bool operand) {
+  fixture_host host;
+  fixture_host_open(&host);
+  ambit_arithmetic full = fixture_arithmetic(), blind = full;
+  ambit_jet_source source = { &full, NULL };
+  blind.jets = &jets;
+  fixture_tape *x = fixture_tape_open(&host);
+  uint32_t u = fixture_input(x, AMBIT_DEGREE_ANY), y = fixture_function(x, op, u, u, 0);
+  fixture_output(x, y);
+  blind_slot = operand ? u : x->aux[0];
+  ambit_jet *jet;
+  assert_int_equal(service->open(&host.host, &x->tape, &blind, &source, 2, 0, NULL, &jet), AMBIT_OK);
+  service->put(jet, 0, 0, start, 0, NULL, NULL), service->put(jet, 0, 1, 0.1, 0, NULL, NULL);
+  for (uint32_t k = 0; k <= 2; k++) assert_int_equal(service->advance(jet, k), 0);
+  double tail;
+  assert_int_equal(service->tail(jet, 2, 1, NULL, NULL, &tail, NULL), AMBIT_OK);
+  fixture_host_close(&host);
+  return tail;
+}
+
+static void infinite_bounds_claim_nothing(void **unused) {
+  (void)unused;
+  ambit_jets large = ambit_jets_general, far = ambit_jets_general;
+  large.magnitude = blind_magnitude, far.get = blind_get;
+  assert_true(blind_tail(AMBIT_OP_SINH, 0, ambit_jets_general, false) < 1e-3);
+  assert_true(blind_tail(AMBIT_OP_SINH, 0, large, false) == INFINITY); /* the defect is 0 times infinity */
+  assert_true(blind_tail(AMBIT_OP_COSH, 0, large, false) == INFINITY);
+  assert_true(blind_tail(AMBIT_OP_LOG, 1, ambit_jets_general, true) < 1e-2);
+  assert_true(blind_tail(AMBIT_OP_LOG, 1, far, true) == INFINITY); /* a point at infinity is not far from 0 */
+}
+
+/* -- sizes beyond the memory that there can be */
+
+static int allocations;
+
+static void *count_alloc(const ambit_host *h, size_t bytes) {
+  allocations++;
+  return bytes < 4096 ? fixture_alloc(h, bytes) : NULL;
+}
+
+static void sizes_are_checked_before_memory_is_asked_for(void **unused) {
+  (void)unused;
+  fixture_host host;
+  fixture_host_open(&host);
+  host.host.alloc = count_alloc;
+  fixture_tape *x = fixture_tape_open(&host);
+  x->tape.nslot = UINT32_MAX;
+  ambit_tails *tails;
+  const uint32_t order[] = { UINT32_MAX / 4, UINT32_MAX / 8, 3 }, ndir[] = { 0, 1, UINT32_MAX };
+  for (size_t i = 0; i < 3; i++) {
+    allocations = 0;
+    assert_int_equal(ambit_tails_open(&host.host, &x->tape, order[i], ndir[i], &tails), AMBIT_NOMEM);
+    assert_int_equal(allocations, 1); /* the object itself */
+  }
+  fixture_host_close(&host);
+}
+
 /* Picard's inclusion: x' = x^2, x = 1/(1 - t): the step's remainder holds the solution. */
 static void picard(void **unused) {
   (void)unused;
@@ -293,6 +463,11 @@ int main(void) {
     cmocka_unit_test(random_programs),
     cmocka_unit_test(edges),
     cmocka_unit_test(refusals),
+    cmocka_unit_test(refusals_claim_nothing),
+    cmocka_unit_test(both_operands_of_a_minimum_must_exist),
+    cmocka_unit_test(polynomials_above_the_order),
+    cmocka_unit_test(infinite_bounds_claim_nothing),
+    cmocka_unit_test(sizes_are_checked_before_memory_is_asked_for),
     cmocka_unit_test(picard),
   };
   return cmocka_run_group_tests_name("tail", tests, NULL, NULL);

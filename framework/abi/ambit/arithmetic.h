@@ -40,7 +40,7 @@ typedef struct ambit_jets {
   /* computes order k of every slot, from orders <= k of the inputs; orders ascend from 0. Returns AMBIT_F_*; PARTIAL
   ** or UNBOUNDED: the coefficients prove nothing */
   uint32_t (*advance)(void *self, uint32_t k);
-  /* coefficient k of a slot; any of the last two may be NULL */
+  /* coefficient k of a slot, +- radius; dmid, drad [ndir]: each may be NULL, mid and rad may not */
   void (*get)(const void *self, uint32_t slot, uint32_t k, double *mid, double *rad, double *dmid, double *drad);
   /* upper bounds: mag[k] >= |u_k|, dmag[k*ndir + j] >= |s_j,k|, k < n; dmag may be NULL */
   void (*magnitude)(const void *self, uint32_t slot, uint32_t n, double *mag, double *dmag);

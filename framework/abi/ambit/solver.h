@@ -6,11 +6,13 @@
 #define AMBIT_SOLVER "ambit.solver/1"
 
 /* What a solver may ask for; the kernel builds only that. */
-#define AMBIT_WANT_RHS 1u      /* x' = f(x, p, t) as a tape */
-#define AMBIT_WANT_SERIES 2u   /* the rhs tape must be a SERIES tape */
-#define AMBIT_WANT_JACOBIAN 4u /* df/dx as a tape, row by row, same inputs as the rhs */
-#define AMBIT_WANT_INITIAL 8u  /* initial state and parameters as a SERIES tape over the unknowns */
-#define AMBIT_WANT_EVENT 16u   /* g(x, p, t) whose sign changes end a phase */
+#define AMBIT_WANT_RHS 1u    /* x' = f(x, p, t) as a tape */
+#define AMBIT_WANT_SERIES 2u /* the rhs tape must be a SERIES tape */
+/* df/dx as a tape, row by row, same inputs as the rhs; valid where f is defined and differentiable: off the cut of
+** atan2, on which the entries may be finite although f jumps */
+#define AMBIT_WANT_JACOBIAN 4u
+#define AMBIT_WANT_INITIAL 8u /* initial state and parameters as a SERIES tape over the unknowns */
+#define AMBIT_WANT_EVENT 16u  /* g(x, p, t) whose sign changes end a phase */
 
 /* Inputs of rhs, jacobian, event: x [nx], p [np], then t if uses_time. Inputs of initial: the unknowns [nu];
 ** its outputs: x(t0) [nx], p [np]. An unknown that several data share occurs once: correlation is kept. */
@@ -55,7 +57,8 @@ typedef struct ambit_solver {
   const ambit_param *param;
   /* [ctx] allocates everything here; `option` in declaration order, shapes flattened */
   ambit_status (*open)(const ambit_host *h, const ambit_problem *p, const double *option, void **self);
-  /* [ctx] runs to the end; no allocation inside. Failures say why and which knob to turn, through h->fail of open's host */
+  /* [ctx] runs to the end; no allocation inside. Failures say why and which knob to turn, through h->fail of open's
+  ** host */
   ambit_status (*run)(void *self, ambit_sink *s);
   void (*close)(void *self);
   uint32_t (*want_for)(const double *option); /* NULL: `want`; else what these options need */
