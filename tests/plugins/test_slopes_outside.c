@@ -56,7 +56,10 @@ static uint32_t solve(const scene *s, ambit_jet *centre, ambit_jet *box) {
     service->put(centre, i, 0, s->a[i], 0, NULL, NULL), service->put(centre, i, 1, s->c[i], 0, NULL, NULL);
     service->put(box, i, 0, mid, rad, &s->b[i], &zero), service->put(box, i, 1, s->c[i], 0, NULL, NULL);
   }
-  for (uint32_t k = 0; k <= ORDER; k++) flags |= service->advance(centre, k) | service->advance(box, k);
+  for (uint32_t k = 0; k <= ORDER; k++) {
+    flags |= service->advance(centre, k);
+    flags |= service->advance(box, k);
+  }
   return flags;
 }
 

@@ -126,7 +126,8 @@ static AMBIT_WORKER uint32_t evaluate_origin(const lohner *s, origin *o) {
     s->jet->put(o->centre, i, 0, u.mid, 0, NULL, NULL);
     s->jet->put(o->box, i, 0, u.mid, u.rad, o->seed, o->no_radius);
   }
-  uint32_t flags = s->jet->advance(o->centre, 0) | s->jet->advance(o->box, 0);
+  uint32_t flags = s->jet->advance(o->centre, 0);
+  flags |= s->jet->advance(o->box, 0); /* slopes build on the centre */
   for (uint32_t i = 0; i < p->nx + p->np && !flags; i++) {
     double mid, rad;
     size_t row = (size_t)i * p->nu;
