@@ -77,5 +77,9 @@ struct ambit_arithmetic {
   const ambit_jets *jets;
   /* element from a constant's text, tighter than its enclosure; returns 0 if it has no better than set() */
   int32_t (*set_text)(void *ctx, void *dst, const char *text);
+  /* [lo[j], hi[j]], j < nvar, encloses the partial derivative of *src by variable j over the whole box (a generalised
+  ** one where the function has a kink, so that a mean value theorem holds); returns 0 if it knows none: then a path to
+  ** *src left the domain or is not continuous */
+  int32_t (*gradient)(void *ctx, const void *src, double *lo, double *hi);
 };
 #endif
