@@ -2,6 +2,7 @@
 ** scripts/command. */
 #include "lua/core.h"
 #include "lua/interrupt.h"
+#include <fenv.h>
 #include <lualib.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -38,6 +39,7 @@ static int command(lua_State *L) {
 }
 
 int main(int argc, char **argv) {
+  fesetenv(FE_DFL_ENV); /* a library that was loaded before may have set flush-to-zero */
   lua_State *L = luaL_newstate();
   if (!L || argc < 1) {
     fprintf(stderr, "ambit: out of memory\n");

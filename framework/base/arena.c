@@ -1,5 +1,6 @@
 /* arena.c -- a chain of blocks; an allocation is a bump of the newest block's fill mark. */
 #include "base/arena.h"
+#include "base/memory.h"
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -40,7 +41,7 @@ void ambit_arena_close(ambit_arena *arena) {
 static block *add_block(ambit_arena *arena, size_t bytes) {
   size_t size = arena->next_size;
   if (size < bytes) size = bytes;
-  if (size > SIZE_MAX / 2 - header) return NULL;
+  if (size > SIZE_MAX / 2 - header || !ambit_memory_allows(header + size)) return NULL;
   block *b = aligned_alloc(ALIGNMENT, header + size);
   if (!b) return NULL;
   *b = (block) { arena->newest, size, 0 };

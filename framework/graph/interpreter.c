@@ -3,6 +3,7 @@
 ** The result is sound because every run function encloses the exact image of its operands, and operands precede.
 */
 #include "graph/interpreter.h"
+#include "base/memory.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -29,6 +30,9 @@ static ambit_status allocate(ambit_block *block, ambit_failure *f) {
   if (overflow)
     return ambit_fail(f, AMBIT_INVALID,
         "%zu slots in %zu lanes of %zu bytes need %.3g bytes, more than there are addresses", slots, lanes, elem, need);
+  if (!ambit_memory_allows(bytes))
+    return ambit_fail(f, AMBIT_NOMEM, "%zu slots in %zu lanes of %zu bytes need %.3g bytes, but only %.3g are free",
+        slots, lanes, elem, need, (double)ambit_memory_available());
   bytes = (bytes / ALIGNMENT + 1) * ALIGNMENT;
   block->base = aligned_alloc(ALIGNMENT, bytes);
   if (!block->base)

@@ -3,6 +3,7 @@
 #include "host/object.h"
 #include <dlfcn.h>
 #include <elf.h>
+#include <fenv.h>
 #include <link.h>
 #include <stdio.h>
 #include <string.h>
@@ -66,9 +67,18 @@ static ambit_status check_entry(
   return AMBIT_OK;
 }
 
+/* The floating-point environment is kept: a library linked with -ffast-math sets flush-to-zero when it is loaded. */
+static void *open_library(const char *file) {
+  fenv_t floating;
+  fegetenv(&floating);
+  void *handle = dlopen(file, RTLD_NOW | RTLD_LOCAL);
+  fesetenv(&floating);
+  return handle;
+}
+
 ambit_status ambit_load_file(const char *file, const char *id, ambit_loaded *loaded, char reason[AMBIT_REASON_MAX]) {
   if (!ambit_object_check(file, reason, AMBIT_REASON_MAX)) return AMBIT_INVALID;
-  void *handle = dlopen(file, RTLD_NOW | RTLD_LOCAL);
+  void *handle = open_library(file);
   if (!handle) {
     const char *why = dlerror();
     snprintf(reason, AMBIT_REASON_MAX, "the loader says: %s", why ? why : "no reason");

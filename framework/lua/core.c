@@ -1,6 +1,7 @@
 /* core.c -- the module `ambit` and its C half `ambit.core`. */
 #include "lua/core.h"
 #include "lua/embedded.h"
+#include "num/rounding.h"
 #include <string.h>
 
 static const char state_key = 0; /* its address is the key in the Lua registry */
@@ -37,9 +38,27 @@ static ambit_lua *state_get(lua_State *L) {
   return core;
 }
 
-void ambit_lua_set_functions(lua_State *L, ambit_lua *core, const luaL_Reg *functions) {
+/* A Lua error that passes leaves the standard environment behind. */
+static int in_standard_environment(lua_State *L) {
+  lua_CFunction f = lua_tocfunction(L, lua_upvalueindex(2));
+  ambit_rounding outside = ambit_round_nearest();
+  int results = f(L);
+  ambit_rounding_restore(outside);
+  return results;
+}
+
+void ambit_lua_push_function(lua_State *L, ambit_lua *core, lua_CFunction f, int n) {
   lua_pushlightuserdata(L, core);
-  luaL_setfuncs(L, functions, 1);
+  lua_pushcfunction(L, f);
+  lua_rotate(L, -2 - n, 2);
+  lua_pushcclosure(L, in_standard_environment, 2 + n);
+}
+
+void ambit_lua_set_functions(lua_State *L, ambit_lua *core, const luaL_Reg *functions) {
+  for (; functions->name; functions++) {
+    ambit_lua_push_function(L, core, functions->func, 0);
+    lua_setfield(L, -2, functions->name);
+  }
 }
 
 void ambit_lua_new_type(lua_State *L, ambit_lua *core, const char *type, const luaL_Reg *functions) {

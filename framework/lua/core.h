@@ -19,7 +19,7 @@
 #include <lauxlib.h>
 #include <lua.h>
 
-/* One per Lua state, kept in the Lua registry; upvalue 1 of every function of the core. */
+/* One per Lua state, kept in the Lua registry. */
 typedef struct ambit_lua {
   ambit_graph *graph;
   ambit_registry *registry;
@@ -28,7 +28,11 @@ typedef struct ambit_lua {
   bool progress;          /* draw a progress bar on stderr */
 } ambit_lua;
 
+/* The functions of the core run in the standard floating-point environment, whatever the host program set. Pushes f
+** as such a function and pops n values that are its own: AMBIT_LUA_OWN(1) .. AMBIT_LUA_OWN(n). */
+void ambit_lua_push_function(lua_State *L, ambit_lua *core, lua_CFunction f, int n);
 #define AMBIT_LUA(L) ((ambit_lua *)lua_touserdata(L, lua_upvalueindex(1)))
+#define AMBIT_LUA_OWN(k) lua_upvalueindex(2 + (k))
 
 #define AMBIT_TYPE_EXPRESSION "ambit.expression"
 #define AMBIT_TYPE_ENCLOSURE "ambit.enclosure"

@@ -84,7 +84,7 @@ static int less_equal(lua_State *L) {
   return 1;
 }
 
-/* x.lo, x.hi, x.partial; everything else is a method (upvalue 2) */
+/* x.lo, x.hi, x.partial; everything else is a method (own value 1) */
 static int get_field(lua_State *L) {
   const ambit_lua_enclosure *x = self(L);
   const char *key = luaL_checkstring(L, 2);
@@ -92,7 +92,7 @@ static int get_field(lua_State *L) {
   if (strcmp(key, "hi") == 0) return lua_pushnumber(L, x->x.hi), 1;
   if (strcmp(key, "partial") == 0) return lua_pushboolean(L, (x->flags & AMBIT_F_PARTIAL) != 0), 1;
   lua_pushvalue(L, 2);
-  if (lua_rawget(L, lua_upvalueindex(2)) != LUA_TNIL) return 1;
+  if (lua_rawget(L, AMBIT_LUA_OWN(1)) != LUA_TNIL) return 1;
   ambit_lua_error(L,
       "an enclosure has no `%s` (it has lo, hi, partial, width(), mid(), rad(), mag(), mig(), contains(x), "
       "hull(x), intersect(x), text(digits), is_empty(), is_bounded())",
@@ -120,10 +120,9 @@ void ambit_lua_open_enclosure(lua_State *L, ambit_lua *core) {
     lua_getfield(L, -2, operators[i][1]);
     lua_setfield(L, -2, operators[i][0]);
   }
-  lua_pushlightuserdata(L, core);
   lua_newtable(L);
   ambit_lua_set_functions(L, core, methods);
-  lua_pushcclosure(L, get_field, 2);
+  ambit_lua_push_function(L, core, get_field, 1);
   lua_setfield(L, -2, "__index");
   lua_pop(L, 1);
 }

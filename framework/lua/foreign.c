@@ -6,6 +6,7 @@
 */
 #include "lua/core.h"
 #include "lua/signature.h"
+#include "num/rounding.h"
 #include <math.h>
 #include <string.h>
 
@@ -78,6 +79,17 @@ static int invoke(lua_State *L) {
   return 0;
 }
 
+static void call_back(const callback *c, invocation *call) {
+  if (*c->failed || !lua_checkstack(c->L, 4)) return;
+  lua_pushcfunction(c->L, invoke);
+  lua_pushvalue(c->L, c->function);
+  lua_pushlightuserdata(c->L, call);
+  if (lua_pcall(c->L, 2, 0, 0) == LUA_OK) return;
+  lua_replace(c->L, c->slot);
+  *c->failed = c->slot;
+}
+
+/* The plugin may be in the middle of a computation in another rounding mode. */
 static void on_call(ffi_cif *cif, void *result, void **argument, void *user) {
   const callback *c = user;
   invocation call = { c, argument, result };
@@ -86,13 +98,9 @@ static void on_call(ffi_cif *cif, void *result, void **argument, void *user) {
     *(double *)result = NAN;
   else if (c->signature->result != 'v')
     *(ffi_arg *)result = 0;
-  if (*c->failed || !lua_checkstack(c->L, 4)) return;
-  lua_pushcfunction(c->L, invoke);
-  lua_pushvalue(c->L, c->function);
-  lua_pushlightuserdata(c->L, &call);
-  if (lua_pcall(c->L, 2, 0, 0) == LUA_OK) return;
-  lua_replace(c->L, c->slot);
-  *c->failed = c->slot;
+  ambit_rounding outside = ambit_round_nearest();
+  call_back(c, &call);
+  ambit_rounding_restore(outside);
 }
 
 /* -- a call: Lua calls C */
@@ -196,7 +204,7 @@ static int push_result(lua_State *L, char kind, const word *r) {
 }
 
 static int call(lua_State *L) {
-  const function *fn = lua_touserdata(L, lua_upvalueindex(2));
+  const function *fn = lua_touserdata(L, AMBIT_LUA_OWN(1));
   const ambit_signature *s = fn->signature;
   word w[2 * AMBIT_SIGNATURE_MAX] = { { 0 } }, result = { 0 };
   void *address[2 * AMBIT_SIGNATURE_MAX];
@@ -234,9 +242,8 @@ static int exports(lua_State *L) {
     if (!fn->signature) ambit_lua_error(L, "plugin %s.%s, function %s: %s", kind, name, e->function[i].name, f.message);
     fn->call = e->function[i].call;
     fn->name = e->function[i].name;
-    lua_pushlightuserdata(L, core);
     lua_pushlightuserdata(L, fn);
-    lua_pushcclosure(L, call, 2);
+    ambit_lua_push_function(L, core, call, 1);
     lua_setfield(L, -3, fn->name);
     lua_createtable(L, 0, 2);
     lua_pushstring(L, e->function[i].signature);

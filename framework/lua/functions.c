@@ -49,14 +49,14 @@ static int apply(lua_State *L, uint32_t op, int arity, const char *what) {
 
 /* sin(x), atan2(y, x): upvalue 2 is the opcode */
 static int function(lua_State *L) {
-  uint32_t op = (uint32_t)lua_tointeger(L, lua_upvalueindex(2));
-  return apply(L, op, opcode[op].arity, lua_tostring(L, lua_upvalueindex(3)));
+  uint32_t op = (uint32_t)lua_tointeger(L, AMBIT_LUA_OWN(1));
+  return apply(L, op, opcode[op].arity, lua_tostring(L, AMBIT_LUA_OWN(2)));
 }
 
 /* min(a, b, ...), max(a, b, ...) */
 static int fold(lua_State *L) {
-  uint32_t op = (uint32_t)lua_tointeger(L, lua_upvalueindex(2));
-  const char *what = lua_tostring(L, lua_upvalueindex(3));
+  uint32_t op = (uint32_t)lua_tointeger(L, AMBIT_LUA_OWN(1));
+  const char *what = lua_tostring(L, AMBIT_LUA_OWN(2));
   int n = lua_gettop(L);
   if (n == 1) {
     lua_pushvalue(L, 1);
@@ -128,10 +128,9 @@ static int power(lua_State *L) {
 }
 
 static void push_function(lua_State *L, ambit_lua *core, lua_CFunction f, uint32_t op, const char *name) {
-  lua_pushlightuserdata(L, core);
   lua_pushinteger(L, op);
   lua_pushstring(L, name);
-  lua_pushcclosure(L, f, 3);
+  ambit_lua_push_function(L, core, f, 2);
 }
 
 void ambit_lua_open_functions(lua_State *L, ambit_lua *core) {

@@ -1,12 +1,17 @@
 /* context.c -- opening an arithmetic. */
 #include "model/context.h"
+#include "num/environment.h"
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
 
 static void forward_note(void *user, const char *line) { ambit_registry_note(user, line); }
 
+/* Every verb comes this way: comparisons and conversions all over the kernel take the standard environment for granted. */
 ambit_status ambit_context_lease(ambit_registry *r, ambit_lease **lease, ambit_failure *f) {
+  if (!ambit_environment_is_standard())
+    return ambit_fail(f, AMBIT_INVALID,
+        "this thread does not round to nearest or flushes subnormal numbers to zero; call fesetenv(FE_DFL_ENV) first");
   ambit_status status = ambit_lease_open(lease, forward_note, r);
   return status == AMBIT_OK ? status : ambit_fail(f, status, "out of memory");
 }

@@ -1,4 +1,5 @@
-/* environment.h -- rounding mode and locale for the C library's conversions.
+/* environment.h -- the floating-point environment of the calling thread, and rounding mode and locale for the C
+** library's conversions.
 **
 ** printf and strtod look at the mode of the whole environment (x87 control word included) and at the decimal point of
 ** the thread's locale; a host program or os.setlocale may have changed either.
@@ -7,6 +8,10 @@
 #define AMBIT_ENVIRONMENT_H
 #include <fenv.h>
 #include <locale.h>
+#include <stdbool.h>
+
+/* Does the calling thread round to nearest, with subnormal numbers? Found by trying, so that it holds everywhere. */
+bool ambit_environment_is_standard(void);
 
 typedef struct ambit_environment {
   fenv_t floating;

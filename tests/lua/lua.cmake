@@ -4,8 +4,13 @@ target_link_libraries(test_callbacks PRIVATE ambit_flags)
 set_target_properties(test_callbacks PROPERTIES PREFIX "" OUTPUT_NAME callbacks
   LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests/lua/plugins/service)
 
+add_library(test_hostile MODULE ${CMAKE_CURRENT_LIST_DIR}/environment/hostile.c)
+target_include_directories(test_hostile PRIVATE ${LUA_INCLUDE_DIRS})
+target_link_libraries(test_hostile PRIVATE ambit_flags)
+set_target_properties(test_hostile PROPERTIES PREFIX "" OUTPUT_NAME hostile LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests/lua)
+
 set(lua_environment "AMBIT_PATH=${PROJECT_BINARY_DIR}/tests/lua/plugins:${PROJECT_BINARY_DIR}/tests/plugins:${PROJECT_BINARY_DIR}/plugins"
-  "LUA_CPATH=${PROJECT_BINARY_DIR}/lua/?.so\\;\\;" "AMBIT_COMMAND=$<TARGET_FILE:ambit>" "NO_COLOR=1")
+  "LUA_CPATH=${PROJECT_BINARY_DIR}/lua/?.so\\;${PROJECT_BINARY_DIR}/tests/lua/?.so\\;\\;" "AMBIT_COMMAND=$<TARGET_FILE:ambit>" "NO_COLOR=1")
 
 add_test(NAME lua.specs.command COMMAND ambit test tests/lua WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
 set_tests_properties(lua.specs.command PROPERTIES TIMEOUT 300 ENVIRONMENT "${lua_environment}")

@@ -13,6 +13,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#ifdef __FAST_MATH__
+#error "Ambit cannot be compiled with -ffast-math: enclosures would be wrong"
+#endif
+
 #define AMBIT_ABI_MAJOR 1
 #define AMBIT_ABI_MINOR 0
 #define AMBIT_ABI ((uint32_t)AMBIT_ABI_MAJOR << 16 | AMBIT_ABI_MINOR)

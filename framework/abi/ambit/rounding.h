@@ -8,10 +8,7 @@
 */
 #ifndef AMBIT_ABI_ROUNDING_H
 #define AMBIT_ABI_ROUNDING_H
-
-#ifdef __FAST_MATH__
-#error "Ambit cannot be compiled with -ffast-math: enclosures would be wrong"
-#endif
+#include "base.h"
 
 #define AMBIT_WORKER __attribute__((noinline, noipa))
 #if defined(__clang__)

@@ -1,0 +1,27 @@
+/* hostile.c -- a Lua module that does what a careless host program does: hostile(mode, flush) sets the rounding mode
+** ("nearest", "upward", "downward", "zero") and, where there is such a thing, flush-to-zero and denormals-are-zero. */
+#include <fenv.h>
+#include <lauxlib.h>
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
+
+#define FLUSH_TO_ZERO 0x8000u
+#define DENORMALS_ARE_ZERO 0x0040u
+
+static int hostile(lua_State *L) {
+  static const char *const name[] = { "nearest", "upward", "downward", "zero", NULL };
+  static const int mode[] = { FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO };
+  fesetround(mode[luaL_checkoption(L, 1, NULL, name)]);
+#if defined(__SSE2__)
+  if (lua_toboolean(L, 2)) _mm_setcsr(_mm_getcsr() | FLUSH_TO_ZERO | DENORMALS_ARE_ZERO);
+#endif
+  return 0;
+}
+
+int luaopen_hostile(lua_State *L); /* found by its name */
+
+int luaopen_hostile(lua_State *L) {
+  lua_pushcfunction(L, hostile);
+  return 1;
+}
