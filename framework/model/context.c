@@ -1,17 +1,28 @@
 /* context.c -- opening an arithmetic. */
 #include "model/context.h"
 #include "num/environment.h"
+#include "num/outward.h"
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
 
 static void forward_note(void *user, const char *line) { ambit_registry_note(user, line); }
 
-/* Every verb comes this way: comparisons and conversions all over the kernel take the standard environment for granted. */
-ambit_status ambit_context_lease(ambit_registry *r, ambit_lease **lease, ambit_failure *f) {
+/* Every verb comes this way. Comparisons and conversions all over the kernel take the standard environment for granted.
+*/
+static ambit_status check_floating_point(ambit_failure *f) {
   if (!ambit_environment_is_standard())
     return ambit_fail(f, AMBIT_INVALID,
         "this thread does not round to nearest or flushes subnormal numbers to zero; call fesetenv(FE_DFL_ENV) first");
+  if (!ambit_interval_rounds_outward())
+    return ambit_fail(f, AMBIT_BROKEN, "this build does not round outward (compiled without -frounding-math?)");
+  return AMBIT_OK;
+}
+
+ambit_status ambit_context_lease(ambit_registry *r, ambit_lease **lease, ambit_failure *f) {
+  *lease = NULL;
+  ambit_status floating = check_floating_point(f);
+  if (floating != AMBIT_OK) return floating;
   ambit_status status = ambit_lease_open(lease, forward_note, r);
   return status == AMBIT_OK ? status : ambit_fail(f, status, "out of memory");
 }

@@ -2,6 +2,7 @@
 #include "num/environment.h"
 #include "model/evaluate.h"
 #include "model/scene.h"
+#include "num/outward.h"
 #include <setjmp.h>
 #include <stdarg.h>
 #include <cmocka.h>
@@ -49,7 +50,21 @@ static void refuses_other_environments(void **state) {
   scene_close(s);
 }
 
+static void rounds_outward_in_every_mode(void **state) {
+  static const int mode[] = { FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO };
+  (void)state;
+  for (int i = 0; i < 4; i++) {
+    fesetround(mode[i]);
+    bool outward = ambit_interval_rounds_outward();
+    fesetenv(FE_DFL_ENV);
+    assert_true(outward);
+  }
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = { cmocka_unit_test(refuses_other_environments) };
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(refuses_other_environments),
+    cmocka_unit_test(rounds_outward_in_every_mode),
+  };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
