@@ -28,7 +28,9 @@ static void all_plugins_conform(void **state) {
   } element[] = { { "ground", true, true }, { "frame", true, true }, { "rigid_link", true, true },
     { "revolute", true, true }, { "prismatic", true, true }, { "sloppy_joint", true, false },
     { "rigid_body", false, true }, { "point_mass", false, true }, { "gravity", false, true },
-    { "joint_torque", false, false } };
+    { "joint_torque", false, false }, { "weld", true, true }, { "cylindrical", true, true },
+    { "universal", true, true }, { "planar", true, true }, { "screw", true, true }, { "spherical", true, true },
+    { "free", true, true } };
   for (size_t i = 0; i < sizeof element / sizeof *element; i++)
     for (uint64_t seed = 1; seed <= 3; seed++) {
       element_kit_report r = run_plugin(element[i].name, seed);
