@@ -2,13 +2,15 @@
 **
 ** Sound because every step is: substitution and sealing keep identities, the arithmetic encloses the exact image of
 ** its inputs, and an unknown that several expressions share is one variable. An arithmetic that is not rigorous
-** proves nothing and says so.
+** proves nothing and says so. Where the arithmetic tells derivatives, results are narrowed by monotonicity
+** (monotone.h).
 */
 #include "model/evaluate.h"
 #include "graph/interpreter.h"
 #include "graph/tape.h"
 #include "model/bound.h"
 #include "model/context.h"
+#include "model/monotone.h"
 #include <stdio.h>
 
 typedef struct job {
@@ -16,6 +18,7 @@ typedef struct job {
   ambit_arena *arena;
   ambit_bound bound;
   const ambit_tape *tape;
+  uint32_t seal; /* flags of sealing */
   ambit_context context;
   ambit_block *block;
 } job;
@@ -27,24 +30,31 @@ static ambit_status prepare(job *j, ambit_failure *f) {
   size_t nu = j->bound.nunknown;
   status = ambit_context_open(q->registry, q->arithmetic, q->noption, q->option, (uint32_t)nu, &j->context, f);
   if (status != AMBIT_OK) return status;
-  uint32_t flags = j->context.arithmetic->set_text ? AMBIT_SEAL_KEEP : 0;
-  status = ambit_tape_seal(q->graph, j->arena, q->nexpr, j->bound.expr, nu, j->bound.unknown, 0, flags, &j->tape, f);
+  j->seal = j->context.arithmetic->set_text ? AMBIT_SEAL_KEEP : 0;
+  status = ambit_tape_seal(q->graph, j->arena, q->nexpr, j->bound.expr, nu, j->bound.unknown, 0, j->seal, &j->tape, f);
   if (status != AMBIT_OK) return status;
   return ambit_block_open(j->tape, j->context.arithmetic, j->context.ctx, 1, &j->block, f);
 }
 
-static uint32_t run(job *j, ambit_interval *out) {
+static ambit_status narrow(const job *j, size_t i, ambit_interval *x, ambit_failure *f) {
+  const ambit_monotone m = { j->q->graph, &j->context, j->seal, j->bound.nunknown, j->bound.unknown };
+  return ambit_monotone_narrow(&m, j->bound.expr[i], x, f);
+}
+
+static ambit_status run(job *j, ambit_interval *out, uint32_t *flags, ambit_failure *f) {
   for (size_t i = 0; i < j->bound.nunknown; i++)
     ambit_block_set(j->block, (uint32_t)i, 0, ambit_graph_node(j->q->graph, j->bound.unknown[i])->value, (int32_t)i);
-  uint32_t flags = ambit_block_run(j->block) & AMBIT_F_PARTIAL;
+  *flags = ambit_block_run(j->block) & AMBIT_F_PARTIAL;
   for (size_t i = 0; i < j->q->nexpr; i++) {
     out[i] = ambit_block_get(j->block, (uint32_t)i, 0);
+    ambit_status status = narrow(j, i, &out[i], f);
+    if (status != AMBIT_OK) return status;
     if (ambit_interval_is_empty(out[i]))
-      flags |= AMBIT_F_EMPTY;
+      *flags |= AMBIT_F_EMPTY;
     else if (!ambit_interval_is_bounded(out[i]))
-      flags |= AMBIT_F_UNBOUNDED;
+      *flags |= AMBIT_F_UNBOUNDED;
   }
-  return flags;
+  return AMBIT_OK;
 }
 
 static void fill_report(const job *j, double start, double built, ambit_report *report) {
@@ -70,7 +80,8 @@ ambit_status ambit_evaluate(
   ambit_status status = prepare(&j, f);
   if (status == AMBIT_OK) {
     double built = ambit_context_seconds();
-    uint32_t raised = run(&j, out);
+    uint32_t raised = 0;
+    status = run(&j, out, &raised, f);
     if (flags) *flags = raised;
     fill_report(&j, start, built, report);
   }
