@@ -1,0 +1,2 @@
+pkg_check_modules(MPFR REQUIRED IMPORTED_TARGET mpfr)
+set(AMBIT_PLUGIN_LIBRARIES PkgConfig::MPFR)
