@@ -19,11 +19,8 @@ end
 print "position of the hand, m"
 print "arithmetic     x                    y                    width of x  width of y"
 local function show(x) return x:width() > 0 and tostring(x) or ("%.6f"):format(x:mid()) end
-local there = ambit.plugins "arithmetic"
-for _, arithmetic in ipairs { "real", "interval", "affine", "taylor_model" } do
-  if there[arithmetic] then
-    local tip = ambit.evaluate { arm:position(at), arithmetic = arithmetic }
-    local row = "%-13s  %-19s  %-19s  %-10.4f  %.4f"
-    print(row:format(arithmetic, show(tip.x), show(tip.y), tip.x:width(), tip.y:width()))
-  end
+for _, arithmetic in ipairs { "real", "interval", "affine", "taylor_model", "gradient" } do
+  local tip = ambit.evaluate { arm:position(at), arithmetic = arithmetic }
+  local row = "%-13s  %-19s  %-19s  %-10.4f  %.4f"
+  print(row:format(arithmetic, show(tip.x), show(tip.y), tip.x:width(), tip.y:width()))
 end

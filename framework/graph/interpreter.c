@@ -4,6 +4,7 @@
 */
 #include "graph/interpreter.h"
 #include "base/memory.h"
+#include <ambit/block.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -46,16 +47,9 @@ static ambit_status allocate(ambit_block *block, ambit_failure *f) {
 }
 
 static void set_constants(ambit_block *block) {
-  const ambit_tape *t = block->tape;
-  const ambit_arithmetic *arithmetic = block->arithmetic;
-  for (uint32_t i = 0; i < t->nconst; i++) {
-    const char *text = arithmetic->set_text && t->text ? t->text[i] : NULL;
-    for (size_t lane = 0; lane < block->lanes; lane++) {
-      void *place = element(block, i, lane);
-      if (text && arithmetic->set_text(block->ctx, place, text)) continue;
-      arithmetic->set(block->ctx, place, 1, &t->lo[i], &t->hi[i], -1);
-    }
-  }
+  for (uint32_t i = 0; i < block->tape->nconst; i++)
+    for (size_t lane = 0; lane < block->lanes; lane++)
+      ambit_constant_set(block->arithmetic, block->ctx, element(block, i, lane), block->tape, i);
 }
 
 ambit_status ambit_block_open(

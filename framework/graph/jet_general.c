@@ -8,6 +8,7 @@
 #include "graph/interpreter.h"
 #include "graph/jet_general.h"
 #include "num/rounding.h"
+#include <ambit/block.h>
 #include <string.h>
 
 /* -- elements and rows */
@@ -276,18 +277,12 @@ static ambit_status allocate(const ambit_host *h, ambit_series *s) {
 
 static void set_constants(ambit_series *s) {
   const ambit_tape *t = s->tape;
-  const ambit_arithmetic *arithmetic = s->arithmetic;
   for (uint32_t i = 0; i < s->count; i++) ambit_series_set(s, i, (ambit_interval) { 0, 0 });
   ambit_series_set(s, s->half, (ambit_interval) { 0.5, 0.5 });
   for (uint32_t k = 0; k <= s->order; k++) ambit_series_set(s, s->number + k, (ambit_interval) { k, k });
-  for (uint32_t v = 0; v < t->nconst; v++) { /* a constant is its own mean */
-    for (uint32_t c = 0; c < s->slope; c++) {
-      uint32_t element = ambit_series_row(s, v, c).first;
-      const char *text = arithmetic->set_text && t->text ? t->text[v] : NULL;
-      if (text && arithmetic->set_text(s->ctx, place(s, element), text)) continue;
-      ambit_series_set(s, element, (ambit_interval) { t->lo[v], t->hi[v] });
-    }
-  }
+  for (uint32_t v = 0; v < t->nconst; v++) /* a constant is its own mean */
+    for (uint32_t c = 0; c < s->slope; c++)
+      ambit_constant_set(s->arithmetic, s->ctx, place(s, ambit_series_row(s, v, c).first), t, v);
 }
 
 static ambit_status open(const ambit_host *h, void *ctx, const ambit_tape *t, uint32_t order, uint32_t ndir,

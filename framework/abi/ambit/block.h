@@ -17,6 +17,14 @@ static inline void *ambit_lane_at(const ambit_lane *lane, uint32_t slot) {
   return (char *)lane->base + slot * lane->elem;
 }
 
+/* [ctx] dst := constant number i of the tape, from its text where the arithmetic reads more from that than from two
+** doubles */
+static inline void ambit_constant_set(
+    const ambit_arithmetic *arithmetic, void *actx, void *dst, const ambit_tape *t, uint32_t i) {
+  const char *text = arithmetic->set_text && t->text ? t->text[i] : NULL;
+  if (!text || !arithmetic->set_text(actx, dst, text)) arithmetic->set(actx, dst, 1, &t->lo[i], &t->hi[i], -1);
+}
+
 /* [ctx] room for every slot, constants set; the memory is the host object's */
 static inline ambit_status ambit_lane_open(
     ambit_lane *lane, const ambit_host *h, const ambit_tape *t, const ambit_arithmetic *arithmetic, void *actx) {
@@ -24,7 +32,7 @@ static inline ambit_status ambit_lane_open(
   lane->base = h->alloc(h, t->nslot * lane->elem);
   if (!lane->base) return AMBIT_NOMEM;
   if (arithmetic->init && arithmetic->init(actx, lane->base, t->nslot) != AMBIT_OK) return AMBIT_NOMEM;
-  for (uint32_t i = 0; i < t->nconst; i++) arithmetic->set(actx, ambit_lane_at(lane, i), 1, &t->lo[i], &t->hi[i], -1);
+  for (uint32_t i = 0; i < t->nconst; i++) ambit_constant_set(arithmetic, actx, ambit_lane_at(lane, i), t, i);
   return AMBIT_OK;
 }
 
