@@ -16,16 +16,6 @@ exit: 0 done and proved, 1 error in the scene or its input, 3 a verb ended "unab
 
 local function complain(message) io.stderr:write("ambit: ", tostring(message), "\n") end
 
--- With the records on stdout, what the scene prints must not get between them.
-local function print_to_stderr()
-  io.output(io.stderr)
-  function _G.print(...)
-    local words = table.pack(...)
-    for i = 1, words.n do words[i] = tostring(words[i]) end
-    io.stderr:write(table.concat(words, "\t"), "\n")
-  end
-end
-
 local function close_records()
   local good, problem = pcall(core.records_close)
   if not good then complain(problem) end
@@ -40,7 +30,7 @@ function command.run(list)
   if options.json then
     local good, problem = pcall(core.records_open, options.json)
     if not good then return complain(problem) or 1 end
-    if options.json == "-" then print_to_stderr() end
+    if options.json == "-" then scene.print_to_stderr() end
   end
   local good, problem = scene.run(file, words)
   if not good then complain(problem) end

@@ -1,5 +1,7 @@
 -- scene.lua -- running a script the way `lua` would: its words in `arg`, errors with a traceback of the script's own
 -- lines.
+local core = require "ambit.core"
+
 local scene = {
   leave = {}, -- raised where os.exit may not end the process
 }
@@ -35,25 +37,56 @@ end
 
 scene.explain = explain
 
--- Splits { options..., SCENE, words... }; `known` says which options take a value. Returns options, file, words or nil,
--- message.
-function scene.arguments(list, known)
-  local options, i = {}, 1
-  while list[i] and list[i]:sub(1, 2) == "--" do
-    local name, value = list[i]:match "^%-%-([%w-]+)=?(.*)$"
-    if list[i] == "--" then i = i + 1 break end
-    if known[name] == nil then return nil, ("unknown option `%s`"):format(list[i]) end
-    if known[name] and value == "" then
-      i = i + 1
-      value = list[i]
-      if not value then return nil, ("option `--%s` needs a value"):format(name) end
-    end
-    options[name] = known[name] and value or true
-    i = i + 1
+-- With the records on stdout, what the scene prints must not get between them.
+function scene.print_to_stderr()
+  io.output(io.stderr)
+  function _G.print(...)
+    local words = table.pack(...)
+    for i = 1, words.n do words[i] = tostring(words[i]) end
+    io.stderr:write(table.concat(words, "\t"), "\n")
   end
-  local file = list[i]
-  if not file then return nil, "expected a scene, a Lua file" end
-  return options, file, table.move(list, i + 1, #list, 1, {})
+end
+
+local function unknown_option(word, name, known)
+  local names = {}
+  for key in pairs(known) do names[#names + 1] = key end
+  table.sort(names)
+  local near = name and core.nearest(name, names)
+  return ("unknown option `%s`%s"):format(word, near and ("; did you mean `--%s`?"):format(near) or "")
+end
+
+-- Reads the option at list[i]: its name, its value (true if it takes none), the next i; or nil and a message. `known`
+-- says which options take a value.
+local function read_option(list, i, known)
+  local name, value = list[i]:match "^%-%-([%w-]+)=?(.*)$"
+  if known[name] == nil then return nil, unknown_option(list[i], name, known) end
+  if not known[name] then return name, true, i + 1 end
+  if value ~= "" then return name, value, i + 1 end
+  if not list[i + 1] then return nil, ("option `--%s` needs a value"):format(name) end
+  return name, list[i + 1], i + 2
+end
+
+-- Splits { options..., SCENE, words... } into options, file, words; or nil and a message. With `anywhere`, options may
+-- stand behind the scene too, up to `--`.
+function scene.arguments(list, known, anywhere)
+  local options, words, i = {}, {}, 1
+  local taking = true
+  while list[i] do
+    if taking and list[i]:sub(1, 2) == "--" then
+      if list[i] == "--" then
+        taking, i = false, i + 1
+      else
+        local name, value, after = read_option(list, i, known)
+        if not name then return nil, value end
+        options[name], i = value, after
+      end
+    else
+      words[#words + 1], i = list[i], i + 1
+      taking = taking and (anywhere or false)
+    end
+  end
+  if #words == 0 then return nil, "expected a scene, a Lua file" end
+  return options, words[1], table.move(words, 2, #words, 1, {})
 end
 
 return scene

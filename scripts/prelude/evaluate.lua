@@ -43,6 +43,7 @@ function verb.evaluate(t)
   local expressions, paths, rebuild = shape.flatten(verb.subject(t, "evaluate"), "evaluate")
   local leaves, values = binding.resolve(t.at, expressions, "evaluate")
   local name, options = option.arithmetic(t.arithmetic == nil and "interval" or t.arithmetic, "evaluate: arithmetic")
+  session.ask { expressions = expressions, paths = paths, leaves = leaves, values = values, arithmetic = name }
   local results, report = core.evaluate(name, options, expressions, leaves, values)
   write_values(paths, results)
   local facts = { status = "complete", arithmetic = name, cpu_seconds = report.seconds_run, report = report }

@@ -26,6 +26,10 @@ shape.]],
 simulate { ode, initial = { x = 1 }, t = { 0, 1 }, solver = "lohner", <options of the solver> }: a run with status,
 reason, t_reached, cpu_seconds, step_count, rigorous, x, :at(t), :steps().]],
   sample = "sample { expression or ode, n = 1000, seed = 1, ... }: Monte Carlo; proves nothing.",
+  compare = [[
+compare { expression or table of them, at = { name = value }, arithmetics = { "interval", { "affine", symbols =
+{ 10, 20 } } }, repeats = 5 }: width against run time, a result with status, rows, and a table when printed. Without
+expressions: how `ambit compare` shall compare this scene.]],
   derivative = "derivative(e, x): de/dx for a variable, an unknown or ambit.time.",
   simplify = "simplify(e): an equal expression with fewer operations, if one is found.",
   plugins = "plugins([kind]): what there is, without loading it.",

@@ -1,5 +1,6 @@
 -- init.lua -- the module `ambit`: what a scene sees.
 local check = require "ambit.check"
+local compare = require "ambit.compare"
 local core = require "ambit.core"
 local evaluate = require "ambit.evaluate"
 local help = require "ambit.help"
@@ -18,6 +19,7 @@ local ambit = {
   evaluate = evaluate.evaluate,
   simulate = simulate.simulate,
   sample = sample.sample,
+  compare = compare.compare,
   plugins = plugin.plugins,
   plugin = plugin.plugin,
   help = help,

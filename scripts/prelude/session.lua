@@ -8,6 +8,9 @@ local session = {
   mechanisms = setmetatable({}, weak),    -- by number; only what is still alive
   odes = setmetatable({}, weak),
   unable = false,                         -- did a verb end without a proof?
+  asked = nil,                            -- a list: `ambit compare` wants to know what is evaluated
+  comparisons = {},                       -- what ambit.compare found, in order
+  compare = nil,                          -- how the scene wants to be compared
 }
 
 local count = 0
@@ -21,6 +24,13 @@ end
 -- For `ambit explain`: from now on nothing is forgotten.
 function session.keep()
   setmetatable(session.mechanisms, nil)
+end
+
+-- What an evaluate is about to compute: { expressions, paths, leaves, values, arithmetic }.
+function session.ask(request)
+  if not session.asked then return end
+  request.place = core.where():gsub(": $", "")
+  session.asked[#session.asked + 1] = request
 end
 
 -- Called once at the end of every verb: remembers it and writes its `result` record.

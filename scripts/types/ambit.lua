@@ -223,8 +223,35 @@ function ode:rate(name) end
 ---@return ambit.ode
 function ambit.ode(t) end
 
+---"real" proves nothing; the others enclose. With options as a table: { "affine", symbols = 20 }. Plugins: others may be
+---installed; `ambit plugins NAME` prints the options of one.
+---@alias ambit.arithmetic
+---|"real"
+---|"interval"
+---|"gradient"
+---|"affine"
+---|"taylor_model"
+---|"mpfr"
+---|string
+---|ambit.arithmetic.affine
+---|ambit.arithmetic.taylor_model
+---|ambit.arithmetic.mpfr
+---|{ [1]: string, [string]: any }
+---@class ambit.arithmetic.affine
+---@field [1] "affine"
+---@field symbols integer? noise symbols for the errors of operations, besides one for each uncertain datum
+---@field product? "fast"|"tight"
+---@field linearisation? "chebyshev"|"min_range"
+---@class ambit.arithmetic.taylor_model
+---@field [1] "taylor_model"
+---@field order integer? total degree of the polynomial
+---@field boxes integer? into how many boxes the domain may be split to bound a result
+---@class ambit.arithmetic.mpfr
+---@field [1] "mpfr"
+---@field precision integer? bits
+
 ---The same shape with enclosures; a table also has .status, .arithmetic, .cpu_seconds.
----@param t { [1]: any, at: table<string, ambit.datum>?, arithmetic: string|table? }
+---@param t { [1]: any, at: table<string, ambit.datum>?, arithmetic: ambit.arithmetic? }
 ---@return any
 function ambit.evaluate(t) end
 
@@ -251,7 +278,7 @@ function run:at(t) end
 function run:steps() end
 
 ---Keys besides these are options of the solver.
----@param t { [1]: ambit.ode|ambit.mechanism, initial: table<string, ambit.datum>, t: number|(number|string)[], solver: string?, arithmetic: string|table?, order: integer? }
+---@param t { [1]: ambit.ode|ambit.mechanism, initial: table<string, ambit.datum>, t: number|(number|string)[], solver: string?, arithmetic: ambit.arithmetic?, order: integer? }
 ---@return ambit.run
 function ambit.simulate(t) end
 
@@ -266,9 +293,40 @@ local sample = {}
 function sample:at(t) end
 
 ---Monte Carlo in ordinary floating point; proves nothing.
----@param t { [1]: any, n: integer?, seed: integer?, at: table<string, ambit.datum>?, initial: table<string, ambit.datum>?, t: any?, solver: string?, arithmetic: string|table? }
+---@param t { [1]: any, n: integer?, seed: integer?, at: table<string, ambit.datum>?, initial: table<string, ambit.datum>?, t: any?, solver: string?, arithmetic: ambit.arithmetic? }
 ---@return any
 function ambit.sample(t) end
+
+---One arithmetic with one choice of its options.
+---@class ambit.comparison.row
+---@field arithmetic string
+---@field label string "affine symbols=20"
+---@field options string[] name, value, name, value ...
+---@field rigorous boolean
+---@field status "complete"|"empty"|"unbounded"|"failed"|"skipped"
+---@field reason string? why it is not complete
+---@field partial boolean? some operation left its domain
+---@field x any? enclosures, in the shape that was asked for
+---@field widths number[]? of each result
+---@field width number? the largest
+---@field over_tightest number? largest ratio to the tightest proved width
+---@field over_sample number? largest ratio to the width of the sampled hull
+---@field seconds_run number? CPU time, the least of the repeats
+---@field seconds_build number?
+
+---Printed, it is a table.
+---@class ambit.comparison
+---@field status "complete"|"unable" unable: nothing was proved, or proofs contradict each other
+---@field reason string?
+---@field rows ambit.comparison.row[]
+---@field sample { x: ambit.enclosure[], width: number }? hull of the samples
+---@field cpu_seconds number
+
+---Width against run time over arithmetics. A list of values of an option is run through: { "affine", symbols = { 10, 20 } }.
+---Without expressions: how `ambit compare` shall compare this scene.
+---@param t { [1]: any, at: table<string, ambit.datum>?, arithmetics: (string|table)[]?, repeats: integer?, limit: number?, n: integer?, seed: integer? }
+---@return ambit.comparison
+function ambit.compare(t) end
 
 ---@param kind? "arithmetic"|"element"|"solver"|"service"
 ---@return { kind: string, name: string, file: string, loaded: boolean }[]
