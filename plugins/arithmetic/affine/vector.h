@@ -1,0 +1,127 @@
+/* vector.h -- the few vector operations that the passes are written in, for the instruction set of the including file:
+** 8 doubles with AVX-512, 4 with AVX2 and FMA, otherwise 2 (SSE2 on x86-64, compiler vectors elsewhere). */
+#ifndef VECTOR_H
+#define VECTOR_H
+#include <stdint.h>
+#include <string.h>
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+#if defined(__AVX512F__)
+#define WIDTH 8
+#elif defined(__AVX2__) && defined(__FMA__)
+#define WIDTH 4
+#else
+#define WIDTH 2
+#endif
+
+typedef double vector __attribute__((vector_size(8 * WIDTH)));
+typedef int64_t bits __attribute__((vector_size(8 * WIDTH)));
+
+static inline vector load(const double *p) {
+  vector v;
+  memcpy(&v, p, sizeof v);
+  return v;
+}
+static inline void store(double *p, vector v) { memcpy(p, &v, sizeof v); }
+
+#if WIDTH == 8
+static inline vector splat(double x) { return (vector)_mm512_set1_pd(x); }
+static inline vector multiply_add(vector a, vector b, vector c) { return (vector)_mm512_fmadd_pd(a, b, c); }
+static inline bits splat_bits(int64_t x) { return (bits) { x, x, x, x, x, x, x, x }; }
+#elif WIDTH == 4
+static inline vector splat(double x) { return (vector)_mm256_set1_pd(x); }
+static inline vector multiply_add(vector a, vector b, vector c) { return (vector)_mm256_fmadd_pd(a, b, c); }
+static inline bits splat_bits(int64_t x) { return (bits) { x, x, x, x }; }
+#else
+static inline vector splat(double x) { return (vector) { x, x }; }
+static inline vector multiply_add(vector a, vector b, vector c) { return a * b + c; } /* rounded twice, both upward */
+static inline bits splat_bits(int64_t x) { return (bits) { x, x }; }
+#endif
+
+/* two bounds side by side */
+typedef double pair __attribute__((vector_size(16)));
+
+static inline pair load_pair(const double *p) {
+  pair v;
+  memcpy(&v, p, sizeof v);
+  return v;
+}
+static inline void store_pair(double *p, pair v) { memcpy(p, &v, sizeof v); }
+static inline pair both(double x) { return (pair) { x, x }; }
+#if defined(__SSE2__)
+static inline pair larger_pair(pair a, pair b) { return (pair)_mm_max_pd((__m128d)a, (__m128d)b); }
+static inline pair smaller_pair(pair a, pair b) { return (pair)_mm_min_pd((__m128d)a, (__m128d)b); }
+#else
+static inline pair larger_pair(pair a, pair b) {
+  return (pair) { a[0] > b[0] ? a[0] : b[0], a[1] > b[1] ? a[1] : b[1] };
+}
+static inline pair smaller_pair(pair a, pair b) {
+  return (pair) { a[0] < b[0] ? a[0] : b[0], a[1] < b[1] ? a[1] : b[1] };
+}
+#endif
+
+/* of NaN and a number either */
+#if WIDTH == 8
+static inline vector larger(vector a, vector b) { return (vector)_mm512_max_pd((__m512d)a, (__m512d)b); }
+static inline vector smaller(vector a, vector b) { return (vector)_mm512_min_pd((__m512d)a, (__m512d)b); }
+static inline vector keep_where_positive(vector x, vector v) {
+  return (vector)_mm512_maskz_mov_pd(_mm512_cmp_pd_mask((__m512d)x, _mm512_setzero_pd(), _CMP_GT_OQ), (__m512d)v);
+}
+#elif WIDTH == 4
+static inline vector larger(vector a, vector b) { return (vector)_mm256_max_pd((__m256d)a, (__m256d)b); }
+static inline vector smaller(vector a, vector b) { return (vector)_mm256_min_pd((__m256d)a, (__m256d)b); }
+static inline vector keep_where_positive(vector x, vector v) {
+  return (vector)_mm256_and_pd(_mm256_cmp_pd((__m256d)x, _mm256_setzero_pd(), _CMP_GT_OQ), (__m256d)v);
+}
+#else
+static inline vector larger(vector a, vector b) { return larger_pair(a, b); }
+static inline vector smaller(vector a, vector b) { return smaller_pair(a, b); }
+static inline vector keep_where_positive(vector x, vector v) {
+  return (vector) { x[0] > 0 ? v[0] : 0, x[1] > 0 ? v[1] : 0 };
+}
+#endif
+
+static inline vector magnitude(vector x) { return (vector)((bits)x & splat_bits(INT64_MAX)); }
+static inline vector flip(vector x, bits sign) { return (vector)((bits)x ^ sign); }
+
+/* a sum of the elements, in upward mode rounded upward */
+static inline double total(vector x) {
+#if WIDTH == 8
+  __m256d lower = _mm512_castpd512_pd256((__m512d)x), upper = _mm512_extractf64x4_pd((__m512d)x, 1);
+  __m256d half = _mm256_add_pd(lower, upper);
+  __m128d pair = _mm_add_pd(_mm256_castpd256_pd128(half), _mm256_extractf128_pd(half, 1));
+  return pair[0] + pair[1];
+#elif WIDTH == 4
+  return (x[0] + x[2]) + (x[1] + x[3]);
+#else
+  return x[0] + x[1];
+#endif
+}
+
+/* four of them at once */
+typedef struct totals {
+  double a, b, c, d;
+} totals;
+
+static inline totals total_each(vector a, vector b, vector c, vector d) {
+#if WIDTH >= 4
+#if WIDTH == 8
+  __m256d a4 = _mm512_castpd512_pd256((__m512d)a) + _mm512_extractf64x4_pd((__m512d)a, 1);
+  __m256d b4 = _mm512_castpd512_pd256((__m512d)b) + _mm512_extractf64x4_pd((__m512d)b, 1);
+  __m256d c4 = _mm512_castpd512_pd256((__m512d)c) + _mm512_extractf64x4_pd((__m512d)c, 1);
+  __m256d d4 = _mm512_castpd512_pd256((__m512d)d) + _mm512_extractf64x4_pd((__m512d)d, 1);
+#else
+  __m256d a4 = (__m256d)a, b4 = (__m256d)b, c4 = (__m256d)c, d4 = (__m256d)d;
+#endif
+  __m256d ab = _mm256_unpacklo_pd(a4, b4) + _mm256_unpackhi_pd(a4, b4);
+  __m256d cd = _mm256_unpacklo_pd(c4, d4) + _mm256_unpackhi_pd(c4, d4);
+  __m128d first = _mm256_castpd256_pd128(ab) + _mm256_extractf128_pd(ab, 1);
+  __m128d second = _mm256_castpd256_pd128(cd) + _mm256_extractf128_pd(cd, 1);
+  return (totals) { first[0], first[1], second[0], second[1] };
+#else
+  return (totals) { total(a), total(b), total(c), total(d) };
+#endif
+}
+
+#endif
