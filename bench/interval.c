@@ -1,7 +1,7 @@
 /* interval.c -- what an interval operation costs beside one in plain double precision: ns per operation over lanes of
-** mixed sign, the fastest of many passes. Columns: plugin `real`; plugin `interval` as chosen for this processor,
-** without AVX2, with one lane, and with every operation left to the kernel (what a plugin of three functions gets).
-** ratio = interval / real.
+** mixed sign, the fastest of many passes. Columns: plugin `real`; plugin `interval` as chosen for this processor, its
+** variants with AVX2 and without, with one lane, and with every operation left to the kernel (what a plugin of three
+** functions gets). ratio = interval / real.
 */
 #include "plugin.h"
 #include <string.h>
@@ -55,22 +55,32 @@ static double measure(const bench_arithmetic *b, uint32_t op, int by_lanes) {
   return best;
 }
 
+static int has_avx2(void) {
+#if defined(__x86_64__)
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+#else
+  return 0;
+#endif
+}
+
 int main(void) {
   ambit_registry *r = ambit_registry_open(NULL);
   bench_arithmetic real = bench_open(r, "real", AMBIT_ARITHMETIC),
                    interval = bench_open(r, "interval", AMBIT_ARITHMETIC);
   bench_arithmetic portable = bench_open(r, "interval", "ambit.arithmetic.portable/1"),
-                   kernel = bench_open(r, "interval", AMBIT_ARITHMETIC);
+                   kernel = bench_open(r, "interval", AMBIT_ARITHMETIC),
+                   avx2 = bench_open(r, "interval", has_avx2() ? "ambit.arithmetic.avx2/1" : AMBIT_ARITHMETIC);
   ambit_arithmetic bare = kernel.full;
   memset(bare.run, 0, sizeof bare.run);
   if (ambit_arithmetic_complete(&bare, &kernel.full, NULL) != AMBIT_OK) return 1;
-  printf("%-6s %8s %9s %9s %9s %9s %7s\n", "ns/op", "real", "interval", "portable", "one lane", "kernel", "ratio");
+  printf("%-6s %8s %9s %9s %9s %9s %9s %7s\n", "ns/op", "real", "interval", "AVX2", "portable", "one lane", "kernel",
+      "ratio");
   for (uint32_t op = 0; op < AMBIT_OP_COUNT; op++) {
     double plain = measure(&real, op, 1), ours = measure(&interval, op, 1);
-    printf("%-6s %8.2f %9.2f %9.2f %9.2f %9.2f %7.2f\n", op_name[op], plain, ours, measure(&portable, op, 1),
-        measure(&interval, op, 0), measure(&kernel, op, 1), ours / plain);
+    printf("%-6s %8.2f %9.2f %9.2f %9.2f %9.2f %9.2f %7.2f\n", op_name[op], plain, ours, measure(&avx2, op, 1),
+        measure(&portable, op, 1), measure(&interval, op, 0), measure(&kernel, op, 1), ours / plain);
   }
-  bench_close(&real), bench_close(&interval), bench_close(&portable), bench_close(&kernel);
+  bench_close(&real), bench_close(&interval), bench_close(&portable), bench_close(&kernel), bench_close(&avx2);
   ambit_registry_close(r);
   return 0;
 }

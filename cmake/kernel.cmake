@@ -14,3 +14,4 @@ target_compile_definitions(libambit PRIVATE
   AMBIT_PLUGIN_DIR="${CMAKE_INSTALL_FULL_LIBDIR}/ambit" AMBIT_BUILD_PLUGIN_DIR="${PROJECT_BINARY_DIR}/plugins")
 target_link_libraries(libambit PRIVATE $<BUILD_INTERFACE:ambit_flags> PkgConfig::YAJL ${CMAKE_DL_LIBS} m)
 include(cmake/elementary.cmake)
+include(cmake/product.cmake)

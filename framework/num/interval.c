@@ -9,6 +9,7 @@
 #include "num/power.h"
 #include "num/rounding.h"
 #include <float.h>
+#include <string.h>
 
 static double larger(double a, double b) { return a > b ? a : b; }
 static double smaller(double a, double b) { return a < b ? a : b; }
@@ -116,8 +117,7 @@ static ambit_interval basic(uint32_t op, ambit_interval a, ambit_interval b) {
   }
 }
 
-static AMBIT_WORKER void map_basic(
-    uint32_t op, size_t n, ambit_interval *r, const ambit_interval *a, const ambit_interval *b) {
+static void map_basic(uint32_t op, size_t n, ambit_interval *r, const ambit_interval *a, const ambit_interval *b) {
   bool binary = is_binary(op);
   for (size_t i = 0; i < n; i++) {
     bool empty = ambit_interval_is_empty(a[i]) || (binary && ambit_interval_is_empty(b[i]));
@@ -160,20 +160,29 @@ static uint32_t shape_flags(ambit_interval r) {
 }
 
 static uint32_t map_pown(size_t n, ambit_interval *r, const ambit_interval *a, int32_t exponent) {
+  double lo[CHUNK], hi[CHUNK];
   uint32_t flags = 0;
-  for (size_t i = 0; i < n; i++) flags |= ambit_interval_pown(&r[i], a[i], exponent);
+  for (size_t done = 0; done < n; done += CHUNK) {
+    size_t m = n - done < CHUNK ? n - done : CHUNK;
+    for (size_t i = 0; i < m; i++) {
+      lo[i] = a[done + i].lo, hi[i] = a[done + i].hi;
+      if (exponent < 0 && lo[i] <= 0 && hi[i] >= 0) flags |= AMBIT_F_PARTIAL;
+    }
+    ambit_power(exponent, m, lo, hi, lo, hi);
+    for (size_t i = 0; i < m; i++) {
+      r[done + i] = (ambit_interval) { lo[i], hi[i] };
+      flags |= shape_flags(r[done + i]);
+    }
+  }
   return flags;
 }
 
 static uint32_t map_chunk(uint32_t op, size_t n, ambit_interval *r, const ambit_interval *a, const ambit_interval *b) {
   ambit_interval result[CHUNK];
-  if (is_elementary(op)) {
+  if (is_elementary(op))
     map_elementary(op, n, result, a, b);
-  } else {
-    ambit_rounding old = ambit_round_up();
+  else
     map_basic(op, n, result, a, b);
-    ambit_rounding_restore(old);
-  }
   uint32_t flags = 0;
   bool binary = is_binary(op);
   for (size_t i = 0; i < n; i++) {
@@ -185,7 +194,8 @@ static uint32_t map_chunk(uint32_t op, size_t n, ambit_interval *r, const ambit_
   return flags;
 }
 
-uint32_t ambit_interval_map(
+/* upward mode, which elementary functions and powers leave and restore */
+static AMBIT_WORKER uint32_t map(
     uint32_t op, size_t n, ambit_interval *r, const ambit_interval *a, const ambit_interval *b, int32_t exponent) {
   if (op == AMBIT_OP_POWN) return map_pown(n, r, a, exponent);
   uint32_t flags = 0;
@@ -196,14 +206,27 @@ uint32_t ambit_interval_map(
   return flags;
 }
 
+uint32_t ambit_interval_map(
+    uint32_t op, size_t n, ambit_interval *r, const ambit_interval *a, const ambit_interval *b, int32_t exponent) {
+  ambit_rounding old = ambit_round_up();
+  uint32_t flags = map(op, n, r, a, b, exponent);
+  ambit_rounding_restore(old);
+  return flags;
+}
+
 uint32_t ambit_interval_op(uint32_t op, ambit_interval *r, ambit_interval a, ambit_interval b) {
-  return map_chunk(op, 1, r, &a, &b);
+  return ambit_interval_map(op, 1, r, &a, &b, 0);
+}
+
+static AMBIT_WORKER ambit_interval combine_up(uint32_t op, ambit_interval a, ambit_interval b) {
+  ambit_interval r;
+  map_basic(op, 1, &r, &a, &b);
+  return r;
 }
 
 static ambit_interval combine(uint32_t op, ambit_interval a, ambit_interval b) {
-  ambit_interval r;
   ambit_rounding old = ambit_round_up();
-  map_basic(op, 1, &r, &a, &b);
+  ambit_interval r = combine_up(op, a, b);
   ambit_rounding_restore(old);
   return r;
 }
@@ -213,70 +236,53 @@ ambit_interval ambit_interval_sub(ambit_interval a, ambit_interval b) { return c
 ambit_interval ambit_interval_mul(ambit_interval a, ambit_interval b) { return combine(AMBIT_OP_MUL, a, b); }
 ambit_interval ambit_interval_div(ambit_interval a, ambit_interval b) { return combine(AMBIT_OP_DIV, a, b); }
 
-/* a^n for positive n over the hull [least, most] of |a| */
-static ambit_interval power_even(ambit_interval a, int32_t n) {
-  return (ambit_interval) { ambit_power_down(mignitude(a), n), ambit_power_up(magnitude(a), n) };
-}
-
-static double signed_power_up(double x, int32_t n) { return x < 0 ? -ambit_power_down(-x, n) : ambit_power_up(x, n); }
-
-static ambit_interval power_odd(ambit_interval a, int32_t n) {
-  return (ambit_interval) { -signed_power_up(-a.lo, n), signed_power_up(a.hi, n) };
-}
-
-/* n < 0, the powers of the positive part of a, a.hi > 0 */
-static ambit_interval inverse_positive(ambit_interval a, int32_t n) {
-  double up = a.lo > 0 ? ambit_power_up(a.lo, n) : INFINITY;
-  return (ambit_interval) { ambit_power_down(a.hi, n), up };
-}
-
-static ambit_interval inverse_power(ambit_interval a, int32_t n) {
-  bool odd = n % 2 != 0;
-  ambit_interval r = AMBIT_EMPTY;
-  if (a.hi > 0) r = inverse_positive(a, n);
-  if (a.lo < 0) {
-    ambit_interval left = inverse_positive(negate(a), n);
-    r = ambit_interval_hull(r, odd ? negate(left) : left);
-  }
-  return r;
-}
-
 uint32_t ambit_interval_pown(ambit_interval *r, ambit_interval a, int32_t n) {
-  bool partial = false;
-  if (ambit_interval_is_empty(a)) {
-    *r = AMBIT_EMPTY;
-  } else if (n == 0) {
-    *r = (ambit_interval) { 1, 1 };
-  } else if (n > 0) {
-    *r = n % 2 ? power_odd(a, n) : power_even(a, n);
-  } else {
-    partial = a.lo <= 0 && a.hi >= 0;
-    *r = inverse_power(a, n);
-  }
-  return shape_flags(*r) | (partial ? AMBIT_F_PARTIAL : 0);
+  return ambit_interval_map(AMBIT_OP_POWN, 1, r, &a, NULL, n);
 }
+
+/* The functions below set no mode. So that they are right for a caller who takes subnormal numbers for zero, they
+** compare bits, not doubles: `rank` increases with the double, is the same for -0 and 0, and beyond those of the
+** infinities for NaN. */
+static int64_t rank(double x) {
+  int64_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  return bits < 0 ? -(bits & INT64_MAX) : bits;
+}
+
+static double upper(double a, double b) { return rank(a) > rank(b) ? a : b; }
+static double lower(double a, double b) { return rank(a) < rank(b) ? a : b; }
 
 ambit_interval ambit_interval_of(double lo, double hi) {
-  return lo <= hi && lo < INFINITY && hi > -INFINITY ? (ambit_interval) { lo, hi } : AMBIT_EMPTY;
+  int64_t first = rank(lo), last = rank(hi), infinity = rank(INFINITY);
+  bool nonempty = first <= last && first >= -infinity && first < infinity && last > -infinity && last <= infinity;
+  return nonempty ? (ambit_interval) { lo, hi } : AMBIT_EMPTY;
 }
 
 ambit_interval ambit_interval_hull(ambit_interval a, ambit_interval b) {
   if (ambit_interval_is_empty(a)) return b;
   if (ambit_interval_is_empty(b)) return a;
-  return (ambit_interval) { smaller(a.lo, b.lo), larger(a.hi, b.hi) };
+  return (ambit_interval) { lower(a.lo, b.lo), upper(a.hi, b.hi) };
 }
 
 ambit_interval ambit_interval_intersect(ambit_interval a, ambit_interval b) {
-  return ambit_interval_of(larger(a.lo, b.lo), smaller(a.hi, b.hi));
+  return ambit_interval_of(upper(a.lo, b.lo), lower(a.hi, b.hi));
 }
 
-AMBIT_WORKER double ambit_interval_mid(ambit_interval x) {
+/* round to nearest */
+static AMBIT_WORKER double middle(ambit_interval x) {
   if (ambit_interval_is_empty(x)) return NAN;
   if (x.lo == -INFINITY) return x.hi == INFINITY ? 0 : -DBL_MAX;
   if (x.hi == INFINITY) return DBL_MAX;
   double sum = x.lo + x.hi;
   double mid = fabs(sum) <= DBL_MAX ? 0.5 * sum : 0.5 * x.lo + 0.5 * x.hi;
   return smaller(larger(mid, x.lo), x.hi);
+}
+
+double ambit_interval_mid(ambit_interval x) {
+  ambit_rounding old = ambit_round_nearest();
+  double mid = middle(x);
+  ambit_rounding_restore(old);
+  return mid;
 }
 
 static AMBIT_WORKER double radius_about(ambit_interval x, double mid) { return larger(x.hi - mid, mid - x.lo); }
@@ -300,8 +306,9 @@ double ambit_interval_width(ambit_interval x) {
   return width;
 }
 
-double ambit_interval_mag(ambit_interval x) { return ambit_interval_is_empty(x) ? 0 : magnitude(x); }
-double ambit_interval_mig(ambit_interval x) { return ambit_interval_is_empty(x) ? 0 : mignitude(x); }
+double ambit_interval_mag(ambit_interval x) { return ambit_interval_is_empty(x) ? 0 : upper(fabs(x.lo), fabs(x.hi)); }
+
+double ambit_interval_mig(ambit_interval x) { return rank(x.lo) > 0 ? x.lo : rank(x.hi) < 0 ? -x.hi : 0; }
 
 /* the neighbours of pi = 3.14159265358979323846264338... */
 ambit_interval ambit_interval_pi(void) { return (ambit_interval) { 0x1.921fb54442d18p+1, 0x1.921fb54442d19p+1 }; }

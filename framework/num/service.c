@@ -8,6 +8,7 @@
 #include "num/decimal.h"
 #include "num/elementary.h"
 #include "num/interval.h"
+#include "num/product.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -44,4 +45,4 @@ static size_t shortest(char *out, size_t room, double x) {
 }
 
 const ambit_num_service ambit_num_service_v1 = { sizeof ambit_num_service_v1, map, ambit_elementary, pown, read,
-  shortest };
+  shortest, ambit_product_convolve, ambit_product_matmul };

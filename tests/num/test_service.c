@@ -59,11 +59,27 @@ static void reads_and_writes_decimals(void **state) {
   assert_int_equal(num->shortest(text, 4, 0.1), 3);
 }
 
+static void multiplies_series_and_matrices(void **state) {
+  (void)state;
+  const double alo[4] = { 1, 2, 3, 4 }, ahi[4] = { 1, 2, 3, 5 }, blo[4] = { -1, 1, 0, 2 }, bhi[4] = { -1, 1, 0.5, 2 };
+  double lo[4], hi[4];
+  assert_int_equal(num->convolve(4, lo, hi, alo, ahi, blo, bhi), 0);
+  const double series_lo[4] = { -1, -1, -1, 0 }, series_hi[4] = { -1, -1, -0.5, 2 };
+  assert_memory_equal(lo, series_lo, sizeof lo);
+  assert_memory_equal(hi, series_hi, sizeof hi);
+  assert_int_equal(num->matmul(2, 2, 2, lo, hi, alo, ahi, blo, bhi), 0);
+  const double matrix_lo[4] = { -1, 5, -3.25, 11 } /* of a product of two wide ones: -3 */,
+               matrix_hi[4] = { 0, 5, -0.5, 13 };
+  assert_memory_equal(lo, matrix_lo, sizeof lo);
+  assert_memory_equal(hi, matrix_hi, sizeof hi);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(maps_every_operation),
     cmocka_unit_test(unary_operations_need_no_second_operand),
     cmocka_unit_test(reads_and_writes_decimals),
+    cmocka_unit_test(multiplies_series_and_matrices),
   };
   return cmocka_run_group_tests_name("num service", tests, NULL, NULL);
 }

@@ -27,5 +27,14 @@ typedef struct ambit_num_service {
   /* The shortest text that reads back as x, terminated; returns its length. 64 bytes always suffice; 0 if `room` does
   ** not. */
   size_t (*shortest)(char *out, size_t room, double x);
+  /* Truncated product of power series: r_k := sum_{j <= k} a_j b_(k-j), k < n, all terms of one sum being independent
+  ** elements; bounds in arrays of their own, [n]. r must not overlap a or b. In midpoint-radius form: as tight as
+  ** interval operations if the operands are thin, at most 1.5 times as wide if not (docs/numerics/interval.md).
+  ** Unbounded operands are allowed; a sum with an empty term is empty. Returns flags EMPTY, UNBOUNDED. */
+  uint32_t (*convolve)(size_t n, double *rlo, double *rhi, const double *alo, const double *ahi, const double *blo,
+      const double *bhi);
+  /* Matrix product r := a b; a is rows x inner, b is inner x cols, r is rows x cols, all by rows. As convolve. */
+  uint32_t (*matmul)(size_t rows, size_t inner, size_t cols, double *rlo, double *rhi, const double *alo,
+      const double *ahi, const double *blo, const double *bhi);
 } ambit_num_service;
 #endif

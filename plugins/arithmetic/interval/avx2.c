@@ -1,6 +1,7 @@
-/* avx2.c -- four doubles at a time, fused multiply-add; compiled with -mavx2 -mfma (plugin.cmake). */
-#include "interval.h"
+/* avx2.c -- the plugin with AVX2 and FMA; its flags are in plugin.cmake. */
 #if defined(__x86_64__)
 #define VARIANT interval_avx2
+#define VARIANT_NAME "AVX2"
+#define JETS interval_avx2_jets
 #include "variant.h"
 #endif

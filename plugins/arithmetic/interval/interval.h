@@ -15,26 +15,19 @@ typedef struct interval_context {
   ambit_rounding outside; /* environment to restore on leave */
 } interval_context;
 
-/* One per instruction set: the same source, compiled twice (variant.h). */
+/* One per instruction set: the same source, compiled three times (variant.h). */
 extern const ambit_arithmetic interval_portable;
+extern const ambit_jets interval_portable_jets;
 #if defined(__x86_64__)
-extern const ambit_arithmetic interval_avx2;
+extern const ambit_arithmetic interval_avx2, interval_avx512;
+extern const ambit_jets interval_avx2_jets;
 #endif
 
-/* The part that is the same for all (context.c, elementary.c); contracts in arithmetic.h. */
+/* The part that is the same for all (context.c); contracts in arithmetic.h. */
 ambit_status interval_open(const ambit_host *h, const double *option, uint32_t nvar, void **ctx);
 size_t interval_elem(void *ctx);
 void interval_enter(void *ctx);
 void interval_leave(void *ctx);
 void interval_set(void *ctx, void *dst, size_t n, const double *lo, const double *hi, int32_t var);
 void interval_bounds(void *ctx, const void *src, size_t n, double *lo, double *hi);
-
-/* runs through the kernel's service */
-#define INTERVAL_SERVED(X) X(EXP) X(LOG) X(SIN) X(COS) X(TAN) X(ASIN) X(ACOS) X(ATAN) X(ATAN2) X(SINH) X(COSH) X(TANH)
-#define INTERVAL_DECLARE(OP)                                                                                           \
-  uint32_t interval_run_##OP(const ambit_arithmetic *self, void *ctx, void *base, size_t pitch, size_t lanes,          \
-      size_t count, const uint32_t *dst, const uint32_t *a, const uint32_t *b);
-INTERVAL_SERVED(INTERVAL_DECLARE)
-INTERVAL_DECLARE(POWN)
-#undef INTERVAL_DECLARE
 #endif

@@ -2,10 +2,10 @@
 **
 ** A coefficient is midpoint +- radius. Each slot has its coefficients contiguous by order, and, if it is ever the
 ** right factor of a product, a second copy in reversed order: then coefficient k of a product, sum_j a_j b_(k-j), is
-** one dot product of contiguous arrays. All arrays hold finite numbers at all times and zeros behind the last order,
-** so that a dot product may run over the end of its operands to a multiple of the vector width. A coefficient that is
-** not bounded is stored as DBL_MAX and remembered as `failed`. Slopes: for each block of `width` directions, an array
-** by order of `width` midpoints, and one of radii.
+** one dot product of contiguous arrays. The two terms with order k itself are added by themselves: so the long sum
+** waits for no number that was just written. All arrays hold finite numbers at all times. A coefficient that is not
+** bounded is stored as DBL_MAX and remembered as `failed`. Slopes: for each block of `width` directions, an array by
+** order of `width` midpoints, and one of radii.
 */
 #ifndef JETS_H
 #define JETS_H
@@ -28,12 +28,20 @@ typedef struct slot {
 
 #define STEP_COPY AMBIT_OP_COUNT /* r := a */
 
+/* A product of series that the rule of a step needs: coefficient k is sum_j a_j b_(k-j). */
+typedef struct factors {
+  row a, b;        /* b reversed */
+  uint32_t da, db; /* degrees */
+} factors;
+
 /* One instruction; SIN and COS of the same operand are one step, and SINH and COSH (r: sine, other: cosine). */
 typedef struct step {
   uint32_t op, degree;
   slot *r, *other;
   const slot *a, *b, *aux;
   uint32_t r_index, other_index, a_index, b_index; /* to find the same slot at the centre */
+  uint32_t nproduct;
+  factors product[3];
 } step;
 
 typedef struct jets jets;

@@ -3,9 +3,17 @@
 #include "jets.h"
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 static size_t place(const jets *j, uint32_t k, uint32_t direction) {
   return ((size_t)(direction / j->width) * (j->order + 1u) + k) * j->width + direction % j->width;
+}
+
+/* also for a caller who takes subnormal numbers for zero */
+static int is_zero(double x) {
+  int64_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  return (bits & INT64_MAX) == 0;
 }
 
 /* an unbounded or senseless coefficient becomes DBL_MAX, which advance() reports */
@@ -18,12 +26,12 @@ static void keep(double *mid, double *rad, double m, double r, int allowed) {
 void jets_put(void *self, uint32_t in, uint32_t k, double mid, double rad, const double *dmid, const double *drad) {
   jets *j = self;
   slot *s = &j->slot[j->nsource - j->nin + in];
-  int allowed = k <= s->degree || (mid == 0 && rad == 0); /* the tape says that it vanishes */
+  int allowed = k <= s->degree || (is_zero(mid) && is_zero(rad)); /* the tape says that it vanishes */
   for (uint32_t d = 0; d < j->ndir; d++) {
     double m = dmid ? dmid[d] : 0, r = drad ? drad[d] : 0;
     size_t at = place(j, k, d);
     keep(&s->slope.mid[at], &s->slope.rad[at], m, r, 1);
-    if (k > s->degree && (m != 0 || r != 0)) allowed = 0;
+    if (k > s->degree && !(is_zero(m) && is_zero(r))) allowed = 0;
     if (s->slope.rad[at] >= DBL_MAX) allowed = 0;
   }
   keep(&s->u.mid[k], &s->u.rad[k], mid, rad, allowed);

@@ -116,12 +116,38 @@ static void trace(const ambit_tape *t, slot *s) {
   for (uint32_t i = 0; i < t->ninstr; i++) s[t->dst[i]].varies = s[t->a[i]].varies | s[t->b[i]].varies;
 }
 
+static void add_product(step *s, row a, uint32_t da, const slot *b) {
+  s->product[s->nproduct++] = (factors) { a, b->reversed, da, b->degree };
+}
+
+/* in the order in which jets_values.h names them */
+static void add_products(step *s) {
+  const slot *r = s->r, *a = s->a, *b = s->b;
+  switch (s->op) {
+  case AMBIT_OP_MUL: add_product(s, a->u, a->degree, b); return;
+  case AMBIT_OP_SQR: add_product(s, a->u, a->degree, a); return;
+  case AMBIT_OP_DIV: add_product(s, r->u, r->degree, b); return;
+  case AMBIT_OP_SQRT: add_product(s, r->u, r->degree, r); return;
+  case AMBIT_OP_EXP: add_product(s, a->moving, a->degree, r); return;
+  case AMBIT_OP_LOG: add_product(s, r->moving, r->degree, a); return;
+  case AMBIT_OP_ATAN: add_product(s, r->moving, r->degree, s->aux); return;
+  case AMBIT_OP_SIN:
+  case AMBIT_OP_SINH: add_product(s, a->moving, a->degree, s->other), add_product(s, a->moving, a->degree, r); return;
+  case AMBIT_OP_ATAN2:
+    add_product(s, r->moving, r->degree, s->aux);
+    add_product(s, a->moving, a->degree, b), add_product(s, b->moving, b->degree, a);
+    return;
+  default: return;
+  }
+}
+
 static void add_step(
     jets *j, const ambit_tape *t, uint32_t op, uint32_t r, uint32_t other, uint32_t a, uint32_t b, uint32_t aux) {
   slot *s = j->slot;
   const slot *helper = aux < t->nslot ? &s[aux] : NULL;
   step *at = &j->step[j->nstep++];
-  *at = (step) { op, s[r].degree, &s[r], &s[other], &s[a], &s[b], helper, r, other, a, b };
+  *at = (step) { op, s[r].degree, &s[r], &s[other], &s[a], &s[b], helper, r, other, a, b, .nproduct = 0 };
+  add_products(at);
   if (at->degree) j->moving[j->nmoving++] = at;
 }
 

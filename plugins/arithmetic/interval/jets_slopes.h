@@ -301,5 +301,4 @@ static ambit_status open_jets(const ambit_host *h, void *ctx, const ambit_tape *
   return jets_open(h, ctx, t, order, ndir, centre, WIDTH, self);
 }
 
-static const ambit_jets jets_interface = { sizeof jets_interface, open_jets, jets_close, jets_put, advance, jets_get,
-  jets_magnitude, integrate };
+const ambit_jets JETS = { sizeof JETS, open_jets, jets_close, jets_put, advance, jets_get, jets_magnitude, integrate };

@@ -4,7 +4,7 @@
 ** of the negated set, so both are tightest. Notation: x = (-a, A) stands for [a, A], y = (-b, B) for [b, B]; products
 ** of bounds need 0 * inf = 0, as an infinite bound is no element of the set. Each function below is one operation on
 ** nonempty operands; `finish` then restores empty ones and collects flags. There is no branch on data, so all inputs
-** cost the same.
+** cost the same, and every variant gives the same bits.
 */
 #include "interval.h"
 #include "vector.h"
@@ -12,26 +12,27 @@
 typedef struct findings {
   mask empty, unbounded, partial;
 } findings;
+typedef vector (*operation)(findings *f, vector x, vector y);
 
-static inline uint32_t flags_of(const findings *f) {
+INLINE uint32_t flags_of(const findings *f) {
   return (any(f->partial) ? AMBIT_F_PARTIAL : 0) | (any(f->empty) ? AMBIT_F_EMPTY : 0) |
          (any(f->unbounded) ? AMBIT_F_UNBOUNDED : 0);
 }
 
-static inline mask is_empty(vector x) { return equal(x, splat(-INFINITY)); } /* in both halves or in none */
-static inline vector number(vector x) { return keep(equal(x, x), x); }       /* NaN -> 0 */
+INLINE mask is_empty(vector x) { return equal(x, splat(-INFINITY)); } /* in both halves or in none */
+INLINE vector number(vector x) { return keep(equal(x, x), x); }       /* NaN -> 0 */
 
-static inline vector finish(findings *f, mask empty, vector r) {
+INLINE vector finish(findings *f, mask empty, vector r) {
   r = choose(empty, splat(-INFINITY), r);
   f->empty |= is_empty(r);
   f->unbounded |= equal(r, splat(INFINITY));
   return r;
 }
 
-static inline vector add(findings *f, vector x, vector y) { return finish(f, is_empty(x) | is_empty(y), x + y); }
-static inline vector sub(findings *f, vector x, vector y) { return add(f, x, swap(y)); }
+INLINE vector add(findings *f, vector x, vector y) { return finish(f, is_empty(x) | is_empty(y), x + y); }
+INLINE vector sub(findings *f, vector x, vector y) { return add(f, x, swap(y)); }
 
-static inline vector neg(findings *f, vector x, vector unused) {
+INLINE vector neg(findings *f, vector x, vector unused) {
   (void)unused;
   return finish(f, is_empty(x), swap(x));
 }
@@ -39,28 +40,26 @@ static inline vector neg(findings *f, vector x, vector unused) {
 /* -lo = max(-a B, a b, -A b, -A B) and hi likewise. A NaN is 0 * inf and means 0. Where a = 0 makes one it may be
 ** dropped, as `larger` does with its first operand: then b or B is infinite, and if a times the other end is no 0
 ** either, A >= 0 times that infinity or 0 is one. */
-static inline vector product(vector x, vector y) {
+INLINE vector product(vector x, vector y) {
   vector a = first(x), b = second(x), z = swap(y);
   vector p = larger(a * z, number(b * y));
   vector q = larger((-a) * y, number((-b) * z));
   return larger(p, q);
 }
 
-static inline vector mul(findings *f, vector x, vector y) {
-  return finish(f, is_empty(x) | is_empty(y), product(x, y));
-}
+INLINE vector mul(findings *f, vector x, vector y) { return finish(f, is_empty(x) | is_empty(y), product(x, y)); }
 
 /* For b >= 0 both bounds are v -> v > 0 ? v / b : v / B of their half; b = 0 gives inf where v > 0, which is the hull
 ** of the quotients by the positive part. B <= 0 is the same for the negatives, b = B = 0 is empty, and 0 inside makes
 ** everything but 0 / y entire. */
-static inline vector divide(findings *f, vector x, vector y) {
+INLINE vector divide(findings *f, vector x, vector y) {
   mask zero_below = reaches(first(y), splat(0)), zero_above = reaches(second(y), splat(0));
   mask strictly_below = above(first(y), splat(0)), strictly_above = above(second(y), splat(0));
   mask contains = zero_below & zero_above, only_zero = contains & ~strictly_below & ~strictly_above;
   mask turn = strictly_below & ~strictly_above;
   mask none = is_empty(x) | is_empty(y);
   mask nonzero = ~equal(x, splat(0));
-  nonzero |= (mask)swap((vector)nonzero);
+  nonzero |= swap_mask(nonzero);
   x = choose(turn, swap(x), x), y = choose(turn, swap(y), y);
   vector r = x / choose(above(x, splat(0)), magnitude(first(y)), second(y));
   r = choose(strictly_below & strictly_above, keep(nonzero, splat(INFINITY)), r);
@@ -69,28 +68,28 @@ static inline vector divide(findings *f, vector x, vector y) {
 }
 
 /* min |v| in both halves: max(0, a, -A) */
-static inline vector least(vector x) { return larger(larger(-first(x), -second(x)), splat(0)); }
-static inline vector most(vector x) { return larger(first(x), second(x)); }
+INLINE vector least(vector x) { return larger(larger(-first(x), -second(x)), splat(0)); }
+INLINE vector most(vector x) { return larger(first(x), second(x)); }
 
-static inline vector sqr(findings *f, vector x, vector unused) {
+INLINE vector sqr(findings *f, vector x, vector unused) {
   (void)unused;
   vector small = least(x), large = most(x);
   return finish(f, is_empty(x), choose(FIRST_HALVES, (-small) * small, large * large));
 }
 
-static inline vector absolute(findings *f, vector x, vector unused) {
+INLINE vector absolute(findings *f, vector x, vector unused) {
   (void)unused;
   return finish(f, is_empty(x), choose(FIRST_HALVES, -least(x), most(x)));
 }
 
 /* s = sqrt(v) rounded up. If s is the root, s * s = v exactly; otherwise s * s > v also when rounded up, and the
 ** double below s is the root rounded down: s >= 2^-537 is normal, so its bits minus 1 are that double. */
-static inline vector root_down(vector v) {
+INLINE vector root_down(vector v) {
   vector s = root(v);
-  return (vector)((mask)s + above(s * s, v));
+  return bits_below(s, above(s * s, v));
 }
 
-static inline vector square_root(findings *f, vector x, vector unused) {
+INLINE vector square_root(findings *f, vector x, vector unused) {
   (void)unused;
   mask none = is_empty(x), negative = above(splat(0), second(x));
   vector lo = root_down(larger(-first(x), splat(0))), hi = root(larger(second(x), splat(0)));
@@ -98,67 +97,10 @@ static inline vector square_root(findings *f, vector x, vector unused) {
   return finish(f, none | negative, choose(FIRST_HALVES, -lo, hi));
 }
 
-static inline vector minimum(findings *f, vector x, vector y) {
+INLINE vector minimum(findings *f, vector x, vector y) {
   return finish(f, is_empty(x) | is_empty(y), choose(FIRST_HALVES, larger(x, y), smaller(x, y)));
 }
 
-static inline vector maximum(findings *f, vector x, vector y) {
+INLINE vector maximum(findings *f, vector x, vector y) {
   return finish(f, is_empty(x) | is_empty(y), choose(FIRST_HALVES, smaller(x, y), larger(x, y)));
-}
-
-/* A run of one operation: for each instruction a row of lanes, the last lone pair in a vector of its own; `other` is
-** a when unary. */
-#define RUN(name, operation, other)                                                                                    \
-  static AMBIT_WORKER uint32_t name(const ambit_arithmetic *self, void *ctx, void *base, size_t pitch, size_t lanes,   \
-      size_t count, const uint32_t *dst, const uint32_t *a, const uint32_t *b) {                                       \
-    (void)self, (void)ctx, (void)b;                                                                                    \
-    findings f = { 0 };                                                                                                \
-    double *slots = base;                                                                                              \
-    for (size_t i = 0; i < count; i++) {                                                                               \
-      double *r = slots + 2 * pitch * dst[i];                                                                          \
-      const double *x = slots + 2 * pitch * a[i], *y = slots + 2 * pitch * other[i];                                   \
-      size_t l = 0;                                                                                                    \
-      for (; l + WIDTH <= 2 * lanes; l += WIDTH) store(r + l, operation(&f, load(x + l), load(y + l)));                \
-      if (l < 2 * lanes) store_pair(r + l, operation(&f, load_pair(x + l), load_pair(y + l)));                         \
-    }                                                                                                                  \
-    return flags_of(&f);                                                                                               \
-  }
-
-RUN(run_add, add, b)
-RUN(run_sub, sub, b)
-RUN(run_neg, neg, a)
-RUN(run_mul, mul, b)
-RUN(run_sqr, sqr, a)
-RUN(run_div, divide, b)
-RUN(run_sqrt, square_root, a)
-RUN(run_abs, absolute, a)
-RUN(run_min, minimum, b)
-RUN(run_max, maximum, b)
-
-static inline vector sum_of_products(findings *f, const double *x, ptrdiff_t sx, const double *y, ptrdiff_t sy,
-    size_t m, vector (*get)(const double *)) {
-  vector total = splat(0);
-  for (size_t j = 0; j < m; j++) {
-    findings inner = { 0 };
-    total = add(&inner, total, mul(&inner, get(x + 2 * sx * (ptrdiff_t)j), get(y + 2 * sy * (ptrdiff_t)j)));
-  }
-  return finish(f, is_empty(total), total);
-}
-
-static AMBIT_WORKER uint32_t dot_lanes(
-    double *r, const double *x, ptrdiff_t sx, const double *y, ptrdiff_t sy, size_t m, size_t lanes) {
-  findings f = { 0 };
-  size_t l = 0;
-  for (; l + WIDTH <= 2 * lanes; l += WIDTH) store(r + l, sum_of_products(&f, x + l, sx, y + l, sy, m, load));
-  if (l < 2 * lanes) store_pair(r + l, sum_of_products(&f, x + l, sx, y + l, sy, m, load_pair));
-  return flags_of(&f);
-}
-
-static uint32_t dot(
-    void *ctx, void *dst, const void *a, ptrdiff_t sa, const void *b, ptrdiff_t sb, size_t m, size_t lanes) {
-  (void)ctx;
-  ambit_rounding old = ambit_round_up();
-  uint32_t flags = dot_lanes(dst, a, sa, b, sb, m, lanes);
-  ambit_rounding_restore(old);
-  return flags;
 }

@@ -1,31 +1,33 @@
-/* variant.h -- the plugin for one instruction set: kernels and series, compiled with the flags of the including file.
+/* variant.h -- the plugin for one instruction set: kernels and series, compiled with the flags of the including file,
+** which names the tables (VARIANT, JETS) and what it is called (VARIANT_NAME). No set_text: constants arrive as the
+** tightest doubles already.
 */
 #include "kernels.h"
+#include "runs.h"
+#include "served.h"
+#include "dot.h"
+#include "eval.h"
+#include "selftest.h"
+#if WIDTH == 8
+#define JETS interval_avx2_jets /* wider vectors bring nothing to series of a few dozen coefficients */
+#else
 #include "jets_values.h"
 #include "jets_slopes.h"
+#endif
 
-#define INTERVAL_ENTRY(OP) [AMBIT_OP_##OP] = interval_run_##OP,
+#define ENTRY(OP, work, other) [AMBIT_OP_##OP] = run_##OP,
 
 const ambit_arithmetic VARIANT = {
   .size = sizeof(ambit_arithmetic),
   .rigorous = 1,
-  .open = interval_open,
+  .open = open_checked,
   .elem = interval_elem,
   .enter = interval_enter,
   .leave = interval_leave,
   .set = interval_set,
   .bounds = interval_bounds,
-  .run = { [AMBIT_OP_ADD] = run_add,
-      [AMBIT_OP_SUB] = run_sub,
-      [AMBIT_OP_NEG] = run_neg,
-      [AMBIT_OP_MUL] = run_mul,
-      [AMBIT_OP_SQR] = run_sqr,
-      [AMBIT_OP_DIV] = run_div,
-      [AMBIT_OP_SQRT] = run_sqrt,
-      [AMBIT_OP_ABS] = run_abs,
-      [AMBIT_OP_MIN] = run_min,
-      [AMBIT_OP_MAX] = run_max,
-      INTERVAL_SERVED(INTERVAL_ENTRY) INTERVAL_ENTRY(POWN) },
+  .run = { BASIC_OPERATIONS(ENTRY) ELEMENTARY_OPERATIONS(ENTRY)[AMBIT_OP_POWN] = run_POWN },
   .dot = dot,
-  .jets = &jets_interface,
+  .eval_tape = eval_tape,
+  .jets = &JETS,
 };
