@@ -5,6 +5,8 @@
 ** since every operand is still in its place when it is read.
 */
 #include "graph/batch.h"
+#include "base/memory.h"
+#include <ambit/block.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -111,7 +113,7 @@ static ambit_status allocate(ambit_batch *batch, ambit_failure *f) {
         batch->places, batch->elem, need);
   count = batch->places * batch->width;
   bytes = (bytes / ALIGNMENT + 1) * ALIGNMENT;
-  batch->base = aligned_alloc(ALIGNMENT, bytes);
+  batch->base = ambit_memory_allows(bytes) ? aligned_alloc(ALIGNMENT, bytes) : NULL;
   if (!batch->base) return ambit_fail(f, AMBIT_NOMEM, "out of memory: a batch needs %.3g bytes", (double)bytes);
   memset(batch->base, 0, bytes);
   const ambit_arithmetic *full = batch->arithmetic;
@@ -122,16 +124,9 @@ static ambit_status allocate(ambit_batch *batch, ambit_failure *f) {
 }
 
 static void set_constants(ambit_batch *batch) {
-  const ambit_tape *t = batch->tape;
-  const ambit_arithmetic *full = batch->arithmetic;
-  for (uint32_t i = 0; i < t->nconst; i++) {
-    const char *text = full->set_text && t->text ? t->text[i] : NULL;
-    for (size_t lane = 0; lane < batch->width; lane++) {
-      void *place = element(batch, i) + lane * batch->elem;
-      if (text && full->set_text(batch->ctx, place, text)) continue;
-      full->set(batch->ctx, place, 1, &t->lo[i], &t->hi[i], -1);
-    }
-  }
+  for (uint32_t i = 0; i < batch->tape->nconst; i++)
+    for (size_t lane = 0; lane < batch->width; lane++)
+      ambit_constant_set(batch->arithmetic, batch->ctx, element(batch, i) + lane * batch->elem, batch->tape, i);
 }
 
 ambit_status ambit_batch_open(

@@ -1,6 +1,6 @@
 /* sample.c -- draws of expressions, a batch of lanes at a time. */
 #include "model/sample.h"
-#include "graph/interpreter.h"
+#include "graph/batch.h"
 #include "graph/tape.h"
 #include "model/bound.h"
 #include "model/context.h"
@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#define LANES 64u
+#define LANES 256u
 
 typedef struct job {
   const ambit_evaluate_request *q;
@@ -18,7 +18,9 @@ typedef struct job {
   ambit_interval *range; /* [nunknown] */
   const ambit_tape *tape;
   ambit_context context;
-  ambit_block *block;
+  ambit_batch *batch;
+  double *point;     /* [nunknown][LANES] */
+  double *rlo, *rhi; /* [nexpr][LANES] */
 } job;
 
 static ambit_status find_ranges(job *j, ambit_failure *f) {
@@ -35,30 +37,39 @@ static ambit_status find_ranges(job *j, ambit_failure *f) {
   return AMBIT_OK;
 }
 
+static ambit_status make_room(job *j, ambit_failure *f) {
+  size_t results = j->q->nexpr * LANES;
+  j->point = ambit_arena_alloc(j->arena, j->bound.nunknown * LANES * sizeof *j->point);
+  j->rlo = ambit_arena_alloc(j->arena, 2 * results * sizeof *j->rlo);
+  if (!j->point || !j->rlo) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  j->rhi = j->rlo + results;
+  return AMBIT_OK;
+}
+
 static ambit_status prepare(job *j, ambit_failure *f) {
   const ambit_evaluate_request *q = j->q;
   ambit_status status = ambit_bound_build(q, j->arena, &j->bound, f);
   if (status == AMBIT_OK) status = find_ranges(j, f);
+  if (status == AMBIT_OK) status = make_room(j, f);
   if (status != AMBIT_OK) return status;
   size_t nu = j->bound.nunknown;
   status = ambit_tape_seal(q->graph, j->arena, q->nexpr, j->bound.expr, nu, j->bound.unknown, 0, 0, &j->tape, f);
   if (status == AMBIT_OK)
     status = ambit_context_open(q->registry, j->arithmetic, q->noption, q->option, (uint32_t)nu, &j->context, f);
   if (status != AMBIT_OK) return status;
-  return ambit_block_open(j->tape, j->context.arithmetic, j->context.ctx, LANES, &j->block, f);
+  return ambit_batch_open(j->tape, j->context.arithmetic, j->context.ctx, &j->batch, f);
 }
 
-/* One batch; lanes beyond `draws` repeat points of the box and are not counted. */
-static void run_batch(job *j, size_t done, size_t draws, ambit_random *random, ambit_interval *out, size_t *defined) {
-  for (size_t lane = 0; lane < LANES; lane++)
-    for (size_t i = 0; i < j->bound.nunknown; i++) {
-      double v = done + lane == 0 ? ambit_interval_mid(j->range[i]) : ambit_random_in(random, j->range[i]);
-      ambit_block_set(j->block, (uint32_t)i, lane, (ambit_interval) { v, v }, -1);
-    }
-  ambit_block_run(j->block);
+/* Draws number done to done + lanes - 1. */
+static void run_lanes(job *j, size_t done, size_t lanes, ambit_random *random, ambit_interval *out, size_t *defined) {
+  for (size_t lane = 0; lane < lanes; lane++)
+    for (size_t i = 0; i < j->bound.nunknown; i++)
+      j->point[i * lanes + lane] =
+          done + lane == 0 ? ambit_interval_mid(j->range[i]) : ambit_random_in(random, j->range[i]);
+  ambit_batch_run(j->batch, lanes, j->point, j->point, NULL, j->rlo, j->rhi);
   for (size_t e = 0; e < j->q->nexpr; e++)
-    for (size_t lane = 0; lane < LANES && done + lane < draws; lane++) {
-      ambit_interval x = ambit_block_get(j->block, (uint32_t)e, lane);
+    for (size_t lane = 0; lane < lanes; lane++) {
+      ambit_interval x = { j->rlo[e * lanes + lane], j->rhi[e * lanes + lane] };
       double v = ambit_interval_mid(x);
       if (ambit_interval_is_empty(x) || !ambit_interval_is_bounded(x)) continue;
       out[e] = ambit_interval_hull(out[e], (ambit_interval) { v, v });
@@ -93,10 +104,11 @@ ambit_status ambit_sample_expressions(const ambit_evaluate_request *q, size_t dr
       out[e] = AMBIT_EMPTY;
       if (defined) defined[e] = 0;
     }
-    for (size_t done = 0; done < draws; done += LANES) run_batch(&j, done, draws, &random, out, defined);
+    for (size_t done = 0; done < draws; done += LANES)
+      run_lanes(&j, done, draws - done < LANES ? draws - done : LANES, &random, out, defined);
     fill_report(&j, start, built, report);
   }
-  ambit_block_close(j.block);
+  ambit_batch_close(j.batch);
   ambit_context_close(&j.context);
   ambit_arena_close(j.arena);
   return status;
