@@ -1,5 +1,6 @@
 # cmake -DBUILD=<build tree> -DSOURCE=<tests/install> -DWORK=<scratch> -DC_COMPILER=... -DLUA=<lua5.4 or empty> -P check_install.cmake
-# Installs to a fresh prefix, builds host and plugin against it twice (find_package, pkg-config), runs them, the installed command and module.
+# Installs to a fresh prefix, builds host and plugin against it twice (find_package, pkg-config), runs them, the installed command and module;
+# then builds and checks what `ambit new` writes.
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK})
 set(prefix ${WORK}/prefix)
@@ -38,3 +39,35 @@ if(LUA)
   get_filename_component(moduledir ${module} DIRECTORY)
   run(${CMAKE_COMMAND} -E env "LUA_CPATH=${moduledir}/?.so" AMBIT_PATH=${libdir}/ambit ${LUA} ${WORK}/scene.lua)
 endif()
+
+# `ambit new` with nothing but the installed tree: each kind builds by make and by CMake, and conforms; with the other compiler too.
+set(command ${prefix}/bin/ambit)
+set(compilers ${C_COMPILER})
+find_program(GCC gcc)
+find_program(CLANG clang)
+find_program(MAKE make REQUIRED)
+get_filename_component(first ${C_COMPILER} REALPATH)
+foreach(other ${GCC} ${CLANG})
+  get_filename_component(second ${other} REALPATH)
+  if(other AND NOT first STREQUAL second AND NOT C_FLAGS) # sanitizers of two compilers do not mix
+    list(APPEND compilers ${other})
+  endif()
+endforeach()
+foreach(kind arithmetic element solver)
+  set(skeleton ${WORK}/new/${kind})
+  run(${command} new ${kind} fresh ${skeleton})
+  set(number 0)
+  foreach(compiler ${compilers})
+    math(EXPR number "${number} + 1")
+    run(${CMAKE_COMMAND} -E env PKG_CONFIG_PATH=${libdir}/pkgconfig ${MAKE} -C ${skeleton} -B CC=${compiler} "CFLAGS=-Werror -Wpedantic ${C_FLAGS}" ${kind}/fresh.so)
+    run(${command} check --rounds 0.2 ${skeleton}/${kind}/fresh.so)
+    run(${CMAKE_COMMAND} -S ${skeleton} -B ${skeleton}/build-${number} -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_C_COMPILER=${compiler} "-DCMAKE_C_FLAGS=${C_FLAGS}")
+    run(${CMAKE_COMMAND} --build ${skeleton}/build-${number})
+    run(${CMAKE_CTEST_COMMAND} --test-dir ${skeleton}/build-${number})
+    run(${CMAKE_COMMAND} -E env AMBIT_PATH=${skeleton}/build-${number} ${command} plugins ${kind}.fresh)
+  endforeach()
+endforeach()
+file(WRITE ${WORK}/fresh.lua "local ambit = require 'ambit'\nlocal x = ambit.evaluate { ambit.around(2, '0.1') + 1, arithmetic = 'fresh' }\nassert(x:contains '3.1')\n")
+run(${CMAKE_COMMAND} -E env AMBIT_PATH=${WORK}/new/arithmetic/build-1 ${command} run ${WORK}/fresh.lua)
+run(${CMAKE_COMMAND} --install ${WORK}/new/arithmetic/build-1)
+run(${command} run ${WORK}/fresh.lua)

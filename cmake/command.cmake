@@ -17,6 +17,9 @@ foreach(folder prelude command)
     list(APPEND embedded_paths ${script})
   endforeach()
 endforeach()
+include(cmake/skeleton.cmake)
+list(APPEND embedded "ambit.command.skeletons|command/skeletons|${AMBIT_SKELETONS}")
+list(APPEND embedded_paths ${AMBIT_SKELETONS})
 set(embedded_source ${PROJECT_BINARY_DIR}/embedded.c)
 add_custom_command(OUTPUT ${embedded_source}
   COMMAND ${CMAKE_COMMAND} -DOUTPUT=${embedded_source} "-DFILES=${embedded}" -P ${PROJECT_SOURCE_DIR}/cmake/embed.cmake

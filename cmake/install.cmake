@@ -1,6 +1,7 @@
 # What a user of the installed tree gets: the command, libambit with headers for hosts (ambit-kernel/) and plugins (ambit/), find_package(Ambit),
 # ambit.pc, the plugins (cmake/plugins.cmake), the Lua module, the scenes.
 include(CMakePackageConfigHelpers)
+include(cmake/kit.cmake)
 
 set(AMBIT_LUA_DIR ${CMAKE_INSTALL_LIBDIR}/lua/5.4 CACHE STRING "where the Lua module goes, below the prefix")
 set(AMBIT_SCENE_DIR ${CMAKE_INSTALL_DATADIR}/ambit)
@@ -30,7 +31,7 @@ install(TARGETS ambit_sdk EXPORT AmbitTargets)
 set(AMBIT_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/Ambit)
 install(EXPORT AmbitTargets NAMESPACE Ambit:: DESTINATION ${AMBIT_CMAKE_DIR})
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/AmbitConfig.cmake.in ${PROJECT_BINARY_DIR}/AmbitConfig.cmake
-  INSTALL_DESTINATION ${AMBIT_CMAKE_DIR} PATH_VARS CMAKE_INSTALL_LIBDIR)
+  INSTALL_DESTINATION ${AMBIT_CMAKE_DIR} PATH_VARS CMAKE_INSTALL_LIBDIR CMAKE_INSTALL_BINDIR)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/AmbitConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/AmbitConfig.cmake ${PROJECT_BINARY_DIR}/AmbitConfigVersion.cmake DESTINATION ${AMBIT_CMAKE_DIR})
 

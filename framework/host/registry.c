@@ -5,6 +5,7 @@
 #include "host/load.h"
 #include "host/slow.h"
 #include <dlfcn.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -100,6 +101,16 @@ ambit_status ambit_registry_plugin(
   return status;
 }
 
+/* "solver.lohner" -> its kind and name in `id`, cut there; false: it is no such thing. */
+static bool split_id(char *id, const char **kind, const char **name) {
+  ambit_failure ignored = { 0 };
+  char *dot = strchr(id, '.');
+  if (!dot) return false;
+  *dot = '\0';
+  *kind = id, *name = dot + 1;
+  return ambit_path_check(*kind, *name, &ignored) == AMBIT_OK;
+}
+
 ambit_status ambit_registry_load_file(ambit_registry *r, const char *file, const ambit_plugin **p, ambit_failure *f) {
   *p = NULL;
   char reason[AMBIT_REASON_MAX];
@@ -108,7 +119,10 @@ ambit_status ambit_registry_load_file(ambit_registry *r, const char *file, const
   if (!kept_name) return no_memory(f);
   ambit_status status = ambit_load_file(kept_name, NULL, &loaded, reason);
   if (status != AMBIT_OK) return ambit_fail(f, status, "cannot use %s: %s", file, reason);
-  entry *e = keep(r, &loaded, NULL, NULL);
+  char *id = ambit_arena_text(r->arena, loaded.plugin.id);
+  const char *kind = NULL, *name = NULL;
+  bool named = id && split_id(id, &kind, &name);
+  entry *e = id ? keep(r, &loaded, named ? kind : NULL, name) : NULL;
   if (!e) {
     dlclose(loaded.handle);
     return no_memory(f);

@@ -23,7 +23,7 @@ ambit_status ambit_registry_arithmetic(
     ambit_registry *r, const char *name, const ambit_arithmetic **a, ambit_failure *f);
 ambit_status ambit_registry_element(ambit_registry *r, const char *name, const ambit_element **e, ambit_failure *f);
 ambit_status ambit_registry_solver(ambit_registry *r, const char *name, const ambit_solver **s, ambit_failure *f);
-/* any .so, for `ambit check` */
+/* any .so, for `ambit check`; from then on the kind and name in its id mean this file */
 ambit_status ambit_registry_load_file(ambit_registry *r, const char *file, const ambit_plugin **p, ambit_failure *f);
 
 /* The functions that a plugin offers to Lua; *e is NULL if it offers none. */

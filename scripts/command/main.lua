@@ -4,7 +4,10 @@ local core = require "ambit.core"
 local commands = {
   { "run", "run a scene" },
   { "explain", "what a scene loads, builds and leaves out" },
+  { "compare", "width against run time over the arithmetics" },
   { "plugins", "list the plugins, or print the manual of one" },
+  { "check", "put a plugin through the conformance kit" },
+  { "new", "write the skeleton of a plugin" },
   { "test", "run scripted test suites (*_spec.lua)" },
   { "repl", "calculate and build interactively" },
 }

@@ -2,6 +2,7 @@
 #ifndef AMBIT_ARITHMETIC_LOADER_H
 #define AMBIT_ARITHMETIC_LOADER_H
 #include "graph/interpreter.h"
+#include "host/registry.h"
 #include "host/services.h"
 #include <dlfcn.h>
 #include <stdio.h>
@@ -12,7 +13,8 @@ typedef struct arithmetic_loader {
   const ambit_arithmetic *plugin; /* as exported */
   ambit_arithmetic full;          /* completed */
   ambit_lease *lease;
-  void *ctx;
+  void *ctx;          /* opened with every option at its fallback and no variables */
+  double option[128]; /* its options */
 } arithmetic_loader;
 
 /* NULL, or what went wrong. `interface_id` is AMBIT_ARITHMETIC, or one that the plugin offers besides. */
@@ -28,8 +30,10 @@ static inline const char *arithmetic_load_as(arithmetic_loader *l, const char *n
   if (!l->plugin) return "no arithmetic in this file";
   if (ambit_arithmetic_complete(l->plugin, &l->full, NULL) != AMBIT_OK) return "incomplete arithmetic";
   if (ambit_lease_open(&l->lease, NULL, NULL) != AMBIT_OK) return "out of memory";
-  l->ctx = NULL;
-  if (l->plugin->open && l->plugin->open(&l->lease->host, NULL, 0, &l->ctx) != AMBIT_OK)
+  if (ambit_params_doubles(l->full.param) > sizeof l->option / sizeof *l->option) return "too many options";
+  if (ambit_params_resolve(l->full.param, name, 0, NULL, l->option, &l->lease->failure) != AMBIT_OK)
+    return l->lease->failure.message;
+  if (l->full.open && l->full.open(&l->lease->host, l->option, 0, &l->ctx) != AMBIT_OK)
     return l->lease->failure.message;
   return NULL;
 }
@@ -39,7 +43,7 @@ static inline const char *arithmetic_load(arithmetic_loader *l, const char *name
 }
 
 static inline void arithmetic_unload(arithmetic_loader *l) {
-  if (l->plugin && l->plugin->close) l->plugin->close(l->ctx);
+  if (l->ctx && l->full.close) l->full.close(l->ctx);
   ambit_lease_close(l->lease); /* NULL is allowed */
   if (l->library) dlclose(l->library);
 }

@@ -1,0 +1,17 @@
+# scripts/skeleton/<kind>/<file> -> a Lua module that returns their texts by "<kind>/<file>", for `ambit new`.
+file(GLOB_RECURSE skeleton_files CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/scripts/skeleton ${PROJECT_SOURCE_DIR}/scripts/skeleton/*)
+set(AMBIT_SKELETONS ${PROJECT_BINARY_DIR}/skeletons.lua)
+set(skeleton_module "return {\n")
+foreach(name ${skeleton_files})
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/scripts/skeleton/${name})
+  file(READ ${PROJECT_SOURCE_DIR}/scripts/skeleton/${name} text)
+  string(APPEND skeleton_module "[ [=====[${name}]=====] ] = [=====[\n${text}]=====],\n")
+endforeach()
+string(APPEND skeleton_module "}\n")
+set(skeleton_before "")
+if(EXISTS ${AMBIT_SKELETONS})
+  file(READ ${AMBIT_SKELETONS} skeleton_before)
+endif()
+if(NOT skeleton_before STREQUAL skeleton_module) # its date says when it changed
+  file(WRITE ${AMBIT_SKELETONS} "${skeleton_module}")
+endif()

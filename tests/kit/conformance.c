@@ -1,0 +1,187 @@
+/* conformance.c -- loads a plugin and finds the kit for it. */
+#include "kit/conformance.h"
+#include "host/services.h"
+#include "kit/arithmetic_kit.h"
+#include "kit/element_kit.h"
+#include "kit/solver_kit.h"
+#include "kit/solver_kit_problems.h"
+#include "oracle.h"
+#include <stdio.h>
+#include <string.h>
+
+static void tell(const conformance *c, const char *what, const char *name, const char *text) {
+  c->tell(c->user, what, name, text);
+}
+
+static int refuse(const conformance *c, const ambit_failure *f) {
+  tell(c, "refused", "", f->message);
+  return NOT_LOADED;
+}
+
+static void tell_finding(void *user, const char *promise, const char *message) {
+  tell(user, "finding", promise, message);
+}
+
+static void tell_done(const conformance *c, const char *section, size_t judged, size_t broken) {
+  char text[64];
+  snprintf(text, sizeof text, "%zu %zu", judged, broken);
+  tell(c, "done", section, text);
+}
+
+/* -- arithmetics */
+
+static double judge(uint32_t op, double x, double y, int32_t n, bool up) {
+  return oracle_rounded(op, x, y, n, up ? MPFR_RNDU : MPFR_RNDD);
+}
+
+static void tell_begin_section(void *user, const char *section) { tell(user, "begin", section, ""); }
+static void tell_done_section(void *user, const char *section, size_t judged, size_t broken) {
+  tell_done(user, section, judged, broken);
+}
+static void tell_fallback(void *user, const char *operation) { tell(user, "fallback", operation, ""); }
+
+static int check_arithmetic(const conformance *c, ambit_registry *r, const ambit_plugin *p, const char *name) {
+  ambit_failure f = { 0 };
+  const ambit_arithmetic *full;
+  ambit_lease *lease;
+  ambit_status status = ambit_registry_arithmetic(r, name, &full, &f);
+  if (status == AMBIT_OK && (status = ambit_lease_open(&lease, NULL, NULL)) != AMBIT_OK)
+    ambit_fail(&f, status, "out of memory");
+  if (status != AMBIT_OK) return refuse(c, &f);
+  if (!full->rigorous) tell(c, "note", "", "it proves nothing (rigorous = 0): only its values at points are judged");
+  arithmetic_kit kit = { .plugin = p->get(AMBIT_ARITHMETIC),
+    .full = full,
+    .host = &lease->host,
+    .isotonic = c->isotonic,
+    .seed = c->seed,
+    .oracle = judge,
+    .finding = tell_finding,
+    .fallback = tell_fallback,
+    .user = (void *)(uintptr_t)c,
+    .noption = c->noption,
+    .option = c->option,
+    .effort = c->effort,
+    .begin = tell_begin_section,
+    .done = tell_done_section };
+  size_t broken = arithmetic_kit_run(&kit);
+  ambit_lease_close(lease);
+  return broken ? BROKEN : CONFORMS;
+}
+
+/* -- elements */
+
+static int check_element(const conformance *c, ambit_registry *r, const char *name) {
+  ambit_failure f = { 0 };
+  const ambit_element *element;
+  if (ambit_registry_element(r, name, &element, &f) != AMBIT_OK) return refuse(c, &f);
+  unsigned failures = 0, runs = c->effort > 1 ? (unsigned)(3 * c->effort) : 3;
+  char text[160];
+  tell(c, "begin", "quantities", "");
+  element_kit_report all = { 0 };
+  for (unsigned i = 0; i < runs; i++) {
+    element_kit_report one = element_kit_run(element, name, c->seed + i);
+    all.stages += one.stages, all.expressed += one.expressed, all.refused += one.refused;
+    all.compared += one.compared, all.powers += one.powers, failures += one.failures;
+    if (one.failures) tell(c, "finding", "element", one.first);
+  }
+  tell_done(c, "quantities", all.compared + all.expressed + all.refused, failures);
+  snprintf(text, sizeof text,
+      "%u stages, %u quantities expressed, %u refused with a message, %u balances of power closed", all.stages,
+      all.expressed, all.refused, all.powers);
+  tell(c, "note", "", text);
+  return failures ? BROKEN : CONFORMS;
+}
+
+/* -- solvers */
+
+enum { ARITHMETIC_OPTIONS = 128 };
+
+/* the first arithmetic that fits, opened as a scene would */
+static bool open_arithmetic(
+    ambit_registry *r, ambit_lease *lease, double option[ARITHMETIC_OPTIONS], solver_kit *kit, ambit_failure *f) {
+  char name[64];
+  const char *list = kit->plugin->arithmetics ? kit->plugin->arithmetics : "interval";
+  snprintf(name, sizeof name, "%.*s", (int)strcspn(list, " "), list);
+  if (ambit_registry_arithmetic(r, name, &kit->arithmetic, f) != AMBIT_OK) return false;
+  const ambit_arithmetic *a = kit->arithmetic;
+  if (ambit_params_doubles(a->param) > ARITHMETIC_OPTIONS) return false;
+  if (ambit_params_resolve(a->param, name, 0, NULL, option, f) != AMBIT_OK) return false;
+  return !a->open || a->open(&lease->host, option, 0, &kit->actx) == AMBIT_OK;
+}
+
+static int check_solver(const conformance *c, ambit_registry *r, const char *name) {
+  ambit_failure f = { 0 };
+  solver_kit kit = { .name = name,
+    .tolerance = 1e-3,
+    .noption = c->noption,
+    .option = c->option,
+    .finding = tell_finding,
+    .user = (void *)(uintptr_t)c };
+  ambit_lease *lease;
+  double option[ARITHMETIC_OPTIONS];
+  if (ambit_lease_open(&lease, NULL, NULL) != AMBIT_OK) ambit_fail(&f, AMBIT_NOMEM, "out of memory");
+  bool ready = !f.message[0] && ambit_registry_solver(r, name, &kit.plugin, &f) == AMBIT_OK &&
+               open_arithmetic(r, lease, option, &kit, &f);
+  size_t broken = 0;
+  if (ready) {
+    tell(c, "begin", "problems", "");
+    broken = solver_kit_run(&kit);
+    tell_done(c, "problems", kit_problem_count, broken);
+    if (kit.actx && kit.arithmetic->close) kit.arithmetic->close(kit.actx);
+  }
+  ambit_lease_close(lease);
+  if (!ready) {
+    ambit_fail(&f, AMBIT_UNABLE, "no arithmetic for it could be opened"); /* unless something else is said already */
+    return refuse(c, &f);
+  }
+  return broken ? BROKEN : CONFORMS;
+}
+
+/* -- services: functions for Lua, or interfaces that only their users know */
+
+static int check_service(const conformance *c, ambit_registry *r, const ambit_plugin *p) {
+  ambit_failure f = { 0 };
+  const ambit_exports *exports;
+  if (ambit_registry_exports(r, p, &exports, &f) != AMBIT_OK) return refuse(c, &f);
+  tell(c, "note", "", "there is no kit for services: it loads, and its tables are well-formed");
+  return CONFORMS;
+}
+
+static void note_file_name(const conformance *c, const char *name) {
+  const char *slash = strrchr(c->file, '/'), *base = slash ? slash + 1 : c->file;
+  size_t length = strlen(name);
+  char text[200];
+  if (strncmp(base, name, length) == 0 && strcmp(base + length, ".so") == 0) return;
+  snprintf(text, sizeof text, "to be found by its name the file must be called %.80s.so", name);
+  tell(c, "note", "", text);
+}
+
+static int check_plugin(const conformance *c, ambit_registry *r, const ambit_plugin *p) {
+  const char *dot = strchr(p->id, '.'), *name = dot ? dot + 1 : "";
+  size_t kind = dot ? (size_t)(dot - p->id) : 0;
+  tell(c, "plugin", p->id, p->doc ? p->doc : "");
+  note_file_name(c, name);
+  if (kind == 10 && strncmp(p->id, "arithmetic", kind) == 0) return check_arithmetic(c, r, p, name);
+  if (kind == 7 && strncmp(p->id, "element", kind) == 0) return check_element(c, r, name);
+  if (kind == 6 && strncmp(p->id, "solver", kind) == 0) return check_solver(c, r, name);
+  if (kind == 7 && strncmp(p->id, "service", kind) == 0) return check_service(c, r, p);
+  ambit_failure f = { 0 };
+  ambit_fail(&f, AMBIT_INVALID,
+      "it calls itself `%.100s`, expected arithmetic.NAME, element.NAME, solver.NAME or "
+      "service.NAME",
+      p->id);
+  return refuse(c, &f);
+}
+
+int conformance_run(const conformance *c) {
+  ambit_failure f = { 0 };
+  const ambit_plugin *p;
+  ambit_registry *r = ambit_registry_open(NULL);
+  if (!r) {
+    ambit_fail(&f, AMBIT_NOMEM, "out of memory");
+    return refuse(c, &f);
+  }
+  int verdict = ambit_registry_load_file(r, c->file, &p, &f) == AMBIT_OK ? check_plugin(c, r, p) : refuse(c, &f);
+  ambit_registry_close(r);
+  return verdict;
+}

@@ -1,0 +1,65 @@
+/* conformance_plugin.c -- the conformance kits as a service plugin, which `ambit check` loads and nothing else.
+**
+** It is a host program in the shape of a plugin: it links libambit, because checking plugins means loading them.
+*/
+#include "kit/conformance.h"
+#include <ambit/export.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef void (*tell_fn)(const char *what, const char *name, const char *text, void *user);
+
+typedef struct listener {
+  tell_fn call;
+  void *user;
+} listener;
+
+static void forward(void *user, const char *what, const char *name, const char *text) {
+  const listener *l = user;
+  l->call(what, name, text, l->user);
+}
+
+enum { OPTIONS_MAX = 64 };
+
+/* "degree=5\nsymbols=10", cut up in place */
+static size_t split_options(char *text, ambit_option *option) {
+  size_t n = 0;
+  for (char *line = text; line && *line && n < OPTIONS_MAX;) {
+    char *next = strchr(line, '\n'), *equals = strchr(line, '=');
+    if (next) *next++ = '\0';
+    if (equals) *equals = '\0', option[n++] = (ambit_option) { line, equals + 1 };
+    line = next;
+  }
+  return n;
+}
+
+static int32_t check(const char *file, const char *options, double seed, double effort, double patience,
+    int32_t isotonic, tell_fn call, void *user) {
+  ambit_option option[OPTIONS_MAX];
+  listener l = { call, user };
+  char *text = strdup(options);
+  if (!text) return NOT_LOADED;
+  conformance c = { .file = file,
+    .noption = split_options(text, option),
+    .option = option,
+    .seed = (uint64_t)seed,
+    .effort = effort,
+    .isotonic = isotonic != 0,
+    .tell = forward,
+    .user = &l };
+  int verdict = conformance_run_apart(&c, patience);
+  free(text);
+  return verdict;
+}
+
+static const ambit_function functions[] = {
+  { "check", "i(ssdddi(v(sss)))", (void (*)(void))check,
+      "runs the kit on FILE with OPTIONS (lines name=value), seed, effort, patience in s, and whether isotonicity is "
+      "demanded; tells what happens; 0 conforms, 1 cannot be loaded, 3 broken promises" },
+};
+static const ambit_exports exports = { sizeof exports, sizeof functions / sizeof *functions, functions };
+
+static const void *get(const char *id) { return strcmp(id, AMBIT_EXPORTS) == 0 ? &exports : NULL; }
+
+AMBIT_EXPORT const ambit_plugin ambit_entry = { sizeof ambit_entry, AMBIT_ABI, "service.conformance_kit", "1.0",
+  "The conformance kits of arithmetics, elements and solvers: what `ambit check` runs.", get };
