@@ -32,9 +32,16 @@ static const void *find_entry(void *handle, char reason[AMBIT_REASON_MAX]) {
   }
   Dl_info about;
   ElfW(Sym) *symbol = NULL;
-  if (dladdr1(entry, &about, (void **)&symbol, RTLD_DL_SYMENT) && symbol &&
-      (ELF64_ST_TYPE(symbol->st_info) != STT_OBJECT || symbol->st_size < 2 * sizeof(uint32_t))) {
+  if (!dladdr1(entry, &about, (void **)&symbol, RTLD_DL_SYMENT) || !symbol) return entry;
+  if (ELF64_ST_TYPE(symbol->st_info) != STT_OBJECT || symbol->st_size < 2 * sizeof(uint32_t)) {
     snprintf(reason, AMBIT_REASON_MAX, "its `ambit_entry` is not a struct ambit_plugin");
+    return NULL;
+  }
+  uint32_t claimed;
+  memcpy(&claimed, entry, sizeof claimed);
+  if (claimed > symbol->st_size) {
+    snprintf(reason, AMBIT_REASON_MAX, "its `ambit_entry` says it has %u bytes, but has %zu", (unsigned)claimed,
+        (size_t)symbol->st_size);
     return NULL;
   }
   return entry;

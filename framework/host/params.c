@@ -109,7 +109,7 @@ static ambit_status read_flag(const reading *r, double *out) {
 static ambit_status read_integer(const reading *r, double *out) {
   const double largest = 9007199254740992.0; /* 2^53: beyond it not every integer is a double */
   bool good = read_number(r->text, out) && fabs(*out) <= largest && *out == nearbyint(*out);
-  return good ? AMBIT_OK : wrong(r, "an integer");
+  return good ? AMBIT_OK : wrong(r, "an integer of at most 2^53");
 }
 
 /* The index of the word in "rk4|rk8pd|msbdf". */

@@ -36,9 +36,12 @@ static ambit_status prepare(job *j, ambit_failure *f) {
   return ambit_block_open(j->tape, j->context.arithmetic, j->context.ctx, 1, &j->block, f);
 }
 
+/* Without the memory for it the enclosure stays as wide as it is. */
 static ambit_status narrow(const job *j, size_t i, ambit_interval *x, ambit_failure *f) {
   const ambit_monotone m = { j->q->graph, &j->context, j->seal, j->bound.nunknown, j->bound.unknown };
-  return ambit_monotone_narrow(&m, j->bound.expr[i], x, f);
+  ambit_failure own = { 0 };
+  ambit_status status = ambit_monotone_narrow(&m, j->bound.expr[i], x, &own);
+  return status == AMBIT_OK || status == AMBIT_NOMEM ? AMBIT_OK : ambit_fail(f, status, "%s", own.message);
 }
 
 static ambit_status run(job *j, ambit_interval *out, uint32_t *flags, ambit_failure *f) {

@@ -7,10 +7,20 @@ local files = {}
 
 local function complain(message) io.stderr:write("ambit: ", tostring(message), "\n") end
 
+local function write(name, text)
+  local file = assert(io.open(name, "w"))
+  local written, problem = file:write(text)
+  local closed, late = file:close()
+  if not (written and closed) then error(("cannot write %s: %s"):format(name, problem or late), 0) end
+end
+
 -- Said before anything is computed: the file that cannot be written.
 function files.problem(options)
+  local used = {}
   for _, key in ipairs { "csv", "svg", "json" } do
     local name = options[key]
+    if name and used[name] then return ("--%s and --%s name the same file, %s"):format(used[name], key, name) end
+    if name then used[name] = key end
     if name and not (key == "json" and name == "-") then
       local there = io.open(name)
       if there then there:close() end
@@ -54,22 +64,25 @@ local function fields_of(comparison, number, row)
   return fields
 end
 
-local function write_csv(list, name)
-  local file = assert(io.open(name, "w"))
-  file:write(table.concat(columns, ","), "\r\n")
+local function csv_lines(list)
+  local lines = { table.concat(columns, ",") .. "\r\n" }
   for number, comparison in ipairs(list) do
     for _, row in ipairs(comparison.rows) do
       local fields = fields_of(comparison, number, row)
-      if not row.enclosures then file:write(line_of(fields)) end
+      if not row.enclosures then lines[#lines + 1] = line_of(fields) end
       for i, set in ipairs(row.enclosures or {}) do
         fields.result, fields.width = comparison.paths[i], row.widths[i]
+        fields.status, fields.reason = compare.status_of(set), nil
+        fields.lo, fields.hi = nil, nil -- the empty set has no bounds
         if not set:is_empty() then fields.lo, fields.hi = set.lo, set.hi end
-        file:write(line_of(fields))
+        lines[#lines + 1] = line_of(fields)
       end
     end
   end
-  assert(file:close())
+  return lines
 end
+
+local function write_csv(list, name) write(name, table.concat(csv_lines(list))) end
 
 -- -- JSON lines
 
@@ -92,16 +105,25 @@ end
 local no_gnuplot = [[
 the picture needs gnuplot, which is not on the PATH (Debian, Ubuntu: apt install gnuplot-nox); all else is written]]
 
+local function draw(script)
+  local source = os.tmpname()
+  write(source, script)
+  local pipe = assert(io.popen(("gnuplot '%s'"):format(source)))
+  local text = pipe:read "a"
+  local drawn = pipe:close()
+  os.remove(source)
+  if not drawn or text == "" then error("gnuplot could not draw the picture", 0) end
+  return text
+end
+
 local function write_svg(list, name, file)
   if not os.execute "command -v gnuplot >/dev/null 2>&1" then error(no_gnuplot, 0) end
   local title = ("%s: width against run time"):format(file:match "[^/]*$")
-  local script, left_out = picture.script(list, title, name)
+  local script, left_out = picture.script(list, title)
   if left_out > 0 then
     io.stderr:write(("note: the picture shows the first %d comparisons of %d\n"):format(#list - left_out, #list))
   end
-  local pipe = assert(io.popen("gnuplot -", "w"))
-  pipe:write(script)
-  if not pipe:close() then error("gnuplot could not draw " .. name, 0) end
+  write(name, draw(script))
 end
 
 -- Writes what the options ask for, as much as it can; true: something could not be written, and was complained about.

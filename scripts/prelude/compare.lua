@@ -45,19 +45,21 @@ local function bare(problem)
   return text
 end
 
--- "complete", or what is the matter with which result
-local function status_of(x, paths)
-  local status, names = "complete", {}
+function verb.status_of(set)
+  return set:is_empty() and "empty" or not set:is_bounded() and "unbounded" or "complete"
+end
+
+-- "complete", or what is the matter with which results
+local function status_of_all(x, paths)
+  local names, reasons = { empty = {}, unbounded = {} }, {}
   for i, set in ipairs(x) do
-    local own = set:is_empty() and "empty" or not set:is_bounded() and "unbounded" or "complete"
-    if own ~= "complete" and (status == "complete" or status == own) then
-      status = own
-      names[#names + 1] = compare_table.name_of(paths[i])
-    end
+    local list = names[verb.status_of(set)]
+    if list then list[#list + 1] = compare_table.name_of(paths[i]) end
   end
-  if status == "complete" then return status end
-  return status, table.concat(names, ", ") .. (status == "empty" and " has no point in the domain" or
-    " has no bounds")
+  if #names.empty > 0 then reasons[1] = table.concat(names.empty, ", ") .. " has no point in the domain" end
+  if #names.unbounded > 0 then reasons[#reasons + 1] = table.concat(names.unbounded, ", ") .. " has no bounds" end
+  if #reasons == 0 then return "complete" end
+  return #names.empty > 0 and "empty" or "unbounded", table.concat(reasons, "; ")
 end
 
 local function new_row(c)
@@ -92,7 +94,7 @@ local function run_combination(request, c, settings)
   row.seconds_first = core.cpu() - began
   if not good then return fail_row(row, "failed", bare(x)) end
   row.enclosures = x
-  row.status, row.reason = status_of(x, request.paths)
+  row.status, row.reason = status_of_all(x, request.paths)
   row.unknowns, row.instructions = report.unknowns, report.tape_instructions
   row.widths, row.width = {}, 0
   for i, set in ipairs(x) do
@@ -152,7 +154,7 @@ local function tightest_widths(rows, count)
   local least = {}
   for _, row in ipairs(rows) do
     for i = 1, count do
-      if is_proof(row) then least[i] = math.min(least[i] or math.huge, row.widths[i]) end
+      if is_proof(row) and not row.enclosures[i]:is_empty() then least[i] = math.min(least[i] or math.huge, row.widths[i]) end
     end
   end
   return least

@@ -1,7 +1,7 @@
 -- compare_picture.lua -- comparisons as a gnuplot script: width across (of several results: their largest
 -- overestimation, since widths of different quantities do not compare), CPU time up, both logarithmic; one panel for
 -- each comparison, one colour and marker for each arithmetic, its orders joined by a line. What cannot be drawn
--- (failures, widths that are zero or infinite) is listed below.
+-- (failures, widths that are zero, infinite or beyond the axis) is listed below.
 --
 -- Everything is placed here, in pixels, and gnuplot draws it: so labels can keep clear of points and of each other.
 local compare_label = require "ambit.compare_label"
@@ -19,11 +19,16 @@ local markers = { 7, 5, 9, 13, 11, 15, 4, 6 }
 
 local function quoted(text) return "'" .. tostring(text):gsub("'", "''"):gsub("[\r\n]+", " ") .. "'" end
 
+-- What an SVG file may contain: names are the scene's, whatever bytes they have.
+local function printable(text)
+  return (utf8.len(text) and text or text:gsub("[\128-\255]", "?")):gsub("%c+", " ")
+end
+
 local function short(text, pixels)
   local room = math.floor(pixels / char)
-  local length = utf8.len(text) or #text
-  if length <= room then return text end
-  return text:sub(1, (utf8.offset(text, room - 2) or room) - 1) .. "..."
+  if compare_table.length(text) <= room then return text end
+  local cut = utf8.len(text) and utf8.offset(text, room - 2) or room - 2
+  return text:sub(1, cut - 1) .. "..."
 end
 
 -- -- what is drawn
@@ -45,8 +50,8 @@ local function measure_of(comparison)
 end
 
 local function drawable(row, key)
-  return row.enclosures and row.rigorous and row.status == "complete" and row[key] and row[key] > 0
-      and row[key] < math.huge and row.seconds_run > 0
+  return row.enclosures and row.rigorous and row.status == "complete" and row[key] and compare_axis.on_axis(row[key])
+      and row.seconds_run > 0
 end
 
 -- One style for each family, in the order of first appearance; families of one arithmetic differ in their dashes.
@@ -71,11 +76,14 @@ local function styles_of(comparisons)
   return styles
 end
 
-local function note_of(row)
+local function note_of(row, key)
   if row.reason then return ("%s: %s: %s"):format(row.label, row.status, row.reason) end
   if not row.rigorous then return nil end
   if row.width == 0 then
     return ("%s: exact, width 0, in %s"):format(row.label, compare_table.seconds(row.seconds_run))
+  end
+  if row[key] and not compare_axis.on_axis(row[key]) then
+    return ("%s: %.3g is beyond the axis"):format(row.label, row[key])
   end
 end
 
@@ -84,7 +92,7 @@ local function notes_of(comparisons)
   for i, comparison in ipairs(comparisons) do
     local key = measure_of(comparison)
     for _, row in ipairs(comparison.rows) do
-      local note = not drawable(row, key) and note_of(row)
+      local note = not drawable(row, key) and note_of(row, key)
       if note then notes[#notes + 1] = (#comparisons > 1 and ("%d. "):format(i) or "") .. note end
     end
   end
@@ -152,7 +160,7 @@ local function writer()
 end
 
 local function text_at(write, l, x, y, text, extra) -- the middle of its height at y
-  write("set label %s at screen %.5f,%.5f %s", quoted(text), x / l.width, y / l.height, extra or "left")
+  write("set label %s at screen %.5f,%.5f %s", quoted(printable(text)), x / l.width, y / l.height, extra or "left")
 end
 
 local function segment(write, l, x1, y1, x2, y2, style)
@@ -276,7 +284,7 @@ end
 
 local function write_panel(write, l, comparison, i, many, styles, data)
   local key, title, inner = measure_of(comparison)
-  if inner and not (inner > 0 and inner < math.huge) then inner = nil end
+  if inner and not compare_axis.on_axis(inner) then inner = nil end
   local families, reference = families_of(comparison, key), reference_of(comparison)
   local frame = frame_of(l, i)
   local x, y = ranges_of(families, key, inner, reference)
@@ -311,21 +319,19 @@ local function legend_of(comparisons)
   return has
 end
 
--- A gnuplot script that draws the comparisons into the file (SVG); the second value: how many were left out.
-function picture.script(comparisons, title, file)
+-- A gnuplot script that draws the comparisons to its standard output (SVG); the second value: how many were left out.
+function picture.script(comparisons, title)
   local shown = table.move(comparisons, 1, math.min(#comparisons, panels_at_most), 1, {})
   local styles, notes = styles_of(shown), notes_of(shown)
   local l = layout(shown, styles, notes)
   local lines, write = writer()
   local blocks, data = data_blocks()
   write("set terminal svg size %d,%d noenhanced font 'sans-serif,13' background rgb 'white'", l.width, l.height)
-  write("set output %s", quoted(file))
   write "set multiplot"
   write "set logscale xy; unset key; set border 3; set tics nomirror out; set grid lc rgb '#dddddd' lt 1"
   write_head(write, l, title, styles, notes, legend_of(shown))
   for i, comparison in ipairs(shown) do write_panel(write, l, comparison, i, #shown > 1, styles, data) end
   write "unset multiplot"
-  write "unset output"
   return table.concat(blocks, "\n") .. "\n" .. table.concat(lines, "\n") .. "\n", #comparisons - #shown
 end
 

@@ -56,8 +56,11 @@ local function columns_of(comparison)
   return columns
 end
 
+-- Characters, or bytes where the text is no UTF-8: the names of results are the scene's, whatever bytes they have.
+function compare_table.length(text) return utf8.len(text) or #text end
+
 local function pad(text, width, left)
-  local space = (" "):rep(width - utf8.len(text))
+  local space = (" "):rep(width - compare_table.length(text))
   return left and text .. space or space .. text
 end
 
@@ -87,7 +90,7 @@ function compare_table.text(comparison, coloured)
     for k, column in ipairs(columns) do cells[i + 1][k] = column[2](row) end
   end
   for _, line in ipairs(cells) do
-    for k, text in ipairs(line) do widths[k] = math.max(widths[k] or 0, utf8.len(text) or #text) end
+    for k, text in ipairs(line) do widths[k] = math.max(widths[k] or 0, compare_table.length(text)) end
   end
   local lines = {}
   for i, line in ipairs(cells) do

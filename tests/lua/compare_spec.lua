@@ -157,6 +157,18 @@ describe("the picture", function()
     end
   end)
 
+  it("has an axis for every double, or says that there is none", function()
+    for _, v in ipairs { 0, 5e-324, 1e-300, 1e300, math.huge } do assert.is_false(axis.on_axis(v)) end
+    for _, values in ipairs { { 1e-250 }, { 1e250 }, { 1e-250, 1e250 }, { 1, 1e250 }, { 1e-250, 1.0000001e-250 } } do
+      for _, v in ipairs(values) do assert.is_true(axis.on_axis(v)) end
+      local r = axis.range(values, 1.2)
+      assert.is_true(r.lo > 0 and r.lo < values[1] and r.hi > values[#values] and r.hi < math.huge)
+      assert.is_true(#r.ticks >= 2 and #r.ticks <= 13, #r.ticks)
+      local x = axis.pixel(r, values[1], 0, 100)
+      assert.is_true(x > 0 and x <= 50, x)
+    end
+  end)
+
   it("keeps labels clear of points, of each other and of the frame", function()
     local frame = { left = 90, right = 490, bottom = 60, top = 360 }
     for _ = 1, 50 do
@@ -245,6 +257,25 @@ describe("ambit compare", function()
     for line in text:gmatch "[^\r\n]+" do assert.equal(16, count(line, ",")) end
   end)
 
+  it("gives each result its own status in the CSV, an empty one no bounds", function()
+    local name = os.tmpname()
+    scene("local a = require 'ambit' local x = a.between(1, 2) a.evaluate { { a = x, b = a.sqrt(-x) } }",
+      "--repeat 1 --csv " .. name)
+    local text = read(name)
+    has(text, ",interval,,yes,complete,,a,1,2,1,", ",interval,,yes,empty,,b,,,0")
+    for line in text:gmatch "[^\r\n]+" do assert.falsy(line:find(",b,[^,]", 1), line) end
+  end)
+
+  it("says which file is full", function()
+    local device = io.open("/dev/full", "w")
+    if not device then return end
+    device:close()
+    local code, stdout, stderr = scene(small, "--repeat 1 --csv /dev/full")
+    assert.equal(1, code)
+    has(stderr, "cannot write /dev/full: ")
+    has(stdout, "affine symbols=10")
+  end)
+
   it("writes records", function()
     local found, json = pcall(require, "cjson")
     if not found then return end
@@ -277,6 +308,34 @@ describe("ambit compare", function()
     has(stdout, "affine symbols=10")
     has(read(csv), "affine")
     os.remove(svg)
+  end)
+
+  it("draws around widths beyond the axis", function()
+    if not os.execute "command -v gnuplot >/dev/null" then return end
+    local svg = os.tmpname()
+    local code, _, stderr = scene([[
+      local ambit = require "ambit"
+      ambit.evaluate { ambit.between(0, 5e-324) }
+      ambit.evaluate { ambit.between(0, 8e307) }]], "--repeat 1 --svg " .. svg)
+    assert.equal(0, code, stderr)
+    has(read(svg), "1. interval: 4.94e-324 is beyond the axis", "no enclosure with a finite width above zero")
+  end)
+
+  it("takes names of results that are no UTF-8", function()
+    local text = [[
+      local ambit = require "ambit"
+      local x = ambit.between(1, 2)
+      ambit.evaluate { { ["\xff\x80\1%s"] = x * x - x, [("\xe9"):rep(300)] = x ^ 3 } }]]
+    local svg = os.tmpname()
+    local drawn = os.execute "command -v gnuplot >/dev/null"
+    local code, stdout, stderr = scene(text, "--repeat 1" .. (drawn and " --svg " .. svg or ""))
+    assert.equal(0, code, stderr)
+    has(stdout, "width of \xff\x80\1%s")
+    local picture = read(svg)
+    if drawn then
+      assert.truthy(utf8.len(picture))
+      assert.falsy(picture:find "[\1-\8]")
+    end
   end)
 
   it("lists what failed, in the table and in the files", function()
@@ -325,6 +384,12 @@ describe("ambit compare", function()
     assert.equal(2, code)
     has(stderr, "unknown option `--cvs`", "`--csv`")
     assert.equal(2, (run "--csv"))
+    code, _, stderr = scene(small, "--csv /tmp/one --svg /tmp/one")
+    assert.equal(1, code)
+    has(stderr, "--csv and --svg name the same file")
+    code, _, stderr = scene(small, "--repeat 1 --svg /dev/full")
+    assert.equal(1, code)
+    has(stderr, "/dev/full")
     assert.equal(2, (run ""))
     code, _, stderr = scene(small, "--csv /nonexistent/x.csv")
     assert.equal(1, code)

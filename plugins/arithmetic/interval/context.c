@@ -5,9 +5,9 @@
 ambit_status interval_open(const ambit_host *h, const double *option, uint32_t nvar, void **ctx) {
   (void)option, (void)nvar;
   interval_context *context = h->alloc(h, sizeof *context);
-  if (!context) return h->fail(h, AMBIT_NOMEM, "interval: out of memory");
+  if (!context) return h->fail(h, AMBIT_NOMEM, "out of memory");
   context->num = h->service(h, AMBIT_NUM_SERVICE);
-  if (!context->num) return h->fail(h, AMBIT_INVALID, "interval: this kernel does not lend `%s`", AMBIT_NUM_SERVICE);
+  if (!context->num) return h->fail(h, AMBIT_INVALID, "this kernel does not lend `%s`", AMBIT_NUM_SERVICE);
   *ctx = context;
   return AMBIT_OK;
 }

@@ -87,9 +87,9 @@ static ambit_status open_as(
     const ambit_host *h, const double *option, uint32_t nvar, void **ctx, const kernels *kernels) {
   double wanted = option ? option[ORDER] : 3, boxes = option ? option[BOXES] : 16;
   if (!(wanted >= 0 && wanted <= MONOMIALS_ORDER_MAX))
-    return h->fail(h, AMBIT_INVALID, "taylor_model: order %g is not from 0 to %d", wanted, MONOMIALS_ORDER_MAX);
+    return h->fail(h, AMBIT_INVALID, "order %g is not from 0 to %d", wanted, MONOMIALS_ORDER_MAX);
   if (!(boxes >= 0 && boxes <= RANGE_BOXES_MAX))
-    return h->fail(h, AMBIT_INVALID, "taylor_model: boxes = %g is not from 0 to %d", boxes, RANGE_BOXES_MAX);
+    return h->fail(h, AMBIT_INVALID, "boxes = %g is not from 0 to %d", boxes, RANGE_BOXES_MAX);
   uint32_t order = nvar ? (uint32_t)wanted : 0;
   double count = monomial_count(nvar, order), tables = monomials_bytes(nvar, order), need = tables + 8 * count;
   layout l = { 0 };
@@ -101,18 +101,17 @@ static ambit_status open_as(
   char *room = c && need < 0x1p46 ? h->alloc(h, (size_t)need) : NULL;
   if (!room)
     return h->fail(h, AMBIT_NOMEM,
-        "taylor_model: order %u in %u variables has %.6g monomials, %.3g bytes for each quantity, and needs %.3g bytes "
+        "order %u in %u variables has %.6g monomials, %.3g bytes for each quantity, and needs %.3g bytes "
         "of tables, more than there are; lower the order or make fewer data uncertain",
         order, nvar, count, count * sizeof(double), need);
   c->num = h->service(h, AMBIT_NUM_SERVICE);
-  if (!c->num) return h->fail(h, AMBIT_INVALID, "taylor_model: this kernel does not lend `%s`", AMBIT_NUM_SERVICE);
+  if (!c->num) return h->fail(h, AMBIT_INVALID, "this kernel does not lend `%s`", AMBIT_NUM_SERVICE);
   c->kernels = kernels;
   assign(c, &l, nvar, order, room, tables);
   c->boxes = l.boxes ? (uint32_t)boxes : 0;
   while (c->boxes > 1 && (size_t)c->boxes * c->m.count > BOXES_LIMIT) c->boxes /= 2;
   if (!is_sound(c))
-    return h->fail(
-        h, AMBIT_BROKEN, "taylor_model: this build or machine does not round as told; nothing it computes is proved");
+    return h->fail(h, AMBIT_BROKEN, "this build or machine does not round as told; nothing it computes is proved");
   *ctx = c;
   return AMBIT_OK;
 }
