@@ -1,8 +1,10 @@
 /* decimal.h -- decimal text <-> doubles, rigorous in both directions, in any ambient rounding mode and locale.
 **
-** Reads IEEE 1788-2015 literals: "0.1", "-1e-3", "1/3", "0x1.8p3", "[0.1, 0.2]", "[1/3, 2/3]", "[empty]", "[entire]",
-** "[,]", "[1,]", "3.56?2" (uncertain form: +- 2 ulp of the last place, with u, d, ??, exponent), "pi"; "inf" as a bound. White
-** space is allowed around numbers.
+** Reads the bare literals of IEEE 1788-2015: "0.1", "-1e-3", "1/3", "0x1.8p3", "[0.1, 0.2]", "[1/3]", "[]", "[empty]",
+** "[entire]", "[,]", "[1,]", "[-inf, 2]", and the uncertain form "3.56?2e1" (+- 2 units of the last place; no radius:
+** half a unit; "??": unbounded; u or d behind the radius: upward or downward only); besides "pi". Letters may be
+** capitals; white space is allowed around bounds and brackets. A lower bound above the upper one by less than the
+** spacing of doubles is not noticed: the result holds both. Decorated literals are refused.
 */
 #ifndef AMBIT_DECIMAL_H
 #define AMBIT_DECIMAL_H

@@ -16,7 +16,8 @@ int ambit_decimal_shortest(char out[AMBIT_DECIMAL_MAX], double x) {
   if (!isfinite(x)) return infinite(out, x);
   ambit_environment old = ambit_environment_enter();
   int n = 0;
-  for (int digits = 15; digits <= 17; digits++) {
+  /* 15 digits name a normal double uniquely if any fewer do; a subnormal one may need less */
+  for (int digits = fabs(x) < DBL_MIN ? 1 : 15; digits <= 17; digits++) {
     n = snprintf(out, AMBIT_DECIMAL_MAX, "%.*g", digits, x);
     if (strtod(out, NULL) == x) break;
   }

@@ -32,7 +32,7 @@ static ambit_elementary_map choose_map(uint32_t op, size_t n) {
   uint32_t i = op - AMBIT_OP_EXP;
 #if defined(__x86_64__)
   if (!__builtin_cpu_supports("fma") || !__builtin_cpu_supports("avx2")) return ambit_elementary_portable[i];
-  if (n < 3) return ambit_elementary_fma[i];
+  if (n < 4) return ambit_elementary_fma[i];
   if (n >= 8 && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
     return ambit_elementary_avx512[i];
   return ambit_elementary_avx2[i];

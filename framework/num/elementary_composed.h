@@ -12,12 +12,12 @@
 /* sqrt(1 - u^2), u in [0, 1]: the other leg of asin and acos; 0 for u = 1 */
 INLINE pair other_leg(lanes u) {
   pair q = two_product(u, u), w = fast_two_sum(all(1), -q.h);
-  w = fast_two_sum(w.h, w.l - q.l);
+  w = fast_two_sum(w.h, w.l - q.l); /* 1 - u^2 */
   bits end = less_equal(all(1), u);
   lanes s = choose(end, all(1), square_root(w.h));
   pair v = two_product(s, s);
-  pair root = fast_two_sum(s, (((w.h - v.h) - v.l) + w.l) / (s + s));
-  return pair_choose(end, (pair) { all(0), all(0) }, root);
+  lanes half = 0.5 / s, rest = ((w.h - v.h) - v.l) + w.l;
+  return pair_choose(end, (pair) { all(0), all(0) }, (pair) { s, rest * half });
 }
 
 /* pi - a where the mask is set, a in [0, pi/2] */
@@ -91,26 +91,24 @@ INLINE pair sinh_kernel(lanes x, bits *k) {
 /* cosh x = (h + l) 2^k, |x| <= 1400 */
 INLINE pair cosh_kernel(lanes x, bits *k) { return exp_halves(magnitude(x), all_bits(0), k); }
 
-/* 1 - 2/(e^2u + 1), u >= 0; past 22 it is between 1 - 2^-62 and 1 anyway */
-INLINE pair tanh_far(lanes u) {
+/* e^2u -+ 1, u in (NEAR, 22] */
+INLINE void tanh_far(lanes u, pair *less_one, pair *plus_one) {
   bits k;
   pair e = exp_kernel(2.0 * smaller(u, all(22)), &k);
-  lanes scale = power_of_two(k);
-  pair d = two_sum(e.h * scale, all(1));
-  d = fast_two_sum(d.h, d.l + e.l * scale);
-  pair q = pair_divide((pair) { all(2), all(0) }, d), s = fast_two_sum(all(1), -q.h);
-  return fast_two_sum(s.h, s.l - q.l);
+  lanes scale = power_of_two(k), l = e.l * scale;
+  *less_one = fast_two_sum(e.h * scale, all(-1)), *plus_one = fast_two_sum(e.h * scale, all(1));
+  less_one->l = less_one->l + l, plus_one->l = plus_one->l + l;
 }
-/* |x| in [2^-28, 22]; any other x has its enclosure rounded to 1 */
+/* sinh/cosh or (e^2u - 1)/(e^2u + 1), |x| in [2^-28, 22]; any other x has its enclosure rounded to 1 */
 INLINE pair tanh_kernel(lanes x) {
-  bits near = less_equal(magnitude(x), all(NEAR));
-  pair r = { x, x };
-  if (any(~near)) r = pair_flip(tanh_far(magnitude(x)), sign_bit(x));
+  bits near = less_equal(magnitude(x), all(NEAR)), sign = sign_bit(x);
+  pair num = { x, x }, den = { all(1), all(0) };
+  if (any(~near)) tanh_far(magnitude(x), &num, &den);
   if (any(near)) {
     pair s, c;
-    sinh_cosh_near(choose(near, x, all(0)), &s, &c);
-    r = pair_choose(near, pair_divide(s, c), r);
+    sinh_cosh_near(choose(near, magnitude(x), all(0)), &s, &c);
+    num = pair_choose(near, s, num), den = pair_choose(near, c, den);
   }
-  return r;
+  return pair_flip(pair_divide(num, den), sign);
 }
 #endif

@@ -103,30 +103,31 @@ INLINE pair tan_kernel(angle a) {
   return pair_divide(addition(s, c, a.r, a.odd, a.even), addition(c, minus, a.r, a.odd, a.even));
 }
 
-/* The angle in [0, pi/2] of the point (x, y), x, y >= 0, not both 0, nonzero ones in [2^-400, 2^400].
-** t = (b - c a)/(a + c b) with a >= b the larger and smaller one, c = j/32 next to b/a, |t| <= 2^-6. */
+/* The angle in [0, pi/2] of the point (x, y), x, y >= 0, not both 0, nonzero ones in [2^-400, 2^400], |low word| <=
+** 2^-52 |high word|. With a >= b the larger and the smaller one and c = j/32 next to b/a it is atan c + atan t or pi/2
+** less that, t = (b - c a)/(a + c b), |t| <= 2^-6; t = q + rest/(a + c b), q the quotient of the high words. */
 INLINE pair atan_kernel(pair y, pair x) {
   bits steep = less(x.h, y.h), row;
   pair b = pair_choose(steep, x, y), a = pair_choose(steep, y, x);
-  lanes q = b.h / a.h;
-  lanes c =
-      nearest_integer(choose(less_equal(q, all(1)), q, all(0)) * 32.0, &row) * 0x1p-5; /* not NaN: a row of the table */
+  lanes ratio = b.h / a.h;
+  /* not NaN: a row of the table */
+  lanes c = nearest_integer(choose(less_equal(ratio, all(1)), ratio, all(0)) * 32.0, &row) * 0x1p-5;
   row = row + (steep & all_bits(33));
   pair corner;
   gather(ambit_atan_table, row + row, &corner.h, &corner.l);
   pair ca = two_product(c, a.h), cb = two_product(c, b.h);
-  pair num = fast_two_sum(b.h - ca.h, (b.l - c * a.l) - ca.l);
   pair den = fast_two_sum(a.h, cb.h);
-  den = fast_two_sum(den.h, den.l + (cb.l + (a.l + c * b.l)));
-  pair t = pair_divide(num, den);
-  lanes z = t.h * t.h;
-  lanes p = AMBIT_INVERSE_9 - z * AMBIT_INVERSE_11;
-  p = p * z - AMBIT_INVERSE_7;
-  p = p * z + AMBIT_INVERSE_5;
-  p = p * z - AMBIT_INVERSE_3;
-  t.l = t.l + (t.h * z) * p;
-  t = pair_flip(t, steep & all_bits(INT64_MIN));
-  pair s = two_sum(corner.h, t.h);
-  return fast_two_sum(s.h, s.l + (corner.l + t.l));
+  lanes num_h = b.h - ca.h, num_l = (b.l - c * a.l) - ca.l; /* the first is exact */
+  lanes den_l = den.l + (cb.l + (a.l + c * b.l));
+  lanes inverse = 1.0 / den.h, q = num_h * inverse;
+  pair v = two_product(q, den.h);
+  lanes rest = ((num_h - v.h) - v.l) + (num_l - q * den_l);
+  lanes z = q * q, w = z * z;
+  lanes p =
+      (z * AMBIT_INVERSE_5 - AMBIT_INVERSE_3) + w * ((z * AMBIT_INVERSE_9 - AMBIT_INVERSE_7) - w * AMBIT_INVERSE_11);
+  lanes low = rest * (inverse - inverse * z) + (q * z) * p; /* atan(q + d) = atan q + d (1 - q^2) + ... */
+  bits sign = steep & all_bits(INT64_MIN);
+  pair s = two_sum(corner.h, flip(q, sign));
+  return fast_two_sum(s.h, s.l + (corner.l + flip(low, sign)));
 }
 #endif

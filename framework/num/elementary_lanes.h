@@ -1,4 +1,4 @@
-/* elementary_lanes.h -- doubles side by side: one source for 1, 4 and 8 lanes.
+/* elementary_lanes.h -- doubles side by side: one source for 1, 2, 4 and 8 lanes.
 **
 ** A file sets AMBIT_LANES and includes this. Only + - * / sqrt and comparisons of doubles, integer operations on
 ** their bits, and an exact product are used; each is correctly rounded or exact, so that every width gives the same
@@ -10,8 +10,10 @@
 #define AMBIT_ELEMENTARY_LANES_H
 #include <stdint.h>
 #include <string.h>
-#if AMBIT_LANES > 1 || defined(__FMA__)
+#if defined(__SSE2__)
 #include <immintrin.h>
+#endif
+#if defined(__SSE2__) && defined(__FMA__)
 #define HAVE_FMA 1
 #endif
 #ifdef __FAST_MATH__
@@ -69,7 +71,28 @@ INLINE bits less(lanes a, lanes b) { return (bits)(a < b); }
 INLINE bits less_equal(lanes a, lanes b) { return (bits)(a <= b); }
 INLINE bits bits_less(bits a, bits b) { return (bits)((signed_bits)a < (signed_bits)b); }
 INLINE bits bits_equal(bits a, bits b) { return (bits)(a == b); }
-#if AMBIT_LANES == 4
+#if AMBIT_LANES == 2 /* any machine; SSE2 and FMA where the compiler has them */
+INLINE lanes all(double a) { return (lanes) { a, a }; }
+INLINE bits all_bits(int64_t a) { return (bits) { (uint64_t)a, (uint64_t)a }; }
+INLINE lanes load(const double *p) { return (lanes) { p[0], p[1] }; }
+INLINE void store(double *p, lanes a) { p[0] = a[0], p[1] = a[1]; }
+INLINE lanes choose(bits mask, lanes a, lanes b) { return to_lanes((mask & to_bits(a)) | (~mask & to_bits(b))); }
+INLINE int any(bits mask) { return (mask[0] | mask[1]) != 0; }
+#ifdef __SSE2__
+INLINE lanes square_root(lanes a) { return (lanes)_mm_sqrt_pd((__m128d)a); }
+#else
+INLINE lanes square_root(lanes a) { return (lanes) { __builtin_sqrt(a[0]), __builtin_sqrt(a[1]) }; }
+#endif
+#ifdef HAVE_FMA
+INLINE lanes product_error(lanes a, lanes b, lanes p) {
+  return (lanes)_mm_fmsub_pd((__m128d)a, (__m128d)b, (__m128d)p);
+}
+#endif
+INLINE void gather(const double *table, bits i, lanes *first, lanes *second) {
+  *first = (lanes) { table[i[0]], table[i[1]] };
+  *second = (lanes) { table[i[0] + 1], table[i[1] + 1] };
+}
+#elif AMBIT_LANES == 4
 INLINE lanes all(double a) { return (lanes)_mm256_set1_pd(a); }
 INLINE bits all_bits(int64_t a) { return (bits)_mm256_set1_epi64x(a); }
 INLINE lanes load(const double *p) { return (lanes)_mm256_loadu_pd(p); }

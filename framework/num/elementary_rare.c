@@ -47,7 +47,7 @@ static ambit_interval exp_point(double x) {
   if (!e.declined) return of(e);
   bits k;
   pair y = exp_kernel(x, &k);
-  enclosure mantissa = widen(y, AMBIT_ERROR_EXP);
+  enclosure mantissa = widen(y, y.h * AMBIT_ERROR_EXP);
   return scale(mantissa.lo, mantissa.hi, (int64_t)k);
 }
 
@@ -55,7 +55,8 @@ static ambit_interval exp_point(double x) {
 static ambit_interval half_exp(double x) {
   if (x > 711) return (ambit_interval) { DBL_MAX, INFINITY };
   bits k;
-  enclosure mantissa = widen(exp_kernel(x, &k), 2 * AMBIT_ERROR_EXP);
+  pair y = exp_kernel(x, &k);
+  enclosure mantissa = widen(y, y.h * (2 * AMBIT_ERROR_EXP));
   return scale(mantissa.lo, mantissa.hi, (int64_t)k - 1);
 }
 static ambit_interval sinh_point(double x) {
@@ -109,11 +110,15 @@ static ambit_interval tan_rare(ambit_interval x) {
   return (ambit_interval) { angle_point(AMBIT_OP_TAN, x.lo).lo, angle_point(AMBIT_OP_TAN, x.hi).hi };
 }
 
-/* y/x < 2^-700, y >= 0 finite, x > 0: atan q is below q by less than q^3, so the neighbours of RN(q) enclose both */
+/* y/x < 2^-690, y > 0 finite, x > 0: the angle is below the quotient by less than 2^-1380 of it. With my/mx in (1/2, 2)
+** and q' the double next to it on the grid of the result, my - q' mx is a multiple of 2^-106, so that no double but the
+** quotient itself can lie between; fma gives its sign. */
 static ambit_interval slender(double y, double x) {
-  double q = y / x;
-  if (q == 0) return (ambit_interval) { 0, y == 0 ? 0 : TINIEST };
-  return (ambit_interval) { next_below(q), next_above(q) };
+  int ey, ex;
+  double my = frexp(y, &ey), mx = frexp(x, &ex), q = ldexp(my / mx, ey - ex);
+  if (q == 0) return (ambit_interval) { 0, TINIEST };
+  double rest = fma(-ldexp(q, ex - ey), mx, my); /* of the quotient less q */
+  return rest > 0 ? (ambit_interval) { q, next_above(q) } : (ambit_interval) { next_below(q), q };
 }
 /* The angle of the point (x, y), y >= 0, as a limit if one of them is infinite; not (0, 0). */
 static ambit_interval upper_angle(double y, double x) {

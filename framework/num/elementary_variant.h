@@ -1,6 +1,7 @@
 /* elementary_variant.h -- the compiled variants of elementary_map.h; all give the same bits. Round-to-nearest on entry.
 **
-** portable: any machine. fma: one lane with FMA. avx2, avx512: four and eight lanes (x86-64 only, chosen at run time).
+** portable: two lanes, any machine. fma: two lanes with FMA. avx2, avx512: four and eight lanes (x86-64 only, chosen at
+** run time). One interval alone has its two ends in two lanes.
 */
 #ifndef AMBIT_ELEMENTARY_VARIANT_H
 #define AMBIT_ELEMENTARY_VARIANT_H

@@ -10,9 +10,12 @@ from mpmath import atan, cosh, factorial, floor, log, mp, mpf, nint, pi, sin, si
 
 mp.prec = 400
 
-# name: exponent e of the claimed bound 2^e on |h + l - f| / |h|
-CLAIMS = {"EXP": -65, "LOG": -67, "SIN": -62, "TAN": -61, "ATAN": -63, "ASIN": -63, "ACOS": -63, "SINH": -63,
-          "COSH": -65, "TANH": -63}
+# name: (m, e), the claimed bound m/8 2^e of |h + l - f| / |h|. SIN_FAR, TAN_FAR: |sin| >= SIN_LEAST, TAN_LEAST <= |tan|
+# <= TAN_MOST; ATAN_NEAR: |atan| <= ATAN_SMALL; POWER: times the exponent
+CLAIMS = {"EXP": (15, -66), "LOG": (15, -68), "SIN": (12, -63), "SIN_FAR": (14, -64), "TAN": (10, -62),
+          "TAN_FAR": (14, -63), "ATAN": (13, -64), "ATAN_NEAR": (15, -96), "ASIN": (13, -64), "ACOS": (13, -64),
+          "SINH": (9, -64), "COSH": (15, -66), "TANH": (13, -64), "POWER": (10, -97)}
+RANGES = {"SIN_LEAST": 5 / 128, "TAN_LEAST": 41 / 1024, "TAN_MOST": 24.0, "ATAN_SMALL": 2.0 ** -22}
 
 
 def nearest(x):
@@ -79,9 +82,12 @@ def main():
     print("/* elementary_tables.h -- written by scripts/tables/elementary.py, do not edit.\n"
           "** Double-doubles (high, low), proved against the functions by tests/num/proof/check.py. */")
     print("#ifndef AMBIT_ELEMENTARY_TABLES_H\n#define AMBIT_ELEMENTARY_TABLES_H")
-    print("/* claimed bounds of |h + l - f| / |h| */")
-    for name, exponent in CLAIMS.items():
-        print(f"#define AMBIT_ERROR_{name} 0x1p{exponent}")
+    print("/* claimed bounds of |h + l - f| / |h|; FAR: where SIN_LEAST <= |sin|, TAN_LEAST <= |tan| <= TAN_MOST;\n"
+          "** NEAR: where |atan| <= ATAN_SMALL; POWER: times the exponent */")
+    for name, (eighths, exponent) in CLAIMS.items():
+        constant(f"ERROR_{name}", eighths / 8 * 2.0 ** exponent)
+    for name, value in RANGES.items():
+        constant(name, value)
     print("/* Taylor coefficients 1/k! and 1/k */")
     for k in range(3, 9):
         constant(f"FACTORIAL_{k}", nearest(1 / factorial(k)))

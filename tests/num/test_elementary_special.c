@@ -148,7 +148,7 @@ static void edges_of_the_range(void **state) {
     for (int i = 0; i < 4000; i++) {
       double x = edge_argument(op[k], i, &seed), y = edge_argument(op[k], i >> 1, &seed);
       expectation e = { op[k], { x, x }, { y, y }, EMPTY };
-      oracle_point(op[k], x, y, &e.want.lo, &e.want.hi);
+      oracle_slow(op[k], x, y, &e.want.lo, &e.want.hi);
       expect(&e, 1);
     }
 }
@@ -166,7 +166,7 @@ static void coarse_without_a_slow_path(void **state) {
       double x = hard_argument(op, &seed);
       ambit_interval coarse, want;
       ambit_elementary_coarse(op, x, 1, &coarse.lo, &coarse.hi);
-      oracle_point(op, x, 1, &want.lo, &want.hi);
+      oracle_slow(op, x, 1, &want.lo, &want.hi);
       assert_true(coarse.lo <= want.lo && want.hi <= coarse.hi);
     }
   }
@@ -174,7 +174,7 @@ static void coarse_without_a_slow_path(void **state) {
 
 static int calls;
 static void counting(uint32_t op, double x, double y, double *lo, double *hi) {
-  calls++, oracle_point(op, x, y, lo, hi);
+  calls++, oracle_slow(op, x, y, lo, hi);
 }
 
 /* Ordinary arguments never load it; huge angles get their tightest bounds from it. */
