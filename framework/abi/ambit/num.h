@@ -31,8 +31,8 @@ typedef struct ambit_num_service {
   ** elements; bounds in arrays of their own, [n]. r must not overlap a or b. In midpoint-radius form: as tight as
   ** interval operations if the operands are thin, at most 1.5 times as wide if not (docs/numerics/interval.md).
   ** Unbounded operands are allowed; a sum with an empty term is empty. Returns flags EMPTY, UNBOUNDED. */
-  uint32_t (*convolve)(size_t n, double *rlo, double *rhi, const double *alo, const double *ahi, const double *blo,
-      const double *bhi);
+  uint32_t (*convolve)(
+      size_t n, double *rlo, double *rhi, const double *alo, const double *ahi, const double *blo, const double *bhi);
   /* Matrix product r := a b; a is rows x inner, b is inner x cols, r is rows x cols, all by rows. As convolve. */
   uint32_t (*matmul)(size_t rows, size_t inner, size_t cols, double *rlo, double *rhi, const double *alo,
       const double *ahi, const double *blo, const double *bhi);

@@ -212,16 +212,17 @@ static void copy(linearise_chunk *k, size_t i, const linearise_chunk *from, size
 
 /* min-range where the other failed: its tangent may have been misplaced */
 static void repair(const affine_context *c, linearise_chunk *k) {
-  linearise_chunk bad = { .op = k->op, .power = k->power, .n = 0 };
-  size_t which[LINEARISE_CHUNK];
+  linearise_chunk bad = { .op = k->op, .power = k->power };
+  size_t which[LINEARISE_CHUNK], n = 0;
   for (size_t i = 0; i < k->n; i++) {
     if (is_good(k, i)) continue;
-    copy(&bad, bad.n, k, i);
-    which[bad.n++] = i;
+    copy(&bad, n, k, i);
+    which[n++] = i;
   }
-  if (bad.n == 0) return;
+  if (n == 0) return;
+  bad.n = n;
   min_range(c, &bad);
-  for (size_t j = 0; j < bad.n; j++) copy(k, which[j], &bad, j);
+  for (size_t j = 0; j < n; j++) copy(k, which[j], &bad, j);
 }
 
 void linearise(const affine_context *c, linearise_chunk *k) {

@@ -113,8 +113,8 @@ typedef struct plan {
 
 /* the share of block pairs, of those up to degree `limit`, that are there */
 static double filled(const context *c, const model *a, const model *b, uint32_t limit) {
-  double blocks = (c->m.first[limit + 1] + MONOMIALS_BLOCK - 1) / MONOMIALS_BLOCK;
-  return blocks_of(c, a) / blocks * (blocks_of(c, b) / blocks);
+  uint32_t blocks = (c->m.first[limit + 1] + MONOMIALS_BLOCK - 1) / MONOMIALS_BLOCK;
+  return (double)blocks_of(c, a) / blocks * ((double)blocks_of(c, b) / blocks);
 }
 
 /* Looking for zeros in operands that are nearly full takes longer than multiplying them. */
