@@ -61,7 +61,8 @@ static size_t of_group(const group_files *files, const char *group) {
   return all == SIZE_MAX || taken == SIZE_MAX ? SIZE_MAX : rest(all, rest(taken, entry_in(stat, files->idle)));
 }
 
-/* A group is held by its own limit and by those of all groups it is in; in a container only the last part may be seen. */
+/* A group is held by its own limit and by those of all groups it is in; in a container only the last part may be
+** seen. */
 static size_t of_groups(const group_files *files, char *group) {
   size_t least = SIZE_MAX;
   for (char *slash; (slash = strrchr(group, '/')) != NULL; *slash = '\0') least = less(least, of_group(files, group));

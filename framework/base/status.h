@@ -5,7 +5,8 @@
 
 #define AMBIT_MESSAGE_MAX 1024
 
-/* The first failure is kept; a later one does not overwrite it. Passed by whoever calls, so there is no global errno. */
+/* The first failure is kept; a later one does not overwrite it. Passed by whoever calls, so there is no global
+** errno. */
 typedef struct ambit_failure {
   ambit_status status;
   char message[AMBIT_MESSAGE_MAX];

@@ -73,7 +73,8 @@ static int fold(lua_State *L) {
   return 1;
 }
 
-/* The exponent as an integer, if it is exactly one: a text is read as a decimal, so "2.00000000000000000001" is none. */
+/* The exponent as an integer, if it is exactly one: a text is read as a decimal, so "2.00000000000000000001" is
+** none. */
 static bool integer_exponent(lua_State *L, int idx, int32_t *n) {
   double x;
   if (lua_type(L, idx) == LUA_TNUMBER) {

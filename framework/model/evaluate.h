@@ -18,7 +18,8 @@ typedef struct ambit_evaluate_request {
 } ambit_evaluate_request;
 
 /* out [nexpr]; flags: AMBIT_F_*. Only uncertain data become variables of the arithmetic. A symbol without a value is
-** INVALID and named. If the arithmetic tells derivatives, bounds are also sought at faces where a result is monotone. */
+** INVALID and named. If the arithmetic tells derivatives, bounds are also sought at faces where a result is
+** monotone. */
 ambit_status ambit_evaluate(
     const ambit_evaluate_request *q, ambit_interval *out, uint32_t *flags, ambit_report *report, ambit_failure *f);
 #endif

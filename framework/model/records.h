@@ -17,7 +17,8 @@ ambit_status ambit_records_open(const char *path, ambit_records **r, ambit_failu
 /* STOPPED if a write failed, now or earlier */
 ambit_status ambit_records_close(ambit_records *r, ambit_failure *f);
 
-/* Building one line: begin, any fields, end. Keys in a begin/end pair; `end` writes and flushes. No allocation after the first lines. */
+/* Building one line: begin, any fields, end. Keys in a begin/end pair; `end` writes and flushes. No allocation
+** after the first lines. */
 void ambit_records_begin(ambit_records *r, const char *kind);
 void ambit_records_text(ambit_records *r, const char *key, const char *value);
 void ambit_records_number(ambit_records *r, const char *key, double value);

@@ -12,7 +12,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 /* What is being read, for messages; the first failure stays. */
 typedef struct reader {
@@ -73,10 +72,11 @@ static const char *skip_number(const char *s) {
   return end ? skip_exponent(end, hex ? 'p' : 'e') : NULL;
 }
 
-/* words may be in capitals */
+/* Words may be in capitals; not by tolower, which in Turkish makes no i of I. */
 static bool starts_with_word(const char *s, const char *word) {
-  size_t n = strlen(word);
-  return strncasecmp(s, word, n) == 0 && !isalnum((unsigned char)s[n]);
+  for (; *word; s++, word++)
+    if (*s != *word && *s != *word - 'a' + 'A') return false;
+  return !isalnum((unsigned char)*s);
 }
 
 /* ---- exact decimals */

@@ -11,7 +11,8 @@
 #include "base/status.h"
 #include "num/interval.h"
 
-/* The tightest doubles that enclose what the text says. INVALID with a message that quotes the text if it is no
+/* The tightest doubles that enclose what the text says; quotients of other than integers, or of more than 1000
+** characters, may be wider. INVALID with a message that quotes the text if it is no
 ** literal or reversed. The literal may be followed by white space and a rest (a unit): if rest is not NULL it is set
 ** there, otherwise a rest is an error. */
 ambit_status ambit_decimal_read(const char *text, ambit_interval *x, const char **rest, ambit_failure *failure);

@@ -5,7 +5,7 @@
 ** tightest doubles only if |l| < err.
 **
 ** Tiny arguments, |x| < 2^-27, of a function f(x) = x + O(x^3): |f(x) - x| <= x^3/2 is less than the distance from x
-** to its neighbour, which is at least 2^-54 |x|; so the pair is replaced by (x, -+x) with err = 0, which steps on
+** to its neighbour, which is at least 2^-53 |x|; so the pair is replaced by (x, -+x) with err = 0, which steps on
 ** the proper side.
 */
 #ifndef AMBIT_ELEMENTARY_POINT_H

@@ -120,6 +120,7 @@ static double round_big(const big *a, bool up) {
     count += shift <= 256 && uniform(a, (int)shift, true) ? 2 : 1;
   else
     count -= count > 0 && shift < 256 && uniform(a, (int)shift, false);
+  if (count > (uint64_t)1 << 53) count++; /* 2^53 + 1 is no double, and conversion might round it down */
   return ldexp((double)count, (int)unit);
 }
 

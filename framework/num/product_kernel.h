@@ -16,7 +16,7 @@ typedef struct spread {
 } spread;
 
 INLINE spread spread_of(lanes lo, lanes hi) {
-  lanes mid = add_product(all(0.5), lo, all(0.5) * hi);
+  lanes mid = add_product(all(0.5), hi - lo, lo); /* a point itself, also if its half is no double */
   lanes rad = larger(hi - mid, mid - lo);
   return (spread) { mid, rad, magnitude(mid) + rad };
 }

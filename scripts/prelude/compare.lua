@@ -154,7 +154,8 @@ local function tightest_widths(rows, count)
   local least = {}
   for _, row in ipairs(rows) do
     for i = 1, count do
-      if is_proof(row) and not row.enclosures[i]:is_empty() then least[i] = math.min(least[i] or math.huge, row.widths[i]) end
+      local proved = is_proof(row) and not row.enclosures[i]:is_empty()
+      if proved then least[i] = math.min(least[i] or math.huge, row.widths[i]) end
     end
   end
   return least

@@ -1,4 +1,6 @@
-/* euler_solver.c -- the smallest solver: Euler's method (1768) from the midpoint of the initial set. It proves nothing, and says so. */
+/* euler_solver.c -- the smallest solver: Euler's method (1768) from the midpoint of the initial set. It proves nothing,
+** and says so.
+*/
 #include <ambit/block.h>
 #include <ambit/solver.h>
 #include <string.h>

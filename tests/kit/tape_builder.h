@@ -84,6 +84,20 @@ static inline uint32_t tape_helper(tape_builder *t, uint32_t i, uint32_t one) {
   }
 }
 
+/* Neighbours of one opcode that do not read each other's results are one run. Returns the number of runs. */
+static inline uint32_t tape_group(tape_builder *t) {
+  uint32_t n = 0;
+  for (uint32_t i = 0; i < t->tape.ninstr; i++) {
+    ambit_run *run = n ? &t->run[n - 1] : NULL;
+    uint32_t first = run ? t->dst[run->first] : 0, b = t->op[i] == AMBIT_OP_POWN ? t->a[i] : t->b[i];
+    if (run && run->op == t->op[i] && t->a[i] < first && b < first)
+      run->count++;
+    else
+      t->run[n++] = (ambit_run) { t->op[i], i, 1, 0 };
+  }
+  return n;
+}
+
 /* one: the slot of the constant 1, for ATAN; AMBIT_NO_SLOT: not a SERIES tape */
 static inline const ambit_tape *tape_seal(tape_builder *t, uint32_t one) {
   if (one != AMBIT_NO_SLOT)
@@ -91,8 +105,7 @@ static inline const ambit_tape *tape_seal(tape_builder *t, uint32_t one) {
   ambit_tape *p = &t->tape;
   p->size = sizeof *p, p->flags = one != AMBIT_NO_SLOT ? AMBIT_TAPE_SERIES : 0;
   for (uint32_t s = 0; s < p->nslot; s++) t->out[s] = s, t->range_lo[s] = -INFINITY, t->range_hi[s] = INFINITY;
-  for (uint32_t i = 0; i < p->ninstr; i++) t->run[i] = (ambit_run) { t->op[i], i, 1, 0 };
-  p->nout = p->nslot, p->nrun = p->ninstr;
+  p->nout = p->nslot, p->nrun = tape_group(t);
   p->op = t->op, p->dst = t->dst, p->a = t->a, p->b = t->b, p->aux = t->aux, p->run = t->run, p->lo = t->lo,
   p->hi = t->hi;
   p->text = t->text, p->out = t->out, p->degree = t->degree, p->range_lo = t->range_lo, p->range_hi = t->range_hi;

@@ -182,6 +182,19 @@ static void locales(void **unused) {
   assert_string_equal(text, "0.5");
 }
 
+/* tolower('I') is not i there */
+static void turkish(void **unused) {
+  (void)unused;
+  if (!setlocale(LC_CTYPE, "tr_TR.UTF-8") && !setlocale(LC_CTYPE, "tr_TR")) {
+    print_message("no Turkish locale is installed: skipped\n");
+    skip();
+  }
+  expect("PI", 0x1.921fb54442d18p+1, 0x1.921fb54442d19p+1);
+  expect("[-INF, Infinity]", -INFINITY, INFINITY);
+  expect("[ENTIRE]", -INFINITY, INFINITY);
+  setlocale(LC_CTYPE, "C");
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(literals),
@@ -190,6 +203,7 @@ int main(void) {
     cmocka_unit_test(random_literals),
     cmocka_unit_test(printing),
     cmocka_unit_test(locales),
+    cmocka_unit_test(turkish),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,5 @@
-/* Interval functions against MPFR: inclusion at sampled points, tightness at end points, set semantics, any ambient mode. */
+/* Interval functions against MPFR: inclusion at sampled points, tightness at end points, set semantics, any ambient
+** mode. */
 #include "num/interval.h"
 #include "num/rounding.h"
 #include "oracle.h"

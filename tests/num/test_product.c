@@ -251,6 +251,27 @@ static void exact_data_give_exact_results(void **unused) {
   }
 }
 
+/* points stay points among subnormal numbers too, whose halves are no doubles */
+static void subnormal_points_give_exact_results(void **unused) {
+  (void)unused;
+  const ambit_product_variant *variant[2];
+  for (size_t i = 0; i < 9; i++) {
+    d.alo[i] = d.ahi[i] = (2 * (double)i + 1) * 0x1p-1074;
+    d.blo[i] = d.bhi[i] = (double)i * 0x1p100;
+  }
+  for (int v = variants(variant) - 1; v >= 0; v--) {
+    ambit_rounding old = ambit_round_up();
+    uint32_t flags = variant[v]->convolve(9, d.rlo, d.rhi, d.alo, d.ahi, d.blo, d.bhi);
+    ambit_rounding_restore(old);
+    assert_int_equal(flags, 0);
+    for (size_t k = 0; k < 9; k++) {
+      double sum = 0;
+      for (size_t j = 0; j <= k; j++) sum += d.alo[j] * d.blo[k - j];
+      assert_true(d.rlo[k] == sum && d.rhi[k] == sum);
+    }
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(series_contain_exact_sums),
@@ -259,6 +280,7 @@ int main(void) {
     cmocka_unit_test(odd_data_go_the_slow_way),
     cmocka_unit_test(a_matrix_with_one_empty_element),
     cmocka_unit_test(exact_data_give_exact_results),
+    cmocka_unit_test(subnormal_points_give_exact_results),
   };
   return cmocka_run_group_tests_name("product", tests, NULL, NULL);
 }

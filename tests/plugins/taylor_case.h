@@ -128,6 +128,6 @@ static inline bool taylor_judge(uint32_t op, mpfr_t r, mpfr_t a, mpfr_t b, int32
   case AMBIT_OP_MIN: mpfr_min(r, a, b, N); break;
   default: mpfr_max(r, a, b, N); break;
   }
-  return mpfr_number_p(r) && mpfr_cmpabs_ui(r, 0) >= 0;
+  return mpfr_number_p(r);
 }
 #endif

@@ -160,6 +160,33 @@ static void functions_on_nasty_ranges(void **state) {
   arithmetic_unload(&l);
 }
 
+/* x^n about 1, where 2^31 factors are of some size: n - 1 need not be an int32 */
+static void extreme_powers(void **state) {
+  (void)state;
+  static const int32_t power[] = { INT32_MIN, INT32_MIN + 1, INT32_MAX };
+  arithmetic_loader l;
+  truth t;
+  static program p;
+  uint64_t seed = 161803;
+  load_variant(&l, 0);
+  truth_open(&t);
+  for (int i = 0; i < 600; i++) {
+    stage s = stage_open(&l, NVAR, (const double[]) { 8, 0, i % 2 });
+    double sign = i % 4 < 2 ? 1 : -1, centre = sign + ldexp(oracle_uniform(&seed, -1, 1), -29), width = 0x1p-30;
+    tape_begin(&p.builder);
+    p.lo[0] = centre - width, p.hi[0] = centre + width;
+    tape_op(&p.builder, AMBIT_OP_POWN, tape_input(&p.builder, 0), (uint32_t)power[i % 3]);
+    p.tape = tape_seal(&p.builder, AMBIT_NO_SLOT);
+    stage_inputs(&s, &p);
+    stage_run(&s, AMBIT_OP_POWN, 1, 0, (uint32_t)power[i % 3]);
+    check_shape(&p, stage_at(&s, 1), 1, &t);
+    for (int k = 0; k < 5; k++) truth_sample(&t, &p, &s, &seed), check_slot(&p, &s, &t, 1);
+    stage_close(&s);
+  }
+  truth_close(&t);
+  arithmetic_unload(&l);
+}
+
 /* Symbols of the last epoch are shared, those of older ones are each slot's own. For all weights w there must be
 ** values of the symbols: |sum w_s rest_s| <= sum_k |sum_s w_s coef_s,k| + sum_s |w_s| own_s (the separating form of a
 ** linear feasibility problem). */
@@ -293,6 +320,7 @@ int main(void) {
     cmocka_unit_test(min_range),
     cmocka_unit_test(few_symbols),
     cmocka_unit_test(functions_on_nasty_ranges),
+    cmocka_unit_test(extreme_powers),
     cmocka_unit_test(tapes_hold),
     cmocka_unit_test(condensation_loses_what_is_said),
   };

@@ -68,7 +68,7 @@ static void runs_agree(void **unused) {
   static double block[VARIANTS][2 * ROOM * 12];
   uint64_t state = 41;
   for (int pass = 0; pass < 3000; pass++) {
-    size_t lanes = 1 + oracle_random(&state) % (pass % 3 ? 9 : ROOM / 12), pitch = lanes + oracle_random(&state) % 3;
+    size_t lanes = 1 + oracle_random(&state) % (pass % 3 ? 9 : ROOM / 2), pitch = lanes + oracle_random(&state) % 3;
     size_t count = 1 + oracle_random(&state) % (pass % 3 ? 11 : 2), slots = 3 * count;
     uint32_t op = (uint32_t)(oracle_random(&state) % AMBIT_OP_COUNT), dst[12], a[12], b[12], flags[VARIANTS];
     if (slots * pitch > ROOM * 12 / 2) continue;

@@ -195,6 +195,67 @@ static void evaluates(void **state) {
   taylor_close(&c);
 }
 
+/* Evaluation and products share a context, but nothing of what one writes may show in the other. */
+static void evaluating_leaves_products_alone(void **state) {
+  (void)state;
+  static const uint32_t shape[][2] = { { 1, 9 }, { 1, 60 }, { 2, 12 }, { 4, 6 }, { 12, 3 } };
+  for (size_t s = 0; s < sizeof shape / sizeof *shape; s++)
+    for (int which = 0; which < 3; which++) {
+      taylor_case c;
+      double x[16], lo, hi;
+      taylor_open(&c, which, shape[s][0], shape[s][1], SLOTS, 1);
+      random_model(&c, A, 0, 0, 100, 0), random_model(&c, B, 0, 0, 100, 0);
+      for (uint32_t v = 0; v < c.nvar; v++) x[v] = 0.75;
+      for (uint32_t right = A; right <= B; right++) { /* a square, too */
+        c.t->product(c.ctx, taylor_at(&c, R, 0), taylor_at(&c, A, 0), taylor_at(&c, right, 0));
+        c.t->evaluate(c.ctx, taylor_at(&c, A, 0), x, x, &lo, &hi);
+        c.t->product(c.ctx, taylor_at(&c, C, 0), taylor_at(&c, A, 0), taylor_at(&c, right, 0));
+        assert_true(c.t->remainder(c.ctx, taylor_at(&c, C, 0)) == c.t->remainder(c.ctx, taylor_at(&c, R, 0)));
+        for (uint32_t i = 0; i < c.count; i++)
+          assert_true(
+              c.t->coefficient(c.ctx, taylor_at(&c, C, 0), i) == c.t->coefficient(c.ctx, taylor_at(&c, R, 0), i));
+      }
+      taylor_close(&c);
+    }
+}
+
+/* Coefficients so large that moving the domain may overflow: 1 - x + x^2 - ... about -1/2 */
+static void overflows(void **state) {
+  (void)state;
+  enum { ORDER = 60 };
+  taylor_case c;
+  uint32_t index[ORDER + 1];
+  double value[ORDER + 1];
+  taylor_open(&c, 0, 1, ORDER, SLOTS, 1);
+  for (int exponent = 930; exponent < 1002; exponent++)
+    for (int round = 0; round < 20; round++) {
+      const double part_lo = -0.96875, part_hi = -0.03125;
+      double lo, hi, part[2];
+      for (uint32_t i = 0; i <= ORDER; i++)
+        index[i] = i, value[i] = ldexp(oracle_uniform(&seed, 0, i % 2 ? -1 : 1), exponent);
+      if (round % 2) value[ORDER - 1] *= -1;
+      c.t->build(c.ctx, taylor_at(&c, A, 0), ORDER + 1, index, value, 0, 0);
+      c.a->bounds(c.ctx, taylor_at(&c, A, 0), 1, &lo, &hi);
+      c.t->restrict_to(c.ctx, taylor_at(&c, R, 0), taylor_at(&c, A, 0), &part_lo, &part_hi);
+      c.a->bounds(c.ctx, taylor_at(&c, R, 0), 1, &part[0], &part[1]);
+      mpfr_t p;
+      mpfr_init2(p, TAYLOR_BITS);
+      for (int k = -32; k <= 32; k++) {
+        double y = k / 32.0, x = -0.5 + 0.46875 * y;
+        mpfr_set_d(p, 0, MPFR_RNDN);
+        for (uint32_t i = ORDER + 1; i-- > 0;) mpfr_mul_d(p, p, x, MPFR_RNDN), mpfr_add_d(p, p, value[i], MPFR_RNDN);
+        assert_true(mpfr_cmp_d(p, lo) >= 0 && mpfr_cmp_d(p, hi) <= 0);
+        assert_true(mpfr_cmp_d(p, part[0]) >= 0 && mpfr_cmp_d(p, part[1]) <= 0);
+        assert_true(taylor_holds(&c, taylor_at(&c, R, 0), &y, p, 0));
+        mpfr_set_d(p, 0, MPFR_RNDN);
+        for (uint32_t i = ORDER + 1; i-- > 0;) mpfr_mul_d(p, p, y, MPFR_RNDN), mpfr_add_d(p, p, value[i], MPFR_RNDN);
+        assert_true(taylor_holds(&c, taylor_at(&c, A, 0), &y, p, 0));
+      }
+      mpfr_clear(p);
+    }
+  taylor_close(&c);
+}
+
 /* -- composition and parts of the domain */
 
 static void composes(void **state) {
@@ -341,6 +402,8 @@ int main(void) {
     cmocka_unit_test(ranges),
     cmocka_unit_test(tight_ranges),
     cmocka_unit_test(evaluates),
+    cmocka_unit_test(evaluating_leaves_products_alone),
+    cmocka_unit_test(overflows),
     cmocka_unit_test(composes),
     cmocka_unit_test(restricts),
     cmocka_unit_test(integrates_and_derives),

@@ -80,7 +80,8 @@ typedef struct ambit_element {
   uint32_t nport;
   const ambit_port *port;   /* [nport] */
   const ambit_param *param; /* an entry with NULL name ends */
-  /* [main] writes the quantity (count above, or dof) into out. AMBIT_UNABLE without fail(): not mine, the kernel adds nothing */
+  /* [main] writes the quantity (count above, or dof) into out. AMBIT_UNABLE without fail(): not mine, the kernel adds
+  ** nothing */
   ambit_status (*express)(ambit_build *b, uint32_t port, uint32_t quantity, ambit_expr *out);
 } ambit_element;
 #endif

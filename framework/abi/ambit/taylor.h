@@ -2,7 +2,8 @@
 **
 ** Asked for at the plugin arithmetic/taylor_model (ambit_plugin.get), beside "ambit.arithmetic/1"; `ctx` is a context
 ** opened through that interface, elements are its elements (elem(ctx) bytes). An element stands for a function v of the
-** normalised variables x in [-1, 1]^nvar (variable j of set(): middle + radius x_j) and claims, wherever v is defined,
+** normalised variables x in [-1, 1]^nvar (variable j of set(): middle + radius x_j, both rounded so that the set is
+** covered; they are coefficients 0 and 1 + j) and claims, wherever v is defined,
 **   |v(x) - p(x)| <= r  and  lo <= v(x) <= hi,
 ** p a polynomial of total degree <= order with double coefficients, r >= 0 its remainder (inf: p = 0, only the hull
 ** [lo, hi] is known). Monomials have indices in graded order: 0 is the constant, 1 + j is x_j.
@@ -53,7 +54,8 @@ typedef struct ambit_taylor {
   ** everything. */
   uint32_t (*restrict_to)(void *ctx, void *dst, const void *v, const double *lo, const double *hi);
   /* dst := integral of v from 0 to x_var by x_var, in the normalised variable (times the radius for the datum itself).
-  ** Terms of degree order + 1 go to the remainder. var >= nvar: UNBOUNDED, dst is everything. */
+  ** Terms of degree order + 1 go to the remainder. v must be defined on the whole path. var >= nvar: UNBOUNDED,
+  ** dst is everything. */
   uint32_t (*integrate)(void *ctx, void *dst, const void *v, uint32_t var);
   /* dst := derivative of the polynomial p by x_var; its remainder holds rounding only. The remainder of v cannot be
   ** differentiated: dst says something of v' only where that of v is known to be constant. r = inf or var >= nvar:

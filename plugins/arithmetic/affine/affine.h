@@ -87,6 +87,20 @@ struct affine_context {
   ambit_rounding outside; /* environment to restore on leave */
 };
 
+static inline double larger(double a, double b) { return a > b ? a : b; }
+static inline double smaller(double a, double b) { return a < b ? a : b; }
+
+/* a hull that says nothing yet */
+static inline affine_element *affine_unbounded(affine_element *r) {
+  r->nlo = r->hi = INFINITY;
+  return r;
+}
+
+/* a point of the hull */
+static inline double affine_middle(const affine_element *x) {
+  return smaller(larger(0.5 * x->hi - 0.5 * x->nlo, -x->nlo), x->hi);
+}
+
 #define AFFINE_NO_SYMBOL (-1)
 #define AFFINE_TAKEN 0x80000000u /* among flags: the symbol was used */
 #define AFFINE_MATTERS 0x1p-30   /* an err below this part of rad gets no symbol of its own */

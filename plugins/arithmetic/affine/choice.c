@@ -6,9 +6,6 @@
 */
 #include "affine.h"
 
-static double larger(double a, double b) { return a > b ? a : b; }
-static double smaller(double a, double b) { return a < b ? a : b; }
-
 typedef struct bend { /* |d| - slope d in [0, top] */
   double slope, top;
 } bend;
@@ -28,15 +25,10 @@ static uint32_t absolute(
   return c->kernels->apply(c, r, x, v.slope, 0, v.top, symbol);
 }
 
-static affine_element *unbounded(affine_element *r) {
-  r->nlo = r->hi = INFINITY;
-  return r;
-}
-
 /* sign 1: MAX, -1: MIN; r has its hull, and d = x - y has both signs */
 static uint32_t between(const affine_context *c, affine_element *r, const affine_element *x, const affine_element *y,
     const affine_element *d, double sign, int64_t symbol) {
-  affine_element *mean = unbounded(c->scratch[3]), *line = unbounded(c->scratch[4]);
+  affine_element *mean = affine_unbounded(c->scratch[3]), *line = affine_unbounded(c->scratch[4]);
   bend v = bend_over(d->nlo, d->hi);
   double top = 0.5 * v.top;
   affine_combine(c, mean, 0.5, x, 0.5, y, AFFINE_NO_SYMBOL);

@@ -87,11 +87,11 @@ static AMBIT_WORKER void set_one(const affine_context *c, affine_element *r, dou
   r->err = 0;
 }
 
-/* A variable that is set anew begins another calculation: time to have fresh symbols again. What is left of the old
-** one stays valid, only less correlated. */
+/* A variable that is set anew begins another calculation, with all symbols: so its result does not depend on what was
+** computed before. What is left of the old one stays valid, only less correlated. */
 void affine_set(void *ctx, void *dst, size_t n, const double *lo, const double *hi, int32_t var) {
   affine_context *c = ctx;
-  if (var >= 0 && c->next == c->symbols) c->epoch++, c->next = 0;
+  if (var >= 0 && c->next > 0) c->epoch++, c->next = 0;
   ambit_rounding old = ambit_round_up();
   for (size_t i = 0; i < n; i++) set_one(c, affine_at(c, dst, i), lo[i], hi[i], var);
   ambit_rounding_restore(old);

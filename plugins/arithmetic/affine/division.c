@@ -13,17 +13,6 @@
 #include "linearise.h"
 #include <float.h>
 
-static affine_element *unbounded(affine_element *r) {
-  r->nlo = r->hi = INFINITY;
-  return r;
-}
-
-/* a point of the hull */
-static double middle(const affine_element *x) {
-  double m = 0.5 * x->hi - 0.5 * x->nlo;
-  return m < -x->nlo ? -x->nlo : m > x->hi ? x->hi : m;
-}
-
 /* r := 1/y; y keeps its sign */
 static void reciprocal(const affine_context *c, affine_element *r, const affine_element *y) {
   linearise_chunk k = { .op = LINEARISE_RECIPROCAL, .n = 1 };
@@ -40,9 +29,9 @@ static void reciprocal(const affine_context *c, affine_element *r, const affine_
 /* r, whose hull is known, := x / y; y keeps its sign */
 static uint32_t quotient(
     const affine_context *c, affine_element *r, const affine_element *x, const affine_element *y, int64_t symbol) {
-  affine_element *rest = unbounded(c->scratch[2]), *inverse = c->scratch[3], *part = c->scratch[4];
+  affine_element *rest = affine_unbounded(c->scratch[2]), *inverse = c->scratch[3], *part = c->scratch[4];
   int inside = y->centre >= -y->nlo && y->centre <= y->hi; /* else the centre may even be 0 */
-  double q = x->centre / (inside ? y->centre : middle(y)), nlo = r->nlo, hi = r->hi;
+  double q = x->centre / (inside ? y->centre : affine_middle(y)), nlo = r->nlo, hi = r->hi;
   if ((x->blocks | y->blocks) == 0 || !(fabs(q) <= DBL_MAX)) return affine_constant(c, r, nlo, hi, symbol);
   affine_combine(c, rest, 1, x, -q, y, AFFINE_NO_SYMBOL);
   reciprocal(c, inverse, y);
@@ -90,8 +79,9 @@ static void scale_direction(double *u, double *v) {
 /* r, whose hull is known; the box does not meet the cut */
 static uint32_t angle_about(
     const affine_context *c, affine_element *r, const affine_element *y, const affine_element *x, int64_t symbol) {
-  affine_element *along = unbounded(c->scratch[6]), *across = unbounded(c->scratch[7]), *ratio = c->scratch[5];
-  double u = middle(x), v = middle(y), lo, hi;
+  affine_element *along = affine_unbounded(c->scratch[6]), *across = affine_unbounded(c->scratch[7]),
+                 *ratio = c->scratch[5];
+  double u = affine_middle(x), v = affine_middle(y), lo, hi;
   if ((x->blocks | y->blocks) == 0 || (u == 0 && v == 0)) return affine_constant(c, r, r->nlo, r->hi, symbol);
   scale_direction(&u, &v);
   affine_combine(c, along, u, x, v, y, AFFINE_NO_SYMBOL);

@@ -5,11 +5,7 @@
 ** finite, and where its err alone is no smaller than that radius.
 */
 #include "affine.h"
-#include <float.h>
 #include <string.h>
-
-static double larger(double a, double b) { return a > b ? a : b; }
-static double smaller(double a, double b) { return a < b ? a : b; }
 
 static void without_form(affine_element *r) { r->centre = 0, r->err = INFINITY, r->rad = INFINITY, r->blocks = 0; }
 
@@ -22,8 +18,7 @@ void affine_of_hull(affine_element *r, double nlo, double hi) {
     r->nlo = r->hi = -INFINITY;
     return;
   }
-  double centre = 0.5 * hi - 0.5 * nlo; /* any number would do */
-  r->centre = smaller(larger(centre, -nlo), hi);
+  r->centre = affine_middle(r); /* any number would do */
   r->err = r->rad = larger(hi - r->centre, r->centre + nlo);
 }
 

@@ -42,9 +42,11 @@ static double least(uint32_t op) {
 }
 static double most(uint32_t op) { return op == AMBIT_OP_ASIN || op == AMBIT_OP_ACOS ? 1 : DBL_MAX; }
 
-/* the entries that have coefficients and a bounded result, with their ranges inside the domain */
+/* the entries that have coefficients and a bounded result, with their ranges inside the domain; the derivative of
+** x^INT32_MIN has an exponent that is none */
 static void select_entries(const call *q, cursor at, size_t n, const double *operand, const double *result,
     linearise_chunk *k, size_t *entry) {
+  int derivable = q->power > INT32_MIN;
   double from = least(q->op), to = most(q->op);
   k->op = q->op == AMBIT_OP_SQR ? AMBIT_OP_POWN : q->op, k->power = q->op == AMBIT_OP_SQR ? 2 : q->power, k->n = 0;
   for (size_t i = 0; i < n; i++, step(&at)) {
@@ -52,7 +54,7 @@ static void select_entries(const call *q, cursor at, size_t n, const double *ope
     double a = operand[2 * i] > from ? operand[2 * i] : from, b = operand[2 * i + 1] < to ? operand[2 * i + 1] : to;
     int proper = result[2 * i] >= -DBL_MAX && result[2 * i + 1] <= DBL_MAX && result[2 * i] < result[2 * i + 1];
     entry[i] = LINEARISE_CHUNK;
-    if (!affine_has_form(x) || x->blocks == 0 || !proper || !(a < b)) continue;
+    if (!affine_has_form(x) || x->blocks == 0 || !derivable || !proper || !(a < b)) continue;
     entry[i] = k->n;
     k->a[k->n] = a, k->b[k->n] = b, k->flo[k->n] = result[2 * i], k->fhi[k->n] = result[2 * i + 1];
     k->n++;

@@ -25,8 +25,6 @@ typedef struct tangents {
   int convex[2 * LINEARISE_CHUNK];
 } tangents;
 
-static double larger(double a, double b) { return a > b ? a : b; }
-static double smaller(double a, double b) { return a < b ? a : b; }
 static double clipped(double t, double from, double to) {
   if (!(t >= from)) t = t < from ? from : 0.5 * from + 0.5 * to; /* NaN: anywhere */
   return t <= to ? t : to;
@@ -76,7 +74,7 @@ static void add_tangent(tangents *g, size_t owner, double t, double from, double
   g->t[n] = clipped(t, from, to);
 }
 
-/* the zero of TAN in or next to [a, b], enclosed */
+/* the zero of TAN in or next to [a, b], enclosed; the number of turns is exact below FAR_OUT */
 static range zero_of(const linearise_chunk *k, size_t i) {
   if (k->op != AMBIT_OP_TAN) return (range) { 0, 0 };
   double turns = round((0.5 * k->a[i] + 0.5 * k->b[i]) / 0x1.921fb54442d18p+1);
@@ -173,6 +171,7 @@ static void chebyshev(const affine_context *c, linearise_chunk *k) {
   inflected(c, k, &e);
   for (size_t i = 0; i < k->n; i++) {
     if (is_wave(k->op)) k->slope[i] = smaller(larger(k->slope[i], -1), 1);
+    if (k->op == AMBIT_OP_TAN && !(fabs(0.5 * k->a[i] + 0.5 * k->b[i]) < FAR_OUT)) k->slope[i] = NAN; /* zero_of */
     k->glo[i] = INFINITY, k->ghi[i] = -INFINITY;
     include_ends(k, i, &e);
   }

@@ -3,6 +3,7 @@
 #define AFFINE_LINEARISE_H
 #include "affine.h"
 
+#define FAR_OUT 0x1p40 /* angles beyond are not counted in turns, and get no line */
 #define LINEARISE_CHUNK 64
 #define LINEARISE_RECIPROCAL AMBIT_OP_COUNT /* 1/x; the other functions by their opcode */
 
@@ -10,7 +11,7 @@
 ** are no points, and enclosures [flo, fhi] of op over them, which are bounded. */
 typedef struct linearise_chunk {
   uint32_t op;
-  int32_t power; /* of POWN: not 0 or 1 */
+  int32_t power; /* of POWN: not 0, 1 or INT32_MIN */
   size_t n;
   double a[LINEARISE_CHUNK], b[LINEARISE_CHUNK], flo[LINEARISE_CHUNK], fhi[LINEARISE_CHUNK];
   double slope[LINEARISE_CHUNK], glo[LINEARISE_CHUNK], ghi[LINEARISE_CHUNK];

@@ -85,7 +85,8 @@ void linearise_slopes(const affine_context *c, uint32_t op, int32_t power, size_
   uint32_t other = companion(op);
   if (other != AMBIT_OP_COUNT) c->num->elementary(other, n, a, b, a, b, lo, hi);
   for (size_t i = 0; i < n; i++) {
-    range e = { lo[i], hi[i] };
+    range e = { 0, 0 };
+    if (other != AMBIT_OP_COUNT) e = (range) { lo[i], hi[i] };
     if (op == AMBIT_OP_POWN) c->num->pown(&e.lo, &e.hi, a[i], b[i], power - 1);
     range r = slope_of(op, power, (range) { a[i], b[i] }, (range) { flo[i], fhi[i] }, e);
     lo[i] = r.lo, hi[i] = r.hi;

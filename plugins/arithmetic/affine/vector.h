@@ -61,27 +61,6 @@ static inline pair smaller_pair(pair a, pair b) {
 }
 #endif
 
-/* of NaN and a number either */
-#if WIDTH == 8
-static inline vector larger(vector a, vector b) { return (vector)_mm512_max_pd((__m512d)a, (__m512d)b); }
-static inline vector smaller(vector a, vector b) { return (vector)_mm512_min_pd((__m512d)a, (__m512d)b); }
-static inline vector keep_where_positive(vector x, vector v) {
-  return (vector)_mm512_maskz_mov_pd(_mm512_cmp_pd_mask((__m512d)x, _mm512_setzero_pd(), _CMP_GT_OQ), (__m512d)v);
-}
-#elif WIDTH == 4
-static inline vector larger(vector a, vector b) { return (vector)_mm256_max_pd((__m256d)a, (__m256d)b); }
-static inline vector smaller(vector a, vector b) { return (vector)_mm256_min_pd((__m256d)a, (__m256d)b); }
-static inline vector keep_where_positive(vector x, vector v) {
-  return (vector)_mm256_and_pd(_mm256_cmp_pd((__m256d)x, _mm256_setzero_pd(), _CMP_GT_OQ), (__m256d)v);
-}
-#else
-static inline vector larger(vector a, vector b) { return larger_pair(a, b); }
-static inline vector smaller(vector a, vector b) { return smaller_pair(a, b); }
-static inline vector keep_where_positive(vector x, vector v) {
-  return (vector) { x[0] > 0 ? v[0] : 0, x[1] > 0 ? v[1] : 0 };
-}
-#endif
-
 static inline vector magnitude(vector x) { return (vector)((bits)x & splat_bits(INT64_MAX)); }
 static inline vector flip(vector x, bits sign) { return (vector)((bits)x ^ sign); }
 
@@ -90,8 +69,8 @@ static inline double total(vector x) {
 #if WIDTH == 8
   __m256d lower = _mm512_castpd512_pd256((__m512d)x), upper = _mm512_extractf64x4_pd((__m512d)x, 1);
   __m256d half = _mm256_add_pd(lower, upper);
-  __m128d pair = _mm_add_pd(_mm256_castpd256_pd128(half), _mm256_extractf128_pd(half, 1));
-  return pair[0] + pair[1];
+  __m128d last = _mm_add_pd(_mm256_castpd256_pd128(half), _mm256_extractf128_pd(half, 1));
+  return last[0] + last[1];
 #elif WIDTH == 4
   return (x[0] + x[2]) + (x[1] + x[3]);
 #else

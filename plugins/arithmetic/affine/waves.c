@@ -48,7 +48,7 @@ void linearise_waves(const affine_context *c, linearise_chunk *k) {
     double s = k->slope[i], middle = 0.5 * k->a[i] + 0.5 * k->b[i];
     double up = sqrt((1 - s) * (1 + s)), square_down = -((s - 1) * -(-1 - s)); /* (1-s)(1+s) from below */
     double down = up > 0 ? -(-square_down / up) : 0;
-    if (k->b[i] - k->a[i] < 6 && fabs(middle) < 0x1p40) {
+    if (k->b[i] - k->a[i] < 6 && fabs(middle) < FAR_OUT) {
       include(k, i, nearest(middle, (range) { lo[i], hi[i] }, shift), down, up);
       include(k, i, nearest(middle, (range) { -hi[i], -lo[i] }, shift), -up, -down);
     } else

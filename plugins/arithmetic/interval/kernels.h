@@ -37,7 +37,7 @@ INLINE vector neg(findings *f, vector x, vector unused) {
   return finish(f, is_empty(x), swap(x));
 }
 
-/* -lo = max(-a B, a b, -A b, -A B) and hi likewise. A NaN is 0 * inf and means 0. Where a = 0 makes one it may be
+/* -lo = max(-a b, -a B, -A b, -A B) and hi likewise. A NaN is 0 * inf and means 0. Where a = 0 makes one it may be
 ** dropped, as `larger` does with its first operand: then b or B is infinite, and if a times the other end is no 0
 ** either, A >= 0 times that infinity or 0 is one. */
 INLINE vector product(vector x, vector y) {

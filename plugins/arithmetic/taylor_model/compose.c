@@ -8,12 +8,6 @@
 
 /* -- at a box */
 
-static interval times(interval a, interval b) {
-  double down = fmax(fmax(-a.lo * b.lo, -a.lo * b.hi), fmax(-a.hi * b.lo, -a.hi * b.hi));
-  double up = fmax(fmax(a.lo * b.lo, a.lo * b.hi), fmax(a.hi * b.lo, a.hi * b.hi));
-  return (interval) { -down, up };
-}
-
 /* powers 1 .. order of each variable */
 static void write_powers(const context *c, const double *at_lo, const double *at_hi, interval *power) {
   for (uint32_t v = 0; v < c->m.nvar; v++)
@@ -27,12 +21,12 @@ static interval value_of(const context *c, const interval *value, const interval
   uint32_t v = c->m.last[i], n = 0, rest = i;
   for (; rest && c->m.last[rest] == v; rest = c->m.parent[rest]) n++;
   interval p = power[(size_t)v * c->m.order + n - 1];
-  return rest ? times(value[rest], p) : p;
+  return rest ? interval_times(value[rest], p) : p;
 }
 
 AMBIT_WORKER void model_evaluate(
     const context *c, const model *x, const double *at_lo, const double *at_hi, double *lo, double *hi) {
-  interval *value = (interval *)(void *)c->packed[0], *power = (interval *)(void *)c->packed[1];
+  interval *value = c->at[0], *power = c->at[1];
   interval sum = { 0, 0 };
   *lo = x->hull.lo, *hi = x->hull.hi;
   if (!model_is_polynomial(x)) return;
@@ -40,7 +34,7 @@ AMBIT_WORKER void model_evaluate(
   for (uint32_t i = 0; i < c->m.count; i++) {
     double coef = model_coefficient(c, x, i);
     value[i] = i ? value_of(c, value, power, i) : (interval) { 1, 1 };
-    interval term = times((interval) { coef, coef }, value[i]);
+    interval term = interval_times((interval) { coef, coef }, value[i]);
     if (coef != 0) sum = (interval) { -(-sum.lo - term.lo), sum.hi + term.hi };
   }
   double down = -(x->rad - sum.lo), up = sum.hi + x->rad;
@@ -70,7 +64,7 @@ static void branch(const context *c, const model *v, const model *w, uint32_t i,
     uint32_t child = c->m.child[i] + j;
     if (!c->alive[child]) continue;
     branch(c, v, w, child, level + 1);
-    model_multiply(c, product, argument(c, w, j), inner, AMBIT_OP_MUL);
+    model_multiply(c, product, argument(c, w, j), inner);
     model_add(c, next, sum, product, 1);
     model_copy(c, sum, next);
   }

@@ -29,9 +29,9 @@ static layout lay_out(uint32_t nvar, uint32_t order, size_t count, uint32_t boxe
   l.mask_at = l.norm_at + (order + 1u) * sizeof(double);
   l.coef_at = round_up(l.mask_at + words * sizeof(uint64_t), 64);
   l.elem = l.coef_at + blocks * MONOMIALS_BLOCK * sizeof(double);
-  /* rows filled up to vectors, with a row of zeros; or intervals (compose.c) */
+  /* rows filled up to vectors, with a row of zeros that must stay so */
   size_t rows = nvar ? (size_t)(monomial_count(nvar - 1.0, order) + 0.5) : 1;
-  l.packed = (2 * count + MONOMIALS_ROW_PAD * rows + order + 4 * MONOMIALS_ROW_PAD) * sizeof(double);
+  l.packed = (count + MONOMIALS_ROW_PAD * rows + order + 4 * MONOMIALS_ROW_PAD) * sizeof(double);
   int side_by_side = count <= LANES_LIMIT && lanes >= LANES_LEAST && !monomials_has_rows(nvar, order);
   l.lanes = side_by_side ? lanes * blocks * MONOMIALS_BLOCK * sizeof(double) : 0;
   size_t each = count * sizeof(double);
@@ -41,8 +41,9 @@ static layout lay_out(uint32_t nvar, uint32_t order, size_t count, uint32_t boxe
 }
 
 static double bytes_of(const layout *l, size_t count, uint32_t order, double tables) {
-  return tables + 2.0 * (double)(l->packed + count * (sizeof(uint32_t) + sizeof(double))) + 3.0 * (double)l->lanes +
-         (double)l->boxes + (double)count + (MODEL_SCRATCH + order + 1.0) * (double)l->elem + 64.0 * 16;
+  return tables + 2.0 * (double)(l->packed + count * (sizeof(uint32_t) + sizeof(double) + sizeof(interval))) +
+         3.0 * (double)l->lanes + (double)l->boxes + (double)count + (MODEL_SCRATCH + order + 1.0) * (double)l->elem +
+         64.0 * 16;
 }
 
 static char *take(char **next, size_t bytes) {
@@ -59,6 +60,7 @@ static void assign(context *c, const layout *l, uint32_t nvar, uint32_t order, c
     c->packed[i] = (double *)(void *)take(&room, l->packed);
     c->index[i] = (uint32_t *)(void *)take(&room, count * sizeof(uint32_t));
     c->value[i] = (double *)(void *)take(&room, count * sizeof(double));
+    c->at[i] = (interval *)(void *)take(&room, count * sizeof(interval));
   }
   for (int i = 0; i < 3 && l->lanes; i++) c->lanes[i] = (double *)(void *)take(&room, l->lanes);
   if (l->boxes) c->box = (double *)(void *)take(&room, l->boxes);

@@ -19,12 +19,6 @@ static interval power_of(double down, double up, uint32_t n) {
   return (interval) { 0, below > above ? below : above };
 }
 
-static interval times(interval a, interval b) {
-  double down = fmax(fmax(-a.lo * b.lo, -a.lo * b.hi), fmax(-a.hi * b.lo, -a.hi * b.hi));
-  double up = fmax(fmax(a.lo * b.lo, a.lo * b.hi), fmax(a.hi * b.lo, a.hi * b.hi));
-  return (interval) { -down, up };
-}
-
 /* dst := sum of s->mid[k] h^k; returns the error. dst is not surveyed. */
 static double horner(const context *c, model *dst, const model *h, double reach, const series *s) {
   uint32_t n = s->terms;
@@ -48,7 +42,7 @@ static uint32_t compose(
   model_coef(c, h)[0] = 0, model_norm(c, h)[0] = 0;
   double error = horner(c, dst, h, down > up ? down : up, s);
   dst->rad = error + s->slope * a->rad;
-  model_add_interval(c, dst, times(s->rest, power_of(down, up, s->terms + 1)));
+  model_add_interval(c, dst, interval_times(s->rest, power_of(down, up, s->terms + 1)));
   return model_finish(c, dst, hull);
 }
 
@@ -79,7 +73,7 @@ AMBIT_WORKER uint32_t model_divide(const context *c, model *dst, const model *a,
   if (flags || !model_is_polynomial(a) || !model_is_polynomial(b)) return flags | model_finish_interval(c, dst, hull);
   if (a == b) hull = (interval) { 1, 1 };
   model_function(c, SERIES_RECIPROCAL, inverse, b, 0);
-  model_multiply(c, dst, a, inverse, AMBIT_OP_MUL);
+  model_multiply(c, dst, a, inverse);
   return inside(c, dst, hull);
 }
 
@@ -124,10 +118,10 @@ static void by_products(const context *c, model *dst, const model *a, uint32_t n
   while (!(n & bit)) bit >>= 1;
   model_copy(c, now, a);
   for (bit >>= 1; bit; bit >>= 1) {
-    model_multiply(c, next, now, now, AMBIT_OP_SQR);
+    model_multiply(c, next, now, now);
     free = now, now = next, next = free;
     if (!(n & bit)) continue;
-    model_multiply(c, next, now, a, AMBIT_OP_MUL);
+    model_multiply(c, next, now, a);
     free = now, now = next, next = free;
   }
   model_copy(c, dst, now);
@@ -135,7 +129,7 @@ static void by_products(const context *c, model *dst, const model *a, uint32_t n
 
 AMBIT_WORKER uint32_t model_power(const context *c, model *dst, const model *a, int32_t n) {
   interval hull;
-  if (n == 2) return model_multiply(c, dst, a, a, AMBIT_OP_SQR);
+  if (n == 2) return model_multiply(c, dst, a, a);
   if (n < 1 || n > SMALL_POWER || !model_is_polynomial(a)) return model_function(c, AMBIT_OP_POWN, dst, a, n);
   uint32_t flags = model_hull(c, AMBIT_OP_POWN, &hull, a->hull, a->hull, n);
   by_products(c, dst, a, (uint32_t)n);

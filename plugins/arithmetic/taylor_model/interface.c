@@ -68,7 +68,7 @@ static void evaluate(void *ctx, const void *x, const double *at_lo, const double
 }
 
 static uint32_t product(void *ctx, void *dst, const void *a, const void *b) {
-  UPWARD(uint32_t, model_multiply(ctx, dst, a, b, AMBIT_OP_MUL));
+  UPWARD(uint32_t, model_multiply(ctx, dst, a, b));
 }
 
 static uint32_t compose(void *ctx, void *dst, const void *v, const void *w) {

@@ -3,7 +3,7 @@
 ** for they add terms that only one operand has. */
 #include "model.h"
 
-#define ERROR_MARGIN 0x1.0000001p0 /* the errors are added in nearest mode, fewer than 2^24 of them */
+#define ERROR_MARGIN 0x1.00001p0 /* the errors are added in nearest mode, fewer than 2^31 of them */
 
 static AMBIT_WORKER double sum_nearest(const context *c, model *dst, const model *a, const model *b, int subtract) {
   ambit_rounding old = ambit_round_nearest();

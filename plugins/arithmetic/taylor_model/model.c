@@ -1,8 +1,9 @@
 /* model.c -- elements: constants, variables, and the bookkeeping that ends every operation. Upward mode. */
 #include "model.h"
-#include <float.h>
 
-#define LARGEST 0x1p1000 /* beyond, sums of products may overflow: only the hull is kept */
+/* Beyond, only the hull is kept: sums of products may overflow, and a substitution, which grows coefficients by up to 2
+** to the power of the order (substitute.c), would do so unnoticed where upward mode stops at the largest double. */
+#define LARGEST 0x1p960
 
 void model_clear(const context *c, model *x, double v) {
   double *coef = model_coef(c, x), *norm = model_norm(c, x);

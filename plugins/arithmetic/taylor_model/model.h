@@ -41,6 +41,7 @@ typedef struct context {
   size_t elem, norm_at, mask_at, coef_at;
   ambit_rounding outside; /* environment to restore on leave */
   double *packed[2];      /* operands in rows */
+  interval *at[2];        /* [count] monomials and powers of variables at a box; nvar order <= count */
   uint32_t *index[2];     /* lists of monomials */
   double *value[2];       /* and their coefficients */
   double *lanes[3];       /* operands and product with the lanes side by side; NULL: too big */
@@ -65,6 +66,12 @@ static inline double model_coefficient(const context *c, const model *x, uint32_
   return model_coef(c, x)[i];
 }
 static inline int model_is_polynomial(const model *x) { return x->rad < INFINITY; }
+/* of bounded intervals; upward mode */
+static inline interval interval_times(interval a, interval b) {
+  double down = fmax(fmax(-a.lo * b.lo, -a.lo * b.hi), fmax(-a.hi * b.lo, -a.hi * b.hi));
+  double up = fmax(fmax(a.lo * b.lo, a.lo * b.hi), fmax(a.hi * b.lo, a.hi * b.hi));
+  return (interval) { -down, up };
+}
 static inline int interval_is_empty(interval x) { return !(x.lo <= x.hi); }
 
 /* -- model.c. Upward mode, as all that follows unless it says otherwise. */
@@ -93,15 +100,15 @@ interval model_range_naive(const context *c, const model *x); /* of p */
 
 /* -- product.c */
 /* p of dst := p of a times p of b, cut after degree `limit`; returns a bound of what rounding and cutting lost.
-** dst is surveyed. rad and hull of dst are not written. */
+** rad and hull of dst are not written, and it is not surveyed. */
 double model_product(const context *c, model *dst, const model *a, const model *b, uint32_t limit);
-uint32_t model_multiply(const context *c, model *dst, const model *a, const model *b, uint32_t op);
+uint32_t model_multiply(const context *c, model *dst, const model *a, const model *b);
 /* n products dst[i] := a[i] b[i] whose polynomials the lanes of the vector unit compute together where that pays */
 uint32_t model_multiply_many(
-    const context *c, size_t n, model *const *dst, const model *const *a, const model *const *b, uint32_t op);
+    const context *c, size_t n, model *const *dst, const model *const *a, const model *const *b);
 
 /* -- linear.c */
-/* p of dst := p of a + sign p of b; returns the rounding error; surveyed */
+/* p of dst := p of a + sign p of b; returns the rounding error; not surveyed */
 double model_sum(const context *c, model *dst, const model *a, const model *b, double sign);
 uint32_t model_add(const context *c, model *dst, const model *a, const model *b, double sign);
 uint32_t model_negate(const context *c, model *dst, const model *a);

@@ -169,14 +169,13 @@ static double remainder_of(const context *c, const model *a, const model *b) {
   return first < second ? first : second;
 }
 
-static uint32_t hull_of(const context *c, uint32_t op, interval *hull, const model *a, const model *b) {
-  if (a == b) op = AMBIT_OP_SQR;
-  return model_hull(c, op, hull, a->hull, b->hull, 0);
+static uint32_t hull_of(const context *c, interval *hull, const model *a, const model *b) {
+  return model_hull(c, a == b ? AMBIT_OP_SQR : AMBIT_OP_MUL, hull, a->hull, b->hull, 0);
 }
 
-AMBIT_WORKER uint32_t model_multiply(const context *c, model *dst, const model *a, const model *b, uint32_t op) {
+AMBIT_WORKER uint32_t model_multiply(const context *c, model *dst, const model *a, const model *b) {
   interval hull;
-  hull_of(c, op, &hull, a, b);
+  hull_of(c, &hull, a, b);
   if (!model_is_polynomial(a) || !model_is_polynomial(b)) return model_finish_interval(c, dst, hull);
   double lost = model_product(c, dst, a, b, c->m.order);
   dst->rad = lost + remainder_of(c, a, b);
@@ -232,7 +231,7 @@ static void multiply_lanes(
 }
 
 AMBIT_WORKER uint32_t model_multiply_many(
-    const context *c, size_t n, model *const *dst, const model *const *a, const model *const *b, uint32_t op) {
+    const context *c, size_t n, model *const *dst, const model *const *a, const model *const *b) {
   double lost[MONOMIALS_ROW_PAD];
   uint32_t flags = 0;
   int together = c->lanes[0] && 2 * n > c->kernels->lanes;
@@ -241,11 +240,11 @@ AMBIT_WORKER uint32_t model_multiply_many(
   if (together) multiply_lanes(c, n, dst, a, b, lost);
   for (size_t l = 0; l < n; l++) {
     if (!together) {
-      flags |= model_multiply(c, dst[l], a[l], b[l], op);
+      flags |= model_multiply(c, dst[l], a[l], b[l]);
       continue;
     }
     interval hull;
-    hull_of(c, op, &hull, a[l], b[l]);
+    hull_of(c, &hull, a[l], b[l]);
     dst[l]->rad = lost[l] + remainder_of(c, a[l], b[l]);
     flags |= model_finish(c, dst[l], hull);
   }

@@ -43,8 +43,8 @@ RUN(MAX, model_extremum(all.c, r, x, Y, AMBIT_OP_MAX))
 TAYLOR_FUNCTIONS(FUNCTION)
 
 /* as many at a time as the vector unit has lanes */
-static uint32_t products(const block *all, uint32_t op, size_t lanes, size_t count, const uint32_t *dst,
-    const uint32_t *a, const uint32_t *b) {
+static uint32_t products(
+    const block *all, size_t lanes, size_t count, const uint32_t *dst, const uint32_t *a, const uint32_t *b) {
   model *r[MONOMIALS_ROW_PAD];
   const model *x[MONOMIALS_ROW_PAD], *y[MONOMIALS_ROW_PAD];
   uint32_t flags = 0;
@@ -52,19 +52,19 @@ static uint32_t products(const block *all, uint32_t op, size_t lanes, size_t cou
   for (size_t i = 0; i < count; i++)
     for (size_t lane = 0; lane < lanes; lane++) {
       r[n] = at(all, dst[i], lane), x[n] = at(all, a[i], lane), y[n] = at(all, b[i], lane);
-      if (++n == all->c->kernels->lanes) flags |= model_multiply_many(all->c, n, r, x, y, op), n = 0;
+      if (++n == all->c->kernels->lanes) flags |= model_multiply_many(all->c, n, r, x, y), n = 0;
     }
-  return n ? flags | model_multiply_many(all->c, n, r, x, y, op) : flags;
+  return n ? flags | model_multiply_many(all->c, n, r, x, y) : flags;
 }
 
 uint32_t taylor_run_MUL(ARGUMENTS) {
   (void)self;
   block all = { ctx, base, pitch };
-  return products(&all, AMBIT_OP_MUL, lanes, count, dst, a, b);
+  return products(&all, lanes, count, dst, a, b);
 }
 
 uint32_t taylor_run_SQR(ARGUMENTS) {
   (void)self, (void)b;
   block all = { ctx, base, pitch };
-  return products(&all, AMBIT_OP_SQR, lanes, count, dst, a, a);
+  return products(&all, lanes, count, dst, a, a);
 }

@@ -26,12 +26,6 @@ static interval point(double x) { return (interval) { x, x }; }
 static interval negative(interval a) { return (interval) { -a.hi, -a.lo }; }
 static interval plus(interval a, interval b) { return (interval) { -(-a.lo - b.lo), a.hi + b.hi }; }
 
-static interval times(interval a, interval b) {
-  double down = fmax(fmax(-a.lo * b.lo, -a.lo * b.hi), fmax(-a.hi * b.lo, -a.hi * b.hi));
-  double up = fmax(fmax(a.lo * b.lo, a.lo * b.hi), fmax(a.hi * b.lo, a.hi * b.hi));
-  return (interval) { -down, up };
-}
-
 static interval over(interval a, double n) { /* n > 0 */
   return (interval) { -(-a.lo / n), a.hi / n };
 }
@@ -89,7 +83,7 @@ static void expand_pair(const task *t, uint32_t op, uint32_t first, uint32_t sec
     if (k) weight = over(weight, k);
     interval x = k <= n ? at[which % 2] : of(t->num, which % 2 ? second : first, t->range);
     if (turns && which % 4 >= 2) x = negative(x);
-    x = times(x, weight);
+    x = interval_times(x, weight);
     if (k <= n)
       put(t, k, x);
     else
@@ -103,8 +97,8 @@ static void expand_log(const task *t) {
   uint32_t n = t->s->terms;
   interval u = inverse(t->num, point(t->centre)), p = point(-1);
   put(t, 0, of(t->num, AMBIT_OP_LOG, point(t->centre)));
-  for (uint32_t k = 1; k <= n; k++) p = negative(times(p, u)), put(t, k, over(p, k));
-  t->s->rest = over(times(negative(p), inverse(t->num, t->range)), n + 1);
+  for (uint32_t k = 1; k <= n; k++) p = negative(interval_times(p, u)), put(t, k, over(p, k));
+  t->s->rest = over(interval_times(negative(p), inverse(t->num, t->range)), n + 1);
   t->s->slope = inverse(t->num, t->wide).hi;
 }
 
@@ -121,11 +115,11 @@ static void expand_sqrt(const task *t) {
   interval u = inverse(t->num, point(t->centre)), p = of(t->num, AMBIT_OP_SQRT, point(t->centre));
   put(t, 0, p);
   for (uint32_t k = 1; k <= n + 1; k++) {
-    p = times(times(p, u), over(point(3 - 2.0 * k), 2.0 * k));
+    p = interval_times(interval_times(p, u), over(point(3 - 2.0 * k), 2.0 * k));
     if (k <= n) put(t, k, p);
   }
-  interval q = times(t->range, u);
-  t->s->rest = times(p, power_rest(t->num, q, of(t->num, AMBIT_OP_SQRT, q)));
+  interval q = interval_times(t->range, u);
+  t->s->rest = interval_times(p, power_rest(t->num, q, of(t->num, AMBIT_OP_SQRT, q)));
   t->s->slope = of(t->num, AMBIT_OP_SQRT, inverse(t->num, t->wide)).hi / 2;
 }
 
@@ -135,12 +129,12 @@ static double width(interval x) { return x.hi - x.lo; }
 static interval power_remainder(const task *t, int32_t n, interval binomial) {
   int32_t k = (int32_t)t->s->terms + 1;
   if (n >= 0 && k > n) return point(0);
-  interval lagrange = times(binomial, power(t->num, t->range, n - k));
+  interval lagrange = interval_times(binomial, power(t->num, t->range, n - k));
   if (t->centre == 0) return lagrange;
-  interval q = times(t->range, inverse(t->num, point(t->centre)));
+  interval q = interval_times(t->range, inverse(t->num, point(t->centre)));
   if (q.lo <= 0) return lagrange;
-  interval other = times(binomial, power(t->num, point(t->centre), n - k));
-  other = times(other, power_rest(t->num, q, power(t->num, q, n)));
+  interval other = interval_times(binomial, power(t->num, point(t->centre), n - k));
+  other = interval_times(other, power_rest(t->num, q, power(t->num, q, n)));
   return width(other) < width(lagrange) ? other : lagrange;
 }
 
@@ -150,21 +144,21 @@ static void expand_power(const task *t, int32_t n) {
   interval b = point(1);
   for (uint32_t k = 0; k <= terms + 1; k++) {
     interval factor = point((double)n - k + 1);
-    if (k) b = over(times(b, factor), k);
+    if (k) b = over(interval_times(b, factor), k);
     if (k > terms)
       t->s->rest = power_remainder(t, n, b);
     else if (n >= 0 && k > (uint32_t)n)
       put(t, k, point(0));
     else
-      put(t, k, times(b, power(t->num, point(t->centre), n - (int32_t)k)));
+      put(t, k, interval_times(b, power(t->num, point(t->centre), n - (int32_t)k)));
   }
-  t->s->slope = largest(times(point(n), power(t->num, t->wide, n - 1)));
+  t->s->slope = largest(interval_times(point(n), power(t->num, t->wide, n - 1)));
 }
 
 /* (k + 1) t_(k+1) = 1 (k = 0) + sign sum t_i t_(k-i) */
 static interval tangent_next(const interval *t, uint32_t k, int sign) {
   interval sum = point(0);
-  for (uint32_t i = 0; i <= k; i++) sum = plus(sum, times(t[i], t[k - i]));
+  for (uint32_t i = 0; i <= k; i++) sum = plus(sum, interval_times(t[i], t[k - i]));
   if (sign < 0) sum = negative(sum);
   if (k == 0) sum = plus(sum, point(1));
   return over(sum, k + 1.0);
@@ -241,12 +235,12 @@ static void expand_tanh(const task *t) {
 /* g_(k+1) = (x (2k + 1) g_k + k g_(k-1)) / ((k + 1) (1 - x^2)), g_0 = (1 - x^2)^(-1/2); f_(k+1) = g_k / (k + 1) */
 static void asin_derivatives(const ambit_num_service *num, double x, uint32_t n, interval *g) {
   interval below = plus(point(1), point(-x)), above = plus(point(1), point(x));
-  interval u = inverse(num, times(below, above));
+  interval u = inverse(num, interval_times(below, above));
   g[0] = of(num, AMBIT_OP_SQRT, u);
   for (uint32_t k = 0; k < n; k++) {
-    interval sum = times(times(point(x), point(2.0 * k + 1)), g[k]);
-    if (k) sum = plus(sum, times(point(k), g[k - 1]));
-    g[k + 1] = over(times(sum, u), k + 1.0);
+    interval sum = interval_times(interval_times(point(x), point(2.0 * k + 1)), g[k]);
+    if (k) sum = plus(sum, interval_times(point(k), g[k - 1]));
+    g[k + 1] = over(interval_times(sum, u), k + 1.0);
   }
 }
 
@@ -267,12 +261,12 @@ static void expand_asin(const task *t, uint32_t op) {
 /* (1 + x^2) g_k = -2 x g_(k-1) - g_(k-2) */
 static void expand_atan(const task *t) {
   uint32_t n = t->s->terms;
-  interval c = point(t->centre), square = plus(point(1), times(c, c)), u = inverse(t->num, square);
-  interval g = u, before = point(0), twice = times(point(-2), c);
+  interval c = point(t->centre), square = plus(point(1), interval_times(c, c)), u = inverse(t->num, square);
+  interval g = u, before = point(0), twice = interval_times(point(-2), c);
   put(t, 0, of(t->num, AMBIT_OP_ATAN, c));
   for (uint32_t k = 1; k <= n; k++) { /* g is g_(k-1) */
     put(t, k, over(g, k));
-    interval next = times(plus(times(twice, g), negative(before)), u);
+    interval next = interval_times(plus(interval_times(twice, g), negative(before)), u);
     before = g, g = next;
   }
   double reach = fmax(t->range.hi - t->centre, t->centre - t->range.lo), m = smallest(t->range);

@@ -1,4 +1,5 @@
-/* skeleton.c -- a solver to start from: Heun's method (1900) from the midpoint of the initial set. It proves nothing, and
+/* skeleton.c -- a solver to start from: Heun's method (1900) from the midpoint of the initial set. It proves
+** nothing, and
 ** says so.
 **
 ** `open` allocates everything, `run` emits a record for each step and allocates nothing, `close` frees. A solver

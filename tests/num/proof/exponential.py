@@ -55,7 +55,10 @@ def halves_rounding(t, source):
     for name in ("s.l", "e.l", "i.l"):
         m.leaf(name, around(4 * U))
     m.argument("bracket", "s.l + (e.l + i.l)")
-    return m.error("bracket") + mpf(2) ** -200  # e^-2u left out from k = 100 on
+    most = source.number("exp_halves", r"choose\(bits_less\(\*k, all_bits\((\d+)\)\), "
+                         r"power_of_two\(-\(\*k & all_bits\(127\)\) - \(\*k & all_bits\(127\)\)\), all\(0\)\)")
+    require(most <= 128, "sinh, cosh: k & 127")
+    return m.error("bracket") + 2 * mpf(4) ** -int(most)  # e^-2u left out from k = most on
 
 
 def sinh_cosh_far(t, source, e, quotient):

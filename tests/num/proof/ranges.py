@@ -39,6 +39,10 @@ def check_exponents(source):
     require(exp(mpf(source.number("exp_point", r"if \(x > (\d+)\)"))) > DBL_MAX, "exp: overflow")
     require(exp(mpf(source.number("half_exp", r"if \(x > (\d+)\)"))) / 2 > DBL_MAX, "sinh: overflow")
     require(exp(-2 * mpf(700)) < U ** 2, "sinh, cosh: half of exp")
+    source.demand("half_exp", "widen(y, y.h * (2 * AMBIT_ERROR_EXP))")
+    # powers: the result and what is a step above it are normal, or infinite as they should be
+    source.demand("power_widen", "bits_less(scaled, all_bits(2)) | bits_less(all_bits(2045), scaled) | "
+                  "bits_equal(e, all_bits(0)) | bits_equal(e, all_bits(2047))")
 
 
 def check_limits(t, source):
@@ -53,6 +57,8 @@ def check_limits(t, source):
     require(rest > 0 and t.error("TANH") < U, "tanh: cut off, upper bound")
     kernel = source.number("kernel_range", r"all\((0x1p-\d+)\), magnitude")
     require(mpf(kernel) ** 2 * t.error("ATAN") > LEAST_NORMAL, "atan2: range of the kernel")
+    most = source.number("kernel_range", r"magnitude\(x\), all\((0x1p\d+)\)")
+    require(most == 1 / kernel, "atan2: range of the kernel")
     slender = int(source.number("upper_angle", r"if \(ey - ex < -(\d+)\)"))
     require(mpf(2) ** (-2 * (slender - 2)) < mpf(2) ** -110, "atan2: slender angles")
     require(mpf(2) ** -(slender - 2) < gap / 2, "atan2: steep angles")
@@ -62,7 +68,28 @@ def check_limits(t, source):
     require(1400 * 64 / log(2) < 2 ** 17, "exp: n")
 
 
+def check_uses(source):
+    """each enclosure steps by the bound that is proved for it, odd functions on the proper side near 0"""
+    for function, fragment in (
+            ("sin_error", "error_below(h, AMBIT_SIN_LEAST, AMBIT_ERROR_SIN, AMBIT_ERROR_SIN_FAR)"),
+            ("tan_error", "near = less(size, all(AMBIT_TAN_LEAST)) | less(all(AMBIT_TAN_MOST), size);"),
+            ("tan_error", "choose(near, all(AMBIT_ERROR_TAN), all(AMBIT_ERROR_TAN_FAR))"),
+            ("exp_at", "y.h * AMBIT_ERROR_EXP)"), ("log_at", "magnitude(y.h) * AMBIT_ERROR_LOG)"),
+            ("sin_of", "widen_odd(x, y, sin_error(y.h), -1)"), ("cos_of", "all(0), sin_error(y.h))"),
+            ("tan_of", "widen_odd(x, y, tan_error(y.h), 1)"),
+            ("asin_at", "widen_odd(x, y, magnitude(y.h) * AMBIT_ERROR_ASIN, 1)"),
+            ("acos_at", "widen(y, magnitude(y.h) * AMBIT_ERROR_ACOS)"),
+            ("atan_at", "widen_odd(x, y, magnitude(y.h) * AMBIT_ERROR_ATAN, -1)"),
+            ("atan2_at", "error_below(r.h, AMBIT_ATAN_SMALL, AMBIT_ERROR_ATAN_NEAR, AMBIT_ERROR_ATAN)"),
+            ("sinh_at", "widen_odd(x, y, magnitude(y.h) * AMBIT_ERROR_SINH, 1)"),
+            ("cosh_at", "y.h * AMBIT_ERROR_COSH)"),
+            ("tanh_at", "widen_odd(x, y, magnitude(y.h) * AMBIT_ERROR_TANH, -1)"),
+            ("exp_point", "widen(y, y.h * AMBIT_ERROR_EXP)"), ("power_widen", "a.y.h * n.error")):
+        source.demand(function, fragment)
+
+
 def check_ranges(t, source):
+    check_uses(source)
     check_outward_step(t)
     check_tiny(source)
     check_exponents(source)
