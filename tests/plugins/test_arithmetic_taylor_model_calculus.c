@@ -227,7 +227,7 @@ static void overflows(void **state) {
   uint32_t index[ORDER + 1];
   double value[ORDER + 1];
   taylor_open(&c, 0, 1, ORDER, SLOTS, 1);
-  for (int exponent = 930; exponent < 1002; exponent++)
+  for (int exponent = 984; exponent < 1002; exponent++)
     for (int round = 0; round < 20; round++) {
       const double part_lo = -0.96875, part_hi = -0.03125;
       double lo, hi, part[2];
@@ -240,7 +240,7 @@ static void overflows(void **state) {
       c.a->bounds(c.ctx, taylor_at(&c, R, 0), 1, &part[0], &part[1]);
       mpfr_t p;
       mpfr_init2(p, TAYLOR_BITS);
-      for (int k = -32; k <= 32; k++) {
+      for (int k = -32; k <= 32; k += 4) {
         double y = k / 32.0, x = -0.5 + 0.46875 * y;
         mpfr_set_d(p, 0, MPFR_RNDN);
         for (uint32_t i = ORDER + 1; i-- > 0;) mpfr_mul_d(p, p, x, MPFR_RNDN), mpfr_add_d(p, p, value[i], MPFR_RNDN);

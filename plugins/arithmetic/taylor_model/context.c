@@ -12,8 +12,9 @@ static const ambit_param params[] = {
   { NULL, NULL, NULL, NULL, NULL },
 };
 
-#define LANES_LIMIT (1u << 16)        /* monomials; products of more are not computed side by side */
-#define LANES_LEAST 4                 /* and not in vectors of two, which lose more by rearranging than they gain */
+#define LANES_LIMIT (1u << 16) /* monomials; products of more are not computed side by side */
+#define LANES_CACHED 512u      /* monomials; of more, rows are faster, as operands side by side leave the cache */
+#define LANES_LEAST 4          /* and not in vectors of two, which lose more by rearranging than they gain */
 #define BOXES_LIMIT ((size_t)1 << 22) /* coefficients in all boxes */
 
 static size_t round_up(size_t n, size_t to) { return (n + to - 1) / to * to; }
@@ -32,7 +33,7 @@ static layout lay_out(uint32_t nvar, uint32_t order, size_t count, uint32_t boxe
   /* rows filled up to vectors, with a row of zeros that must stay so */
   size_t rows = nvar ? (size_t)(monomial_count(nvar - 1.0, order) + 0.5) : 1;
   l.packed = (count + MONOMIALS_ROW_PAD * rows + order + 4 * MONOMIALS_ROW_PAD) * sizeof(double);
-  int side_by_side = count <= LANES_LIMIT && lanes >= LANES_LEAST && !monomials_has_rows(nvar, order);
+  int side_by_side = lanes >= LANES_LEAST && count <= (monomials_has_rows(nvar, order) ? LANES_CACHED : LANES_LIMIT);
   l.lanes = side_by_side ? lanes * blocks * MONOMIALS_BLOCK * sizeof(double) : 0;
   size_t each = count * sizeof(double);
   while (boxes > 1 && boxes * count > BOXES_LIMIT) boxes /= 2;

@@ -184,22 +184,33 @@ AMBIT_WORKER uint32_t model_multiply(const context *c, model *dst, const model *
 
 /* -- several at once: operands side by side, so that each vector holds one coefficient of every product */
 
+/* How many of the n operands have block b? */
+static size_t having(const context *c, size_t n, const model *const *x, uint32_t b) {
+  size_t count = 0;
+  for (size_t l = 0; l < n; l++) count += b == 0 || (model_mask(c, x[l])[b / 64] >> (b % 64) & 1);
+  return count;
+}
+
+/* Coefficients [from, end) of lane l, `lanes` apart. */
+static void spread(double *value, uint32_t lanes, const context *c, const model *x, uint32_t from, uint32_t end) {
+  const double *coef = model_coef(c, x);
+  for (uint32_t i = from; i < end; i++, value += lanes) *value = coef[i];
+}
+
 /* monomials that any of the operands has, and their coefficients lane by lane */
 static uint32_t interleave(
     const context *c, size_t n, const model *const *x, uint32_t lanes, uint32_t *index, double *value) {
   uint32_t terms = 0;
   for (uint32_t b = 0; b < c->m.blocks; b++) {
-    uint64_t any = b == 0, bit = (uint64_t)1 << (b % 64);
-    for (size_t l = 0; l < n; l++) any |= model_mask(c, x[l])[b / 64] & bit;
-    if (!any) continue;
-    uint32_t end = (b + 1) * MONOMIALS_BLOCK < c->m.count ? (b + 1) * MONOMIALS_BLOCK : c->m.count;
-    for (uint32_t i = b * MONOMIALS_BLOCK; i < end; i++, terms++) {
-      index[terms] = i;
-      for (uint32_t l = 0; l < lanes; l++) {
-        int there = l < n && (b == 0 || (model_mask(c, x[l])[b / 64] & bit));
-        value[(size_t)terms * lanes + l] = there ? model_coef(c, x[l])[i] : 0;
-      }
-    }
+    size_t there = having(c, n, x, b);
+    if (there == 0) continue;
+    uint32_t from = b * MONOMIALS_BLOCK,
+             end = from + MONOMIALS_BLOCK < c->m.count ? from + MONOMIALS_BLOCK : c->m.count;
+    double *place = value + (size_t)terms * lanes;
+    if (there < lanes) memset(place, 0, (end - from) * (size_t)lanes * sizeof *place);
+    for (size_t l = 0; l < n; l++)
+      if (there == n || having(c, 1, &x[l], b)) spread(place + l, lanes, c, x[l], from, end);
+    for (uint32_t i = from; i < end; i++) index[terms++] = i;
   }
   return terms;
 }
