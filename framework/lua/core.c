@@ -77,6 +77,9 @@ int luaopen_ambit_core(lua_State *L) {
   ambit_lua_open_data(L, core);
   ambit_lua_open_plugins(L, core);
   ambit_lua_open_mechanism(L, core);
+  ambit_lua_open_dynamics(L, core);
+  ambit_lua_open_loops(L, core);
+  ambit_lua_open_roots(L, core);
   ambit_lua_open_system(L, core);
   ambit_lua_open_verbs(L, core);
   ambit_lua_open_track(L, core);

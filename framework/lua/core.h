@@ -82,6 +82,9 @@ void ambit_lua_open_enclosure(lua_State *L, ambit_lua *core);  /* enclosure.c */
 void ambit_lua_open_data(lua_State *L, ambit_lua *core);       /* data.c: around, between, interval */
 void ambit_lua_open_plugins(lua_State *L, ambit_lua *core);    /* plugins.c */
 void ambit_lua_open_mechanism(lua_State *L, ambit_lua *core);  /* mechanism.c */
+void ambit_lua_open_dynamics(lua_State *L, ambit_lua *core);   /* dynamics.c */
+void ambit_lua_open_loops(lua_State *L, ambit_lua *core);      /* loops.c */
+void ambit_lua_open_roots(lua_State *L, ambit_lua *core);      /* roots.c */
 void ambit_lua_open_system(lua_State *L, ambit_lua *core);     /* system.c */
 void ambit_lua_open_verbs(lua_State *L, ambit_lua *core);      /* verbs.c: evaluate, simulate */
 void ambit_lua_open_track(lua_State *L, ambit_lua *core);      /* track.c: the recorded steps of a run */

@@ -1,14 +1,14 @@
-/* mechanism.c -- mechanisms as Lua values: adding parts, pulling quantities, equations of motion. */
+/* mechanism.c -- mechanisms as Lua values: adding parts, pulling quantities, the variables. */
+#include "lua/mechanism.h"
 #include "lua/core.h"
-#include "model/dynamics.h"
-#include "model/mechanism.h"
-#include "lua/system.h"
 #include <string.h>
 
-static ambit_mechanism *self(lua_State *L) {
-  ambit_mechanism **m = luaL_checkudata(L, 1, AMBIT_TYPE_MECHANISM);
+ambit_mechanism *ambit_lua_to_mechanism(lua_State *L, int idx) {
+  ambit_mechanism **m = luaL_checkudata(L, idx, AMBIT_TYPE_MECHANISM);
   return *m;
 }
+
+static ambit_mechanism *self(lua_State *L) { return ambit_lua_to_mechanism(L, 1); }
 
 static int close(lua_State *L) {
   ambit_mechanism **m = luaL_checkudata(L, 1, AMBIT_TYPE_MECHANISM);
@@ -103,62 +103,63 @@ static int count(lua_State *L) {
   return 1;
 }
 
-/* coordinates(mechanism) -> {{name, unit, q, qd, qdd}, ...} */
+/* {name, unit, [a_key] = a, [b_key] = b, part} appended to the list at the top */
+static void append_variable(lua_State *L, const char *name, const char *unit, uint32_t part, const char *a_key,
+    ambit_expr a, const char *b_key, ambit_expr b) {
+  lua_createtable(L, 0, 5);
+  lua_pushstring(L, name);
+  lua_setfield(L, -2, "name");
+  lua_pushstring(L, unit);
+  lua_setfield(L, -2, "unit");
+  lua_pushinteger(L, part);
+  lua_setfield(L, -2, "part");
+  ambit_lua_push_expression(L, a);
+  lua_setfield(L, -2, a_key);
+  if (b != AMBIT_NO_EXPR) ambit_lua_push_expression(L, b);
+  if (b != AMBIT_NO_EXPR) lua_setfield(L, -2, b_key);
+  lua_rawseti(L, -2, luaL_len(L, -2) + 1);
+}
+
+/* coordinates(mechanism) -> {{name, unit, part, q, rate}, ...} */
 static int coordinates(lua_State *L) {
   ambit_mechanism *m = self(L);
   size_t n = ambit_mechanism_coordinates(m, 0, NULL);
   ambit_coordinate *c = lua_newuserdatauv(L, (n + 1) * sizeof *c, 0);
   ambit_mechanism_coordinates(m, n, c);
   lua_createtable(L, (int)n, 0);
+  for (size_t i = 0; i < n; i++) append_variable(L, c[i].name, c[i].unit, c[i].part, "q", c[i].q, "rate", c[i].rate);
+  return 1;
+}
+
+/* speeds(mechanism) -> {{name, unit, part, u, du, du_name}, ...} */
+static int speeds(lua_State *L) {
+  ambit_mechanism *m = self(L);
+  size_t n = ambit_mechanism_speeds(m, 0, NULL);
+  ambit_speed *s = lua_newuserdatauv(L, (n + 1) * sizeof *s, 0);
+  ambit_mechanism_speeds(m, n, s);
+  lua_createtable(L, (int)n, 0);
   for (size_t i = 0; i < n; i++) {
-    lua_createtable(L, 0, 5);
-    lua_pushstring(L, c[i].name);
-    lua_setfield(L, -2, "name");
-    lua_pushstring(L, c[i].unit);
-    lua_setfield(L, -2, "unit");
-    ambit_lua_push_expression(L, c[i].q);
-    lua_setfield(L, -2, "q");
-    ambit_lua_push_expression(L, c[i].qd);
-    lua_setfield(L, -2, "qd");
-    ambit_lua_push_expression(L, c[i].qdd);
-    lua_setfield(L, -2, "qdd");
-    lua_rawseti(L, -2, (lua_Integer)i + 1);
+    append_variable(L, s[i].name, s[i].unit, s[i].part, "u", s[i].u, "du", s[i].du);
+    lua_rawgeti(L, -1, (lua_Integer)i + 1);
+    lua_pushstring(L, ambit_graph_node(ambit_mechanism_graph(m), s[i].du)->text);
+    lua_setfield(L, -2, "du_name");
+    lua_pop(L, 1);
   }
   return 1;
-}
-
-/* dynamics(mechanism) -> system */
-static int dynamics(lua_State *L) {
-  ambit_failure f = { 0 };
-  ambit_mechanism *m = self(L);
-  ambit_lua_system *s = ambit_lua_push_system(L);
-  if (ambit_dynamics_system(m, s->arena, &s->system, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
-  return 1;
-}
-
-/* motion(mechanism) -> n, {M by rows}, {h}: M(q) q'' = h(q, q') */
-static int motion(lua_State *L) {
-  ambit_failure f = { 0 };
-  ambit_motion motion = { 0 };
-  ambit_mechanism *m = self(L);
-  ambit_lua_system *scratch = ambit_lua_push_system(L); /* its arena is Lua's to free */
-  if (ambit_motion_build(m, scratch->arena, &motion, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
-  lua_pushinteger(L, (lua_Integer)motion.n);
-  ambit_lua_push_expressions(L, motion.n * motion.n, motion.mass);
-  ambit_lua_push_expressions(L, motion.n, motion.force);
-  return 3;
 }
 
 void ambit_lua_open_mechanism(lua_State *L, ambit_lua *core) {
   static const luaL_Reg meta[] = { { "__gc", close }, { NULL, NULL } };
   static const luaL_Reg functions[] = { { "mechanism", mechanism }, { "add", add }, { "pull", pull },
     { "part_name", part_name }, { "pulled", pulled }, { "part_count", count }, { "coordinates", coordinates },
-    { "dynamics", dynamics }, { "motion", motion }, { NULL, NULL } };
+    { "speeds", speeds }, { NULL, NULL } };
   static const struct {
     const char *name;
     lua_Integer value;
   } quantity[] = { { "POSE", AMBIT_POSE }, { "TWIST", AMBIT_TWIST }, { "ACCEL", AMBIT_ACCEL },
     { "WRENCH", AMBIT_WRENCH }, { "ENERGY", AMBIT_ENERGY }, { "COORDINATE", AMBIT_COORDINATE }, { "RATE", AMBIT_RATE },
+    { "RATE2", AMBIT_RATE2 }, { "EFFORT", AMBIT_EFFORT }, { "BALANCE", AMBIT_BALANCE },
+    { "COORDINATE_RATE", AMBIT_COORDINATE_RATE }, { "RESIDUAL", AMBIT_RESIDUAL }, { "POWER", AMBIT_POWER },
     { "FIELD", AMBIT_FIELD } };
   ambit_lua_set_functions(L, core, functions);
   for (size_t i = 0; i < sizeof quantity / sizeof *quantity; i++) {

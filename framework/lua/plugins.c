@@ -28,16 +28,21 @@ static void push_params(lua_State *L, const ambit_param *param) {
   }
 }
 
+static const char *kind_of(const ambit_port *port) {
+  return port->kind == AMBIT_PORT_FRAME ? "frame" : port->kind == AMBIT_PORT_JOINT ? "joint" : "constraint";
+}
+
 static void push_ports(lua_State *L, const ambit_element *element) {
   lua_createtable(L, (int)element->nport, 0);
   for (uint32_t i = 0; i < element->nport; i++) {
     const ambit_port *port = &element->port[i];
-    lua_createtable(L, 0, 6);
+    lua_createtable(L, 0, 7);
     set_text(L, "name", port->name);
-    set_text(L, "kind", port->kind == AMBIT_PORT_JOINT ? "joint" : "frame");
+    set_text(L, "kind", kind_of(port));
     set_text(L, "role", port->role == AMBIT_ROLE_IN ? "in" : "out");
     set_text(L, "doc", port->doc);
-    set_integer(L, "dof", port->dof);
+    set_integer(L, "dof", ambit_port_dof(port));
+    set_integer(L, "coordinates", ambit_port_coordinates(port));
     lua_pushboolean(L, port->optional != 0);
     lua_setfield(L, -2, "optional");
     lua_rawseti(L, -2, (lua_Integer)i + 1);

@@ -44,7 +44,9 @@ static int system_new(lua_State *L) {
     name[i] = text_at(L, s->arena, 1, (lua_Integer)i + 1);
     unit[i] = text_at(L, s->arena, 2, (lua_Integer)i + 1);
   }
-  s->system = (ambit_system) { AMBIT_LUA(L)->graph, n, name, unit, state, rate };
+  s->system = (ambit_system) {
+    .graph = AMBIT_LUA(L)->graph, .nx = n, .name = name, .unit = unit, .state = state, .rate = rate
+  };
   return 1;
 }
 

@@ -53,56 +53,55 @@ static const ambit_expr *param(ambit_build *b, uint32_t index) {
   return NULL;
 }
 
-/* -- coordinates */
+/* -- variables */
 
-/* Symbols are found by name, so q, q' and q'' must be nobody else's. */
-static const ambit_coordinate *make_coordinate(build *s, uint32_t index, const char *unit) {
-  ambit_mechanism *m = s->m;
-  const ambit_part *p = part_of(s);
-  char q[128], qd[132], qdd[132], ud[80], udd[80];
-  if (p->dof > 1)
-    snprintf(q, sizeof q, "%.100s.%u", p->name, index + 1);
-  else
-    snprintf(q, sizeof q, "%.100s", p->name);
-  snprintf(qd, sizeof qd, "%s'", q);
-  snprintf(qdd, sizeof qdd, "%s''", q);
-  snprintf(ud, sizeof ud, "%.60s/s", unit);
-  snprintf(udd, sizeof udd, "%.60s/s^2", unit);
-  for (size_t i = 0; i < m->ncoordinate && strchr(q, '.'); i++) /* without a dot it is a part's own, unique name */
-    if (strcmp(m->coordinate[i].name, q) == 0) {
-      fail(&s->open, AMBIT_INVALID, "its coordinate `%s` has the name of another one", q);
-      return NULL;
-    }
-  ambit_coordinate *grown =
-      ambit_vector_reserve(m->coordinate, &m->coordinate_capacity, m->ncoordinate + 1, sizeof *grown);
-  if (grown) m->coordinate = grown;
-  ambit_coordinate c = { .name = ambit_arena_text(m->arena, q),
-    .unit = ambit_arena_text(m->arena, unit),
-    .part = s->cell->part,
-    .index = index };
-  c.q = ambit_graph_symbol(m->graph, q, unit);
-  c.qd = ambit_graph_symbol(m->graph, qd, ud);
-  c.qdd = ambit_graph_symbol(m->graph, qdd, udd);
-  if (!grown || !c.name || !c.unit || c.q == AMBIT_NO_EXPR || c.qd == AMBIT_NO_EXPR || c.qdd == AMBIT_NO_EXPR) {
-    refuse(s, AMBIT_NOMEM, "out of memory");
-    return NULL;
-  }
-  p->coordinate[index] = (uint32_t)m->ncoordinate;
-  grown[m->ncoordinate] = c;
-  return &grown[m->ncoordinate++];
+/* A failure of the mechanism's own already names the part; this one does not record anything while broken off. */
+static void pass_on(build *s, const ambit_failure *f) {
+  if (!s->m->deferred) ambit_fail(s->m->failure, f->status, "%s", f->message);
 }
 
 static ambit_expr state(ambit_build *b, uint32_t i, uint32_t order, const char *unit) {
   build *s = of(b);
   const ambit_part *p = part_of(s);
-  if (i >= p->dof || order > 2) {
-    fail(b, AMBIT_BROKEN, "it asks for coordinate %u, derivative %u; it has %u", i, order, p->dof);
+  ambit_failure f = { 0 };
+  if (i >= p->ncoordinate || order > 2 || (order > 0 && !ambit_part_has_rates(p))) {
+    fail(b, AMBIT_BROKEN, "it asks for coordinate %u, derivative %u; it has %u", i, order, p->ncoordinate);
     return AMBIT_NO_EXPR;
   }
-  bool made = p->coordinate[i] != UINT32_MAX;
-  const ambit_coordinate *c = made ? &s->m->coordinate[p->coordinate[i]] : make_coordinate(s, i, unit);
-  if (!c) return AMBIT_NO_EXPR;
-  return order == 0 ? c->q : order == 1 ? c->qd : c->qdd;
+  const ambit_coordinate *c = ambit_part_coordinate(s->m, s->cell->part, i, unit, &f);
+  if (c && order == 0) return c->q;
+  const ambit_speed *u = c ? &s->m->speed[p->speed[i]] : NULL;
+  if (u) return order == 1 ? u->u : u->du;
+  pass_on(s, &f);
+  return AMBIT_NO_EXPR;
+}
+
+static ambit_expr speed(ambit_build *b, uint32_t i, uint32_t order, const char *unit) {
+  build *s = of(b);
+  const ambit_part *p = part_of(s);
+  ambit_failure f = { 0 };
+  if (i >= p->dof || order < 1 || order > 2 || ambit_part_has_rates(p)) {
+    fail(b, AMBIT_BROKEN, "it asks for speed %u, order %u; it has %u speeds of its own", i, order,
+        ambit_part_has_rates(p) ? 0 : p->dof);
+    return AMBIT_NO_EXPR;
+  }
+  const ambit_speed *u = ambit_part_speed(s->m, s->cell->part, i, unit, &f);
+  if (u) return order == 1 ? u->u : u->du;
+  pass_on(s, &f);
+  return AMBIT_NO_EXPR;
+}
+
+static ambit_expr multiplier(ambit_build *b, uint32_t i, const char *unit) {
+  build *s = of(b);
+  ambit_failure f = { 0 };
+  if (i >= part_of(s)->rows) {
+    fail(b, AMBIT_BROKEN, "it asks for multiplier %u; it has %u", i, part_of(s)->rows);
+    return AMBIT_NO_EXPR;
+  }
+  const ambit_multiplier *one = ambit_part_multiplier(s->m, s->cell->part, i, unit, &f);
+  if (one) return one->lambda;
+  pass_on(s, &f);
+  return AMBIT_NO_EXPR;
 }
 
 /* -- pulling */
@@ -116,6 +115,7 @@ static ambit_cell *reach(build *s, uint32_t port, uint32_t quantity) {
   if (port == AMBIT_NO_PORT) {
     if (quantity == AMBIT_FIELD) return &m->field;
     if (quantity == AMBIT_ENERGY) return &m->energy;
+    if (quantity == AMBIT_POWER) return &m->power;
   } else if (port < p->element->nport) {
     bool own = p->element->port[port].role == AMBIT_ROLE_OUT || quantity == AMBIT_WRENCH || quantity == AMBIT_EFFORT;
     ambit_joined to = p->joined[port];
@@ -152,15 +152,34 @@ static ambit_expr unknown(ambit_build *b, const char *lo, const char *hi) {
   return ambit_graph_unknown(s->m->graph, NULL, range);
 }
 
-/* What the leaf x becomes by d/dt: q -> q', q' -> q''; AMBIT_NO_EXPR: a failure. */
-static ambit_expr leaf_rate(const build *s, ambit_expr x, ambit_failure *f) {
+/* q' of a coordinate of an element that has speeds of its own. */
+static ambit_expr own_rate(build *s, const ambit_coordinate *c) {
+  const ambit_part *p = &s->m->part[c->part];
+  for (uint32_t port = 0, i = c->index; port < p->element->nport; port++) {
+    const ambit_port *joint = &p->element->port[port];
+    if (joint->kind != AMBIT_PORT_JOINT || joint->role != AMBIT_ROLE_OUT) continue;
+    if (i >= ambit_port_coordinates(joint)) {
+      i -= ambit_port_coordinates(joint);
+      continue;
+    }
+    const ambit_expr *rate = ambit_pull_cell(s->m, ambit_part_cell(p, port, AMBIT_COORDINATE_RATE), s->cell);
+    return rate ? rate[i] : AMBIT_NO_EXPR;
+  }
+  return AMBIT_NO_EXPR;
+}
+
+/* What the leaf x becomes by d/dt: q -> q', u -> u'; AMBIT_NO_EXPR: a failure, or being broken off. */
+static ambit_expr leaf_rate(build *s, ambit_expr x, ambit_failure *f) {
   for (size_t i = 0; i < s->m->ncoordinate; i++) {
     const ambit_coordinate *c = &s->m->coordinate[i];
-    if (x == c->q) return c->qd;
-    if (x == c->qd) return c->qdd;
-    if (x != c->qdd) continue;
-    ambit_fail(
-        f, AMBIT_INVALID, "a given motion depends on `%s''`: its time derivative would need a third one", c->name);
+    if (x == c->q) return c->rate != AMBIT_NO_EXPR ? c->rate : own_rate(s, c);
+  }
+  for (size_t i = 0; i < s->m->nspeed; i++) {
+    const ambit_speed *u = &s->m->speed[i];
+    if (x == u->u) return u->du;
+    if (x != u->du) continue;
+    ambit_fail(f, AMBIT_INVALID,
+        "a given motion depends on the time derivative of `%s`: its own would need a further one", u->name);
     return AMBIT_NO_EXPR;
   }
   return 0; /* fixed; the graph itself knows the rate of TIME */
@@ -175,13 +194,15 @@ static ambit_expr diff_time(ambit_build *b, ambit_expr x) {
   ambit_expr *leaf = malloc((2 * all + 1) * sizeof *leaf), *rate = leaf + all, e = AMBIT_NO_EXPR;
   if (!leaf) return refuse(s, AMBIT_NOMEM, "out of memory");
   ambit_graph_leaves(g, 1, &x, all, leaf);
-  for (size_t i = 0; i < all && f.status == AMBIT_OK; i++) {
+  bool known = true;
+  for (size_t i = 0; i < all && known; i++) {
     ambit_expr r = leaf_rate(s, leaf[i], &f);
+    known = r != AMBIT_NO_EXPR;
     if (r == 0) continue;
     leaf[n] = leaf[i];
     rate[n++] = r;
   }
-  if (f.status == AMBIT_OK) e = ambit_graph_time_derivative(g, x, n, leaf, rate, &f);
+  if (known) e = ambit_graph_time_derivative(g, x, n, leaf, rate, &f);
   free(leaf);
   return f.status == AMBIT_OK ? e : refuse(s, f.status, f.message);
 }
@@ -194,9 +215,9 @@ static void range(ambit_build *b, ambit_expr x, double *lo, double *hi) {
 }
 
 ambit_status ambit_build_express(ambit_mechanism *m, ambit_cell *cell, ambit_expr *out) {
-  build s = {
-    .open = { sizeof s.open, num, op, param, state, get, unknown, fail, diff_time, range }, .m = m, .cell = cell
-  };
+  build s = { .open = { sizeof s.open, num, op, param, state, get, unknown, fail, diff_time, range, speed, multiplier },
+    .m = m,
+    .cell = cell };
   return part_of(&s)->element->express(&s.open, cell->port, cell->quantity, out);
 }
 

@@ -24,6 +24,7 @@ typedef struct equations {
   ambit_failure *f;
   size_t n;
   ambit_coordinate *coordinate;    /* [n] */
+  ambit_speed *speed;              /* [n] */
   ambit_expr *q, *qd, *qdd, *zero; /* [n] */
   ambit_expr *balance;             /* [n] r */
 } equations;
@@ -59,17 +60,19 @@ static ambit_status read_coordinates(equations *s) {
         "the mechanism has no coordinates, so nothing moves by itself: leave the angle or displacement of a joint "
         "open");
   s->coordinate = ambit_arena_alloc(s->arena, s->n * sizeof *s->coordinate);
+  s->speed = ambit_arena_alloc(s->arena, s->n * sizeof *s->speed);
   s->q = expressions(s->arena, s->n);
   s->qd = expressions(s->arena, s->n);
   s->qdd = expressions(s->arena, s->n);
   s->zero = expressions(s->arena, s->n);
   s->balance = expressions(s->arena, s->n);
-  if (!s->coordinate || !s->q || !s->qd || !s->qdd || !s->zero || !s->balance) return no_memory(s->f);
+  if (!s->coordinate || !s->speed || !s->q || !s->qd || !s->qdd || !s->zero || !s->balance) return no_memory(s->f);
   ambit_mechanism_coordinates(s->m, s->n, s->coordinate);
+  ambit_mechanism_speeds(s->m, s->n, s->speed);
   for (size_t i = 0; i < s->n; i++) {
     s->q[i] = s->coordinate[i].q;
-    s->qd[i] = s->coordinate[i].qd;
-    s->qdd[i] = s->coordinate[i].qdd;
+    s->qd[i] = s->speed[i].u;
+    s->qdd[i] = s->speed[i].du;
   }
   return AMBIT_OK;
 }
@@ -291,13 +294,15 @@ ambit_status ambit_dynamics_system(ambit_mechanism *m, ambit_arena *arena, ambit
   for (size_t i = 0; i < n; i++) {
     const ambit_coordinate *c = &motion.coordinate[i];
     state[i] = c->q;
-    state[n + i] = rate[i] = c->qd;
+    state[n + i] = rate[i] = c->rate;
     name[i] = joined(arena, c->name, "");
     name[n + i] = joined(arena, c->name, "'");
     unit[i] = joined(arena, c->unit, "");
     unit[n + i] = joined(arena, c->unit, "/s");
     if (!name[i] || !name[n + i] || !unit[i] || !unit[n + i]) return no_memory(f);
   }
-  *system = (ambit_system) { ambit_mechanism_graph(m), 2 * n, name, unit, state, rate };
+  *system = (ambit_system) {
+    .graph = ambit_mechanism_graph(m), .nx = 2 * n, .name = name, .unit = unit, .state = state, .rate = rate
+  };
   return status;
 }

@@ -23,28 +23,36 @@ const char *ambit_quantity_name(uint32_t quantity) {
   case AMBIT_ACCEL: return "acceleration";
   case AMBIT_WRENCH: return "wrench";
   case AMBIT_ENERGY: return "energy";
+  case AMBIT_POWER: return "power";
   case AMBIT_COORDINATE: return "coordinate";
   case AMBIT_RATE: return "rate";
   case AMBIT_RATE2: return "second rate";
   case AMBIT_EFFORT: return "effort";
   case AMBIT_BALANCE: return "balance";
+  case AMBIT_COORDINATE_RATE: return "rate of the coordinates";
+  case AMBIT_RESIDUAL: return "residual";
   case AMBIT_FIELD: return "field";
   default: return "unknown quantity";
   }
 }
 
-/* Column of the quantity at that kind of port (0: the part as a whole), or AMBIT_COLUMNS. */
-static uint32_t column(uint32_t kind, uint32_t quantity) {
-  if (kind == 0) return quantity == AMBIT_ENERGY ? 0 : quantity == AMBIT_FIELD ? 1 : AMBIT_COLUMNS;
-  uint32_t first = kind == AMBIT_PORT_FRAME ? AMBIT_POSE : AMBIT_COORDINATE;
-  uint32_t last = kind == AMBIT_PORT_FRAME ? AMBIT_WRENCH : AMBIT_BALANCE;
-  return quantity >= first && quantity <= last ? quantity - first : AMBIT_COLUMNS;
-}
+/* The quantities that a row of cells holds, first to last: of a port of that kind, of the part as a whole (0). */
+static const struct {
+  uint32_t quantity[AMBIT_COLUMNS];
+} columns[] = {
+  { { AMBIT_ENERGY, AMBIT_FIELD, AMBIT_POWER } },
+  [AMBIT_PORT_FRAME] = { { AMBIT_POSE, AMBIT_TWIST, AMBIT_ACCEL, AMBIT_WRENCH } },
+  [AMBIT_PORT_JOINT] = { { AMBIT_COORDINATE, AMBIT_RATE, AMBIT_RATE2, AMBIT_EFFORT, AMBIT_BALANCE,
+      AMBIT_COORDINATE_RATE } },
+  [AMBIT_PORT_CONSTRAINT] = { { AMBIT_RESIDUAL } },
+};
 
 ambit_cell *ambit_part_cell(const ambit_part *p, uint32_t port, uint32_t quantity) {
   uint32_t row = port == AMBIT_NO_PORT ? p->element->nport : port;
-  uint32_t at = column(port == AMBIT_NO_PORT ? 0 : p->element->port[port].kind, quantity);
-  return at < AMBIT_COLUMNS ? &p->cell[row * AMBIT_COLUMNS + at] : NULL;
+  uint32_t kind = port == AMBIT_NO_PORT ? 0 : p->element->port[port].kind;
+  for (uint32_t k = 0; quantity && k < AMBIT_COLUMNS; k++)
+    if (columns[kind].quantity[k] == quantity) return &p->cell[row * AMBIT_COLUMNS + k];
+  return NULL;
 }
 
 size_t ambit_quantity_count(const ambit_part *p, uint32_t port, uint32_t quantity) {
@@ -54,40 +62,65 @@ size_t ambit_quantity_count(const ambit_part *p, uint32_t port, uint32_t quantit
   case AMBIT_ACCEL:
   case AMBIT_WRENCH: return 6;
   case AMBIT_ENERGY: return 2;
+  case AMBIT_POWER: return 1;
   case AMBIT_FIELD: return 3;
-  default: return p->element->port[port].dof;
+  case AMBIT_COORDINATE:
+  case AMBIT_COORDINATE_RATE: return ambit_port_coordinates(&p->element->port[port]);
+  default: return ambit_port_dof(&p->element->port[port]);
   }
 }
 
 /* How many (port, quantity) express() may be asked for. */
 static size_t available(const ambit_element *e) {
-  size_t n = 2;
+  size_t n = 3;
   for (uint32_t i = 0; i < e->nport; i++) {
-    bool out = e->port[i].role == AMBIT_ROLE_OUT;
-    n += e->port[i].kind == AMBIT_PORT_FRAME ? (out ? 3 : 1) : (out ? 4 : 1);
+    const ambit_port *p = &e->port[i];
+    bool out = p->role == AMBIT_ROLE_OUT, own_speeds = ambit_port_coordinates(p) != ambit_port_dof(p);
+    if (p->kind == AMBIT_PORT_FRAME)
+      n += out ? 3 : 1;
+    else if (p->kind == AMBIT_PORT_JOINT)
+      n += out ? 4 + own_speeds : 1;
+    else
+      n++;
   }
   return n;
+}
+
+static uint32_t *unmade(ambit_mechanism *m, uint32_t n) {
+  uint32_t *list = ambit_arena_alloc(m->arena, (n + 1) * sizeof *list);
+  if (list) memset(list, 0xff, (n + 1) * sizeof *list); /* UINT32_MAX */
+  return list;
+}
+
+static ambit_status make_variables(ambit_mechanism *m, ambit_part *p, ambit_failure *f) {
+  for (uint32_t i = 0; i < p->element->nport; i++) {
+    const ambit_port *port = &p->element->port[i];
+    if (port->role != AMBIT_ROLE_OUT || port->kind == AMBIT_PORT_FRAME) continue;
+    if (port->kind == AMBIT_PORT_CONSTRAINT) {
+      p->rows += port->dof;
+    } else {
+      p->ncoordinate += ambit_port_coordinates(port);
+      p->dof += ambit_port_dof(port);
+    }
+  }
+  p->coordinate = unmade(m, p->ncoordinate);
+  p->speed = unmade(m, p->dof);
+  p->multiplier = unmade(m, p->rows);
+  return p->coordinate && p->speed && p->multiplier ? AMBIT_OK : no_memory(f);
 }
 
 static ambit_status make_cells(ambit_mechanism *m, ambit_part *p, uint32_t number, ambit_failure *f) {
   const ambit_element *e = p->element;
   p->cell = ambit_arena_alloc(m->arena, (size_t)(e->nport + 1) * AMBIT_COLUMNS * sizeof *p->cell);
   if (!p->cell) return no_memory(f);
-  for (uint32_t i = 0; i <= e->nport; i++) {
-    bool whole = i == e->nport;
-    uint32_t first = !whole && e->port[i].kind == AMBIT_PORT_FRAME ? AMBIT_POSE : AMBIT_COORDINATE;
+  for (uint32_t i = 0; i <= e->nport; i++)
     for (uint32_t k = 0; k < AMBIT_COLUMNS; k++) {
       ambit_cell *cell = &p->cell[i * AMBIT_COLUMNS + k];
       cell->part = number;
-      cell->port = whole ? AMBIT_NO_PORT : i;
-      cell->quantity = !whole ? first + k : k == 0 ? AMBIT_ENERGY : AMBIT_FIELD;
+      cell->port = i == e->nport ? AMBIT_NO_PORT : i;
+      cell->quantity = columns[i == e->nport ? 0 : e->port[i].kind].quantity[k];
     }
-    if (!whole && e->port[i].role == AMBIT_ROLE_OUT) p->dof += e->port[i].dof;
-  }
-  p->coordinate = ambit_arena_alloc(m->arena, (p->dof + 1) * sizeof *p->coordinate);
-  if (!p->coordinate) return no_memory(f);
-  memset(p->coordinate, 0xff, (p->dof + 1) * sizeof *p->coordinate); /* UINT32_MAX */
-  return AMBIT_OK;
+  return make_variables(m, p, f);
 }
 
 /* What was summed over the attached elements no longer holds. Values that elements made without sums stay, with their
@@ -100,14 +133,16 @@ static void forget_sums(ambit_mechanism *m) {
     for (size_t k = 0; k < (p->element->nport + 1) * AMBIT_COLUMNS; k++)
       if (p->cell[k].open) p->cell[k].state = AMBIT_CELL_EMPTY, p->cell[k].open = false;
   }
-  m->field.state = m->energy.state = AMBIT_CELL_EMPTY;
-  m->field.open = m->energy.open = false;
+  m->field.state = m->energy.state = m->power.state = AMBIT_CELL_EMPTY;
+  m->field.open = m->energy.open = m->power.open = false;
   m->nopen = 0;
 }
 
 /* -- connections */
 
-static const char *kind_name(uint32_t kind) { return kind == AMBIT_PORT_JOINT ? "joint" : "frame"; }
+static const char *kind_name(uint32_t kind) {
+  return kind == AMBIT_PORT_FRAME ? "frame" : kind == AMBIT_PORT_JOINT ? "joint" : "constraint";
+}
 
 /* The port that an IN port is to be connected to exists, is made by an element and is of the same kind. */
 static ambit_status check_connection(
@@ -133,7 +168,7 @@ static ambit_status check_connection(
         kind_name(own->kind), theirs->name, other->name, kind_name(theirs->kind));
   if (own->dof != theirs->dof)
     return ambit_fail(f, AMBIT_INVALID, "%s: port `%s` needs a joint of %u degrees of freedom, but `%s` of `%s` has %u",
-        who, own->name, own->dof, theirs->name, other->name, theirs->dof);
+        who, own->name, ambit_port_dof(own), theirs->name, other->name, ambit_port_dof(theirs));
   return AMBIT_OK;
 }
 
@@ -174,10 +209,12 @@ static ambit_status check_element(const ambit_part_spec *spec, ambit_failure *f)
   const ambit_element *e = spec->element;
   for (uint32_t i = 0; i < e->nport; i++) {
     const ambit_port *p = &e->port[i];
-    bool joint = p->kind == AMBIT_PORT_JOINT, frame = p->kind == AMBIT_PORT_FRAME;
-    bool role = p->role == AMBIT_ROLE_IN || p->role == AMBIT_ROLE_OUT;
-    bool dof = joint ? p->dof > 0 && p->dof <= AMBIT_QUANTITY_MAX : p->dof == 0;
-    if (!p->name || !(joint || frame) || !role || !dof)
+    uint32_t c = ambit_port_coordinates(p), d = ambit_port_dof(p);
+    bool constraint = p->kind == AMBIT_PORT_CONSTRAINT, frame = p->kind == AMBIT_PORT_FRAME;
+    bool kind = constraint || frame || p->kind == AMBIT_PORT_JOINT;
+    bool role = p->role == AMBIT_ROLE_OUT || (p->role == AMBIT_ROLE_IN && !constraint);
+    bool dof = frame ? p->dof == 0 : d > 0 && d <= c && c <= AMBIT_QUANTITY_MAX && (c == d || !constraint);
+    if (!p->name || !kind || !role || !dof)
       return ambit_fail(f, AMBIT_INVALID, "element `%s`: its port %u is not declared properly", spec->type, i);
   }
   return AMBIT_OK;
@@ -220,10 +257,11 @@ ambit_mechanism *ambit_mechanism_open(ambit_graph *g, const char *name) {
   m->graph = g;
   m->arena = ambit_arena_open();
   m->name = m->arena ? ambit_arena_text(m->arena, name ? name : "mechanism") : NULL;
-  m->field.part = m->energy.part = UINT32_MAX;
-  m->field.port = m->energy.port = AMBIT_NO_PORT;
+  m->field.part = m->energy.part = m->power.part = UINT32_MAX;
+  m->field.port = m->energy.port = m->power.port = AMBIT_NO_PORT;
   m->field.quantity = AMBIT_FIELD;
   m->energy.quantity = AMBIT_ENERGY;
+  m->power.quantity = AMBIT_POWER;
   ambit_part_spec world = { .element = &ambit_world_element, .type = "world", .name = "world" };
   if (m->name && ambit_mechanism_add(m, &world, NULL, NULL) == AMBIT_OK) return m;
   ambit_mechanism_close(m);
@@ -237,6 +275,8 @@ void ambit_mechanism_close(ambit_mechanism *m) {
   free(m->names.type);
   free(m->request);
   free(m->coordinate);
+  free(m->speed);
+  free(m->multiplier);
   free(m->part);
   free(m);
 }
@@ -251,22 +291,4 @@ const ambit_element *ambit_mechanism_part_element(const ambit_mechanism *m, uint
 void ambit_mechanism_pulled(const ambit_mechanism *m, size_t *pulled, size_t *all) {
   *pulled = m->pulled;
   *all = m->available;
-}
-
-/* -- coordinates */
-
-size_t ambit_mechanism_coordinates(ambit_mechanism *m, size_t room, ambit_coordinate *out) {
-  size_t n = 0;
-  for (uint32_t i = 0; i < m->count; i++) {
-    const ambit_element *e = m->part[i].element;
-    for (uint32_t port = 0; port < e->nport; port++)
-      if (e->port[port].kind == AMBIT_PORT_JOINT && e->port[port].role == AMBIT_ROLE_OUT)
-        ambit_mechanism_pull(m, (ambit_frame) { i, port }, AMBIT_COORDINATE, NULL);
-    for (uint32_t k = 0; k < m->part[i].dof; k++) {
-      if (m->part[i].coordinate[k] == UINT32_MAX) continue;
-      if (n < room) out[n] = m->coordinate[m->part[i].coordinate[k]];
-      n++;
-    }
-  }
-  return n;
 }

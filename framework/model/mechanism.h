@@ -36,18 +36,37 @@ const char *ambit_mechanism_part_name(const ambit_mechanism *m, uint32_t part);
 const ambit_element *ambit_mechanism_part_element(const ambit_mechanism *m, uint32_t part);
 
 /* The quantity at an OUT frame or joint port: motion is that of the frame; AMBIT_WRENCH, AMBIT_EFFORT: the sum over
-** all attached elements; frame AMBIT_NOWHERE: of the mechanism (AMBIT_FIELD, AMBIT_ENERGY). The pointer stays valid.
+** all attached elements; frame AMBIT_NOWHERE: of the mechanism (AMBIT_FIELD, AMBIT_ENERGY, AMBIT_POWER). The pointer stays valid.
 ** NULL: the failure says which element and why; a loop of elements is named part by part. */
 const ambit_expr *ambit_mechanism_pull(ambit_mechanism *m, ambit_frame frame, uint32_t quantity, ambit_failure *f);
 /* how often express() was called, of how many (part, port, quantity) that exist: "leave out" in numbers */
 void ambit_mechanism_pulled(const ambit_mechanism *m, size_t *pulled, size_t *available);
 
-/* The coordinates that b->state() has made, in the order of the parts: symbols of q, q', q''. */
+/* The coordinates that elements have made, in the order of the parts. */
 typedef struct ambit_coordinate {
-  const char *name; /* "beta1" (several degrees of freedom: "name.1", ...) */
+  const char *name; /* "beta1" (several coordinates: "name.1", ...) */
   const char *unit; /* of q */
-  ambit_expr q, qd, qdd;
+  ambit_expr q;     /* a symbol */
+  ambit_expr rate;  /* q' as an expression: the symbol of its speed; of a quaternion a function of q and speeds */
   uint32_t part, index;
 } ambit_coordinate;
-size_t ambit_mechanism_coordinates(ambit_mechanism *m, size_t room, ambit_coordinate *out); /* of all joint parts */
+/* The speeds, one for each degree of freedom, in the same order: symbols of u and of its time derivative. */
+typedef struct ambit_speed {
+  const char *name; /* "beta1'" ("name.1'", ...; where there are fewer speeds than coordinates "name'.1", ...) */
+  const char *unit; /* of u */
+  ambit_expr u, du;
+  uint32_t part, index;
+  ambit_expr coordinate; /* q with q' = u, or AMBIT_NO_EXPR */
+} ambit_speed;
+/* The multipliers of constraints, one for each row that uses one, in the order of the parts. */
+typedef struct ambit_multiplier {
+  const char *name; /* "lambda_close" ("lambda_close.1", ... if the element has several rows) */
+  ambit_expr lambda;
+  uint32_t part, index;
+} ambit_multiplier;
+/* Each returns their number and writes at most `room`; multipliers: of those whose wrench has been pulled. A failure of
+** pulling leaves the joint out; pull it yourself to hear why. */
+size_t ambit_mechanism_coordinates(ambit_mechanism *m, size_t room, ambit_coordinate *out);
+size_t ambit_mechanism_speeds(ambit_mechanism *m, size_t room, ambit_speed *out);
+size_t ambit_mechanism_multipliers(ambit_mechanism *m, size_t room, ambit_multiplier *out);
 #endif

@@ -1,4 +1,4 @@
-/* parts.h -- the inside of a mechanism, shared by mechanism.c, part_names.c and part_data.c (what it consists of),
+/* parts.h -- the inside of a mechanism, shared by mechanism.c, part_names.c, part_data.c and part_variables.c (what it consists of),
 ** pull.c (demand) and build.c (what elements see).
 **
 ** A cell remembers one (part, port, quantity): what express() wrote, or the sum over everything attached. While it is
@@ -23,7 +23,7 @@ typedef struct ambit_cell {
   bool open; /* depends on a sum over attached elements: void when a part is added */
 } ambit_cell;
 
-#define AMBIT_COLUMNS 5u /* cells per port: the quantities of a joint; a frame has 4, the part as a whole 2 */
+#define AMBIT_COLUMNS 6u /* cells per port: the quantities of a joint; the others have fewer */
 
 typedef struct ambit_joined {    /* one end of a connection */
   uint32_t part, port;           /* IN port: what it is connected to; OUT port: the first attached */
@@ -37,8 +37,10 @@ typedef struct ambit_part {
   size_t nparam;
   ambit_joined *joined; /* [nport] */
   ambit_cell *cell;     /* [(nport + 1) * AMBIT_COLUMNS]; row nport: the part as a whole */
-  uint32_t dof;         /* coordinates of all its OUT joints, in the order of the ports */
-  uint32_t *coordinate; /* [dof] place in the mechanism's list; UINT32_MAX: not (yet) a state */
+  /* of all its OUT joints and constraints, in the order of the ports; each list holds places in the mechanism's list,
+  ** UINT32_MAX: not (yet) made */
+  uint32_t ncoordinate, dof, rows;
+  uint32_t *coordinate, *speed, *multiplier; /* [ncoordinate] [dof] [rows] */
 } ambit_part;
 
 typedef struct ambit_part_names {
@@ -58,9 +60,12 @@ struct ambit_mechanism {
   ambit_part *part;
   size_t count, capacity;
   ambit_part_names names;
-  ambit_coordinate *coordinate; /* in the order in which they were asked for */
-  size_t ncoordinate, coordinate_capacity;
-  ambit_cell field, energy; /* sums over all parts */
+  /* in the order in which they were asked for */
+  ambit_coordinate *coordinate; /* rate of a joint with more coordinates than speeds: AMBIT_NO_EXPR */
+  ambit_speed *speed;
+  ambit_multiplier *multiplier;
+  size_t ncoordinate, nspeed, nmultiplier, coordinate_capacity, speed_capacity, multiplier_capacity;
+  ambit_cell field, energy, power; /* sums over all parts */
   size_t pulled, available, nopen;
   /* while pulling */
   ambit_failure *failure;
@@ -98,6 +103,16 @@ bool ambit_part_enter_name(ambit_mechanism *m, const ambit_part *p);
 /* In part_data.c: parameters given, or their fallbacks. */
 ambit_status ambit_part_take_params(
     ambit_mechanism *m, ambit_part *p, const ambit_expr *const *given, ambit_failure *f);
+/* Are the speeds of its joints the time derivatives of their coordinates? */
+static inline bool ambit_part_has_rates(const ambit_part *p) { return p->ncoordinate == p->dof; }
+/* In part_variables.c: the symbols of a part's coordinate, speed or multiplier number i, made on first use; NULL: the
+** failure says why.
+*/
+const ambit_coordinate *ambit_part_coordinate(
+    ambit_mechanism *m, uint32_t part, uint32_t i, const char *unit, ambit_failure *f);
+const ambit_speed *ambit_part_speed(ambit_mechanism *m, uint32_t part, uint32_t i, const char *unit, ambit_failure *f);
+const ambit_multiplier *ambit_part_multiplier(
+    ambit_mechanism *m, uint32_t part, uint32_t i, const char *unit, ambit_failure *f);
 /* In build.c: calls express() of the cell's element. */
 ambit_status ambit_build_express(ambit_mechanism *m, ambit_cell *cell, ambit_expr *out);
 #endif

@@ -10,8 +10,9 @@ local function existing()
   local known = {}
   for _, m in pairs(session.mechanisms) do
     for _, c in ipairs(core.coordinates(m.handle)) do
-      known[c.name], known[c.name .. "'"], known[c.name .. "''"] = true, true, true
+      known[c.name] = true
     end
+    for _, s in ipairs(core.speeds(m.handle)) do known[s.name], known[s.du_name] = true, true end
   end
   for _, system in pairs(session.odes) do
     for _, name in ipairs(system.states) do known[name] = true end

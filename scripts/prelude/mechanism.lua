@@ -3,11 +3,7 @@ local check = require "ambit.check"
 local core = require "ambit.core"
 local element = require "ambit.element"
 local frame = require "ambit.frame"
-local ode = require "ambit.ode"
 local session = require "ambit.session"
-local Vector = require "ambit.vector"
-
-local Matrix = { __name = "matrix", is_shape = true }
 
 local Mechanism = { __name = "mechanism" }
 local methods = {}
@@ -36,75 +32,7 @@ end
 function Mechanism.__tostring(self) return ('mechanism "%s" (%d parts)'):format(self.name,
   core.part_count(self.handle)) end
 
-local function motion(self, at, quantity, count)
-  local part, port = frame.place(self, at, "frame", "expected m:position(frame)")
-  return core.pull(self.handle, part, port, quantity, count)
-end
-
--- Position of the frame's origin in the world, m.
-function methods:position(at)
-  local pose = motion(self, at, core.POSE, 12)
-  return Vector.new(pose[10], pose[11], pose[12])
-end
-
--- Rotation by rows, own axes -> world.
-function methods:orientation(at)
-  local p = motion(self, at, core.POSE, 12)
-  return setmetatable({ { p[1], p[2], p[3] }, { p[4], p[5], p[6] }, { p[7], p[8], p[9] } }, Matrix)
-end
-
-local function turned(self, at, quantity, first)
-  local pose, list = motion(self, at, core.POSE, 12), motion(self, at, quantity, 6)
-  return Vector.turned(pose, { x = list[first], y = list[first + 1], z = list[first + 2] })
-end
-
--- In world axes: of the frame's origin, m/s; rad/s.
-function methods:velocity(at) return turned(self, at, core.TWIST, 4) end
-function methods:angular_velocity(at) return turned(self, at, core.TWIST, 1) end
-
--- In world axes, m/s^2: the proper acceleration that the elements carry, plus the field of gravity.
-function methods:acceleration(at)
-  local field = core.pull(self.handle, -1, 0, core.FIELD, 3)
-  return turned(self, at, core.ACCEL, 4) + Vector.new(field[1], field[2], field[3])
-end
-
--- Energy of the whole mechanism, J.
-function methods:energy()
-  local e = core.pull(self.handle, -1, 0, core.ENERGY, 2)
-  return setmetatable({ kinetic = e[1], potential = e[2], total = e[1] + e[2] }, Matrix)
-end
-
--- The joint coordinates as expressions, by name: beta1, beta1', beta1''.
-function methods:coordinates()
-  local t = {}
-  for _, c in ipairs(core.coordinates(self.handle)) do
-    t[c.name], t[c.name .. "'"], t[c.name .. "''"] = c.q, c.qd, c.qdd
-  end
-  return setmetatable(t, Matrix)
-end
-
--- M(q) q'' = h(q, q'): the matrix by rows, and h.
-function methods:mass_matrix()
-  local n, mass = core.motion(self.handle)
-  local rows = {}
-  for i = 1, n do rows[i] = table.move(mass, (i - 1) * n + 1, i * n, 1, {}) end
-  return setmetatable(rows, Matrix)
-end
-
-function methods:generalised_forces()
-  local _, _, force = core.motion(self.handle)
-  return setmetatable(force, Matrix)
-end
-
--- The equations of motion as a first-order system; made once as long as no part is added.
-function methods:dynamics()
-  local parts = core.part_count(self.handle)
-  if self.cached_parts ~= parts then
-    self.cached = ode.of_system(core.dynamics(self.handle), self.name)
-    self.cached_parts = parts
-  end
-  return self.cached
-end
+for _, part in ipairs { "measure", "dynamics", "loops", "assemble" } do require("ambit." .. part).install(methods) end
 
 check.methods(methods, Mechanism)
 

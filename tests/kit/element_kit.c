@@ -169,11 +169,14 @@ static void take_coordinates(kit *k) {
   ambit_coordinate *c = calloc(k->ncoordinate + 1, sizeof *c);
   k->leaf = calloc(2 * k->ncoordinate + 1, sizeof *k->leaf);
   k->rate = calloc(2 * k->ncoordinate + 1, sizeof *k->rate);
+  ambit_speed *u = calloc(k->ncoordinate + 1, sizeof *u);
   ambit_mechanism_coordinates(k->mechanism, k->ncoordinate, c);
+  ambit_mechanism_speeds(k->mechanism, k->ncoordinate, u);
   for (size_t i = 0; i < k->ncoordinate; i++) {
-    k->leaf[2 * i] = c[i].q, k->rate[2 * i] = c[i].qd;
-    k->leaf[2 * i + 1] = c[i].qd, k->rate[2 * i + 1] = c[i].qdd;
+    k->leaf[2 * i] = c[i].q, k->rate[2 * i] = c[i].rate;
+    k->leaf[2 * i + 1] = u[i].u, k->rate[2 * i + 1] = u[i].du;
   }
+  free(u);
   free(c);
 }
 

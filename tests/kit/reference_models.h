@@ -32,7 +32,9 @@ static inline void model_open(model *m, size_t nx, const char *const *name) {
     m->name[i] = name[i], m->unit[i] = "1";
     m->state[i] = ambit_graph_symbol(m->graph, name[i], "1");
   }
-  m->system = (ambit_system) { m->graph, nx, m->name, m->unit, m->state, m->rate };
+  m->system = (ambit_system) {
+    .graph = m->graph, .nx = nx, .name = m->name, .unit = m->unit, .state = m->state, .rate = m->rate
+  };
 }
 
 /* Relative angles and velocities; ValEncIA-IVP paper (Rauh, Auer & Hofer 2006), equations 23 to 25, solved for the

@@ -27,7 +27,9 @@ static inline scene *scene_open(void) {
   s->graph = ambit_graph_open();
   s->registry = ambit_registry_open(AMBIT_BROKEN_DIR);
   ambit_registry_set_note(s->registry, scene_keep_note, s);
-  s->system = (ambit_system) { s->graph, 0, s->name, s->unit, s->state, s->rate };
+  s->system = (ambit_system) {
+    .graph = s->graph, .nx = 0, .name = s->name, .unit = s->unit, .state = s->state, .rate = s->rate
+  };
   return s;
 }
 

@@ -290,7 +290,7 @@ static void spatial_chain_obeys_newton_and_euler(void **state) {
   memcpy(value, motion.mass, CHAIN * CHAIN * sizeof *value);
   memcpy(value + CHAIN * CHAIN, motion.force, CHAIN * sizeof *value);
   memcpy(value + CHAIN * CHAIN + CHAIN, qdd, CHAIN * sizeof *value);
-  for (int k = 0; k < CHAIN; k++) leaf[k] = motion.coordinate[k].q, leaf[CHAIN + k] = motion.coordinate[k].qd;
+  for (int k = 0; k < CHAIN; k++) leaf[k] = motion.coordinate[k].q, leaf[CHAIN + k] = motion.coordinate[k].rate;
   ambit_random random = { 5 };
   for (int round = 0; round < 10; round++) {
     double x[2 * CHAIN], unit[CHAIN], tau[CHAIN], h[CHAIN], solved[CHAIN];

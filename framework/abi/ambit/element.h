@@ -15,9 +15,11 @@
 
 typedef uint32_t ambit_expr; /* node number in the graph; 0 is the constant 0 */
 
-/* Kinds of ports. A joint port carries the generalised coordinates of the joint. */
+/* Kinds of ports. A joint port carries the generalised coordinates of the joint, a constraint port (always OUT) the
+** equations of an element that closes a loop. */
 #define AMBIT_PORT_FRAME 1u
 #define AMBIT_PORT_JOINT 2u
+#define AMBIT_PORT_CONSTRAINT 3u
 /* Roles: IN is given by the user (another element's OUT), OUT is made by this element. */
 #define AMBIT_ROLE_IN 1u
 #define AMBIT_ROLE_OUT 2u
@@ -32,13 +34,25 @@ typedef uint32_t ambit_expr; /* node number in the graph; 0 is the constant 0 */
 ** attached to that frame */
 #define AMBIT_WRENCH 4u
 #define AMBIT_ENERGY 5u /* [2] kinetic, potential, J, of this element; port AMBIT_NO_PORT */
-/* Quantities of a joint port; d = degrees of freedom. */
-#define AMBIT_COORDINATE 16u /* [d] OUT */
-#define AMBIT_RATE 17u       /* [d] OUT */
-#define AMBIT_RATE2 18u      /* [d] OUT: second time derivative */
-#define AMBIT_EFFORT 19u     /* [d] generalised force applied to the joint, IN; get(): the sum over all attached */
+/* [1] W that this element puts into the mechanism beyond what its AMBIT_ENERGY gives up: dampers, drives, applied
+** forces. The energies of all elements together change by the sum of it. Port AMBIT_NO_PORT */
+#define AMBIT_POWER 6u
+/* Quantities of a joint port with c coordinates q and d degrees of freedom, whose speeds are u. Almost always c = d and
+** u = q'; else AMBIT_COORDINATE_RATE tells q' (the quaternion of a spherical joint: c = 4, d = 3, u the angular
+** velocity). */
+#define AMBIT_COORDINATE 16u /* [c] OUT: q */
+#define AMBIT_RATE 17u       /* [d] OUT: u */
+#define AMBIT_RATE2 18u      /* [d] OUT: time derivative of u */
+/* [d] generalised force along u applied to the joint, IN; get(): the sum over all attached */
+#define AMBIT_EFFORT 19u
 /* [d] OUT: generalised force that must vanish: projection of the wrench on the joint plus its effort */
 #define AMBIT_BALANCE 20u
+#define AMBIT_COORDINATE_RATE 21u /* [c] OUT: q' from q and u; asked for only where c differs from d */
+/* Quantities of a constraint port with d rows. */
+/* [d] OUT: g, which vanishes. The element's wrenches and efforts are those of multipliers: virtual power
+** sum of lambda_k dg_k/dt, whatever the motion. A row whose time derivative vanishes identically (the norm of a
+** quaternion) has none. */
+#define AMBIT_RESIDUAL 24u
 /* Quantities of the mechanism as a whole; port AMBIT_NO_PORT, summed over all elements. */
 #define AMBIT_FIELD 32u /* [3] acceleration of gravity, world axes, m/s^2 */
 #define AMBIT_NO_PORT UINT32_MAX
@@ -47,10 +61,15 @@ typedef uint32_t ambit_expr; /* node number in the graph; 0 is the constant 0 */
 typedef struct ambit_port {
   const char *name;    /* "from" */
   uint32_t kind, role; /* AMBIT_PORT_*, AMBIT_ROLE_* */
-  uint32_t dof;        /* of a joint port, else 0 */
+  uint32_t dof;        /* of a joint port (or AMBIT_DOF), rows of a constraint port, else 0 */
   uint32_t optional;   /* IN ports only: 1 = may be left unconnected */
   const char *doc;
 } ambit_port;
+
+/* dof of a joint port with more coordinates than degrees of freedom, and how to read it */
+#define AMBIT_DOF(dof, coordinates) ((uint32_t)(dof) | (uint32_t)(coordinates) << 16)
+static inline uint32_t ambit_port_dof(const ambit_port *p) { return p->dof & 0xffffu; }
+static inline uint32_t ambit_port_coordinates(const ambit_port *p) { return p->dof >> 16 ? p->dof >> 16 : p->dof; }
 
 typedef struct ambit_build ambit_build;
 struct ambit_build { /* [main] valid only during express() */
@@ -60,7 +79,8 @@ struct ambit_build { /* [main] valid only during express() */
   ambit_expr (*op)(ambit_build *b, uint32_t opcode, ambit_expr x, ambit_expr y);
   const ambit_expr *(*param)(ambit_build *b, uint32_t index); /* in declaration order; NULL: optional and absent */
   /* the element's own coordinate number i (counted through its OUT joint ports in order), or its first or second time
-  ** derivative (order 0, 1, 2); becomes a state. `unit` is that of the coordinate, whatever the order */
+  ** derivative (order 0, 1, 2); becomes a state. `unit` is that of the coordinate, whatever the order. Orders 1 and 2
+  ** only where coordinates and degrees of freedom are as many; else speed() */
   ambit_expr (*state)(ambit_build *b, uint32_t i, uint32_t order, const char *unit);
   /* pulls a quantity: of an own IN port: motion of the frame it is connected to; of an own OUT port: the sum of what
   ** is exerted there by all elements attached to it; of AMBIT_NO_PORT: of the mechanism. NULL: return any status but
@@ -73,6 +93,11 @@ struct ambit_build { /* [main] valid only during express() */
   ambit_expr (*diff_time)(ambit_build *b, ambit_expr x);
   /* bounds that hold for x whatever the unknowns are, perhaps wide; for checks of data (a mass below zero) */
   void (*range)(ambit_build *b, ambit_expr x, double *lo, double *hi);
+  /* the own speed number i (degrees of freedom counted through the OUT joint ports) or its time derivative (order 1, 2,
+  ** as in state()), of a joint with more coordinates than degrees of freedom; becomes a state. `unit`: of the speed */
+  ambit_expr (*speed)(ambit_build *b, uint32_t i, uint32_t order, const char *unit);
+  /* the own multiplier number i (rows counted through the constraint ports) */
+  ambit_expr (*multiplier)(ambit_build *b, uint32_t i, const char *unit);
 };
 
 typedef struct ambit_element {

@@ -1,4 +1,4 @@
-/* solver.h -- "ambit.solver/1": advances a problem and emits records. */
+/* solver.h -- "ambit.solver/1": advances a problem in time, or finds the roots of one, and emits records. */
 #ifndef AMBIT_SOLVER_H
 #define AMBIT_SOLVER_H
 #include "arithmetic.h"
@@ -13,6 +13,14 @@
 #define AMBIT_WANT_JACOBIAN 4u
 #define AMBIT_WANT_INITIAL 8u /* initial state and parameters as a SERIES tape over the unknowns */
 #define AMBIT_WANT_EVENT 16u  /* g(x, p, t) whose sign changes end a phase */
+/* g(x, p, t) that stay zero along every solution that starts there, as a tape (SERIES if that is wanted), and with
+** AMBIT_WANT_JACOBIAN their Jacobian; absent if the system has none */
+#define AMBIT_WANT_INVARIANT 32u
+
+/* What a solver solves. ROOTS: f(x, p) = 0 with as many equations as unknowns x; rhs and jacobian are those of f, x0
+** is the box to be searched, there is no time. */
+#define AMBIT_SOLVES_FLOW 0u
+#define AMBIT_SOLVES_ROOTS 1u
 
 /* Inputs of rhs, jacobian, event: x [nx], p [np], then t if uses_time. Inputs of initial: the unknowns [nu];
 ** its outputs: x(t0) [nx], p [np]. An unknown that several data share occurs once: correlation is kept. */
@@ -28,11 +36,18 @@ typedef struct ambit_problem {
   uint32_t ntime;            /* >= 2 */
   /* [ntime] start, instants that a step must end on, end; ascending or descending, s */
   const double *time;
+  uint32_t ninvariant;
+  const ambit_tape *invariant, *invariant_jacobian; /* [ninvariant], [ninvariant x nx] by rows; inputs as of rhs */
+  const char *const *invariant_name;                /* [ninvariant] "close: row 1", for messages */
 } ambit_problem;
 
 /* Result record: header first, so that readers skip kinds they do not know. Enclosures hold for every solution. */
 #define AMBIT_REC_STEP 1u  /* a step from t_from to t_to */
 #define AMBIT_REC_EVENT 2u /* event number `event` happens within [t_from, t_to], ordered in time */
+/* a box [lo, hi] of the searched one; boxes without a root are not reported. `event`: AMBIT_ROOT_* */
+#define AMBIT_REC_ROOT 3u
+#define AMBIT_ROOT_UNDECIDED 0u
+#define AMBIT_ROOT_UNIQUE 1u /* exactly one root in it, for each value of the parameters */
 typedef struct ambit_record {
   uint32_t size, kind;
   double t_from, t_to; /* s; t_to < t_from when integrating backwards */
@@ -62,5 +77,6 @@ typedef struct ambit_solver {
   ambit_status (*run)(void *self, ambit_sink *s);
   void (*close)(void *self);
   uint32_t (*want_for)(const double *option); /* NULL: `want`; else what these options need */
+  uint32_t solves;                            /* AMBIT_SOLVES_* */
 } ambit_solver;
 #endif
