@@ -63,9 +63,7 @@ static ambit_status prepare(job *j, ambit_failure *f) {
 /* Draws number done to done + lanes - 1. */
 static void run_lanes(job *j, size_t done, size_t lanes, ambit_random *random, ambit_interval *out, size_t *defined) {
   for (size_t lane = 0; lane < lanes; lane++)
-    for (size_t i = 0; i < j->bound.nunknown; i++)
-      j->point[i * lanes + lane] =
-          done + lane == 0 ? ambit_interval_mid(j->range[i]) : ambit_random_in(random, j->range[i]);
+    ambit_random_draw(random, done + lane, j->bound.nunknown, j->range, j->point + lane, lanes);
   ambit_batch_run(j->batch, lanes, j->point, j->point, NULL, j->rlo, j->rhi);
   for (size_t e = 0; e < j->q->nexpr; e++)
     for (size_t lane = 0; lane < lanes; lane++) {

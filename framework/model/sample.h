@@ -1,8 +1,8 @@
 /* sample.h -- the verb `sample`: Monte Carlo in ordinary floating point. It proves nothing: the hull of what was
 ** drawn is an estimate from inside, which a proved enclosure should contain up to rounding.
 **
-** Draws are uniform and independent over the ranges of the unknowns, which must be bounded; draw 0 is their
-** midpoint. The same seed gives the same draws.
+** Draws come from the box of the unknowns, which must be bounded: draw 0 is its midpoint, odd ones are random corners,
+** even ones uniform over the inside. The same seed gives the same draws.
 */
 #ifndef AMBIT_SAMPLE_H
 #define AMBIT_SAMPLE_H

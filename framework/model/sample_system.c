@@ -118,11 +118,9 @@ static int32_t ignore_progress(ambit_sink *s, double done, const char *message) 
   return 0;
 }
 
-static void draw_data(job *j, ambit_random *random, bool middle) {
-  for (uint32_t i = 0; i < j->problem.nu; i++) {
-    j->u_point[i] = middle ? ambit_interval_mid(j->range[i]) : ambit_random_in(random, j->range[i]);
-    j->u[i] = (ambit_interval) { j->u_point[i], j->u_point[i] };
-  }
+static void draw_data(job *j, ambit_random *random, size_t draw) {
+  ambit_random_draw(random, draw, j->problem.nu, j->range, j->u_point, 1);
+  for (uint32_t i = 0; i < j->problem.nu; i++) j->u[i] = (ambit_interval) { j->u_point[i], j->u_point[i] };
   ambit_hull(j->initial, j->u, j->slot);
   for (uint32_t i = 0; i < j->initial->nout; i++) {
     j->lo[i] = j->slot[j->initial->out[i]].lo;
@@ -169,7 +167,7 @@ static ambit_status run_draws(
   ambit_random random = { seed };
   ambit_sink *sink = j->q->sink;
   for (size_t k = 0; k < draws; k++) {
-    draw_data(j, &random, k == 0);
+    draw_data(j, &random, k);
     ambit_status status = integrate(j, out, result, f);
     if (status != AMBIT_OK) return status;
     if (!sink || !sink->progress) continue;
