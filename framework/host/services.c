@@ -1,5 +1,6 @@
 /* services.c -- memory from an arena, one failure message, services of the lower layers by their id. */
 #include "host/services.h"
+#include "graph/contract.h"
 #include "graph/jet.h"
 #include "num/service.h"
 #include <pthread.h>
@@ -48,6 +49,7 @@ static const void *service(const ambit_host *h, const char *id) {
   (void)h;
   if (strcmp(id, AMBIT_NUM_SERVICE) == 0) return &ambit_num_service_v1;
   if (strcmp(id, AMBIT_JET_SERVICE) == 0) return &ambit_jet_service_v1;
+  if (strcmp(id, AMBIT_CONTRACT_SERVICE) == 0) return &ambit_contract_service_v1;
   return NULL;
 }
 

@@ -16,9 +16,10 @@
 /* g(x, p, t) that stay zero along every solution that starts there, as a tape (SERIES if that is wanted), and with
 ** AMBIT_WANT_JACOBIAN their Jacobian; absent if the system has none */
 #define AMBIT_WANT_INVARIANT 32u
+#define AMBIT_WANT_SLOPE 64u /* df/dp as a tape, row by row, same inputs as the rhs; valid as the Jacobian is */
 
 /* What a solver solves. ROOTS: f(x, p) = 0 with as many equations as unknowns x; rhs and jacobian are those of f, x0
-** is the box to be searched, there is no time. */
+** is the box to be searched, there is no time; invariant: further equations that a root satisfies too, or absent. */
 #define AMBIT_SOLVES_FLOW 0u
 #define AMBIT_SOLVES_ROOTS 1u
 
@@ -39,6 +40,7 @@ typedef struct ambit_problem {
   uint32_t ninvariant;
   const ambit_tape *invariant, *invariant_jacobian; /* [ninvariant], [ninvariant x nx] by rows; inputs as of rhs */
   const char *const *invariant_name;                /* [ninvariant] "close: row 1", for messages */
+  const ambit_tape *slope;                          /* [nx x np], or NULL if rhs has no derivative by p */
 } ambit_problem;
 
 /* Result record: header first, so that readers skip kinds they do not know. Enclosures hold for every solution. */
@@ -46,6 +48,7 @@ typedef struct ambit_problem {
 #define AMBIT_REC_EVENT 2u /* event number `event` happens within [t_from, t_to], ordered in time */
 /* a box [lo, hi] of the searched one; boxes without a root are not reported. `event`: AMBIT_ROOT_* */
 #define AMBIT_REC_ROOT 3u
+#define AMBIT_REC_SEARCHED 4u /* the search is over: `ncoef` boxes were looked at; nothing else is set */
 #define AMBIT_ROOT_UNDECIDED 0u
 #define AMBIT_ROOT_UNIQUE 1u /* exactly one root in it, for each value of the parameters */
 typedef struct ambit_record {
