@@ -1,0 +1,122 @@
+/* equations.c -- from expressions to tapes over unknowns and uncertain data. */
+#include "model/equations.h"
+#include "graph/tape.h"
+#include "model/hull.h"
+#include "model/unknowns.h"
+#include <stdio.h>
+#include <string.h>
+
+#define NAMES_MAX 256
+
+static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
+
+static void *room(ambit_arena *arena, size_t n, size_t size) { return ambit_arena_alloc(arena, (n + 1) * size); }
+
+/* bindings put in; data whose range is one number become that number; 0 = 0 left out */
+static ambit_status bind(const ambit_equations *q, ambit_ready *r, ambit_failure *f) {
+  r->equation = room(r->arena, q->ne, sizeof *r->equation);
+  r->place = room(r->arena, q->ne, sizeof *r->place);
+  if (!r->equation || !r->place) return no_memory(f);
+  for (size_t i = 0; i < q->ne; i++)
+    if (q->equation[i] == AMBIT_NO_EXPR) return ambit_fail(f, AMBIT_INVALID, "equation %zu is none", i + 1);
+  if (q->ne) memcpy(r->equation, q->equation, q->ne * sizeof *r->equation);
+  ambit_status status = ambit_graph_substitute(q->graph, q->ne, r->equation, q->nbinding, q->leaf, q->value, f);
+  if (status == AMBIT_OK) status = ambit_unknowns_fold_points(q->graph, r->arena, q->ne, r->equation, f);
+  ambit_expr zero = ambit_graph_number(q->graph, 0);
+  for (size_t i = 0; i < q->ne; i++)
+    if (r->equation[i] != zero) {
+      r->place[r->ne] = i;
+      r->equation[r->ne++] = r->equation[i];
+    }
+  return status;
+}
+
+static ambit_status check_leaves(
+    const ambit_equations *q, const ambit_ready *r, size_t n, const ambit_expr *leaf, ambit_failure *f) {
+  char name[NAMES_MAX];
+  size_t others = ambit_unknowns_name_others(q->graph, n, leaf, q->nx, q->unknown, name, sizeof name);
+  if (others == 0) return AMBIT_OK;
+  (void)r;
+  return ambit_fail(f, AMBIT_INVALID, "%s %s no value: give a range in `box`, to be searched, or a value in `at`", name,
+      others == 1 ? "has" : "have");
+}
+
+static const char *data_name(const ambit_ready *r, ambit_expr e) {
+  const char *text = ambit_graph_node(r->graph, e)->text;
+  if (text) return ambit_arena_text(r->arena, text);
+  char made[32];
+  snprintf(made, sizeof made, "p%zu", r->np + 1);
+  return ambit_arena_text(r->arena, made);
+}
+
+static ambit_status find_inputs(const ambit_equations *q, ambit_ready *r, ambit_failure *f) {
+  size_t n;
+  ambit_expr *leaf;
+  ambit_status status = ambit_unknowns_leaves(q->graph, r->arena, r->ne, r->equation, &n, &leaf, f);
+  if (status == AMBIT_OK) status = check_leaves(q, r, n, leaf, f);
+  if (status != AMBIT_OK) return status;
+  const char **name = room(r->arena, q->nx + n, sizeof *name);
+  r->input = room(r->arena, q->nx + n, sizeof *r->input);
+  r->p = room(r->arena, n, sizeof *r->p);
+  if (!name || !r->input || !r->p) return no_memory(f);
+  for (size_t i = 0; i < q->nx; i++) {
+    r->input[i] = q->unknown[i];
+    name[i] = ambit_arena_text(r->arena, q->name[i]);
+  }
+  for (size_t i = 0; i < n; i++) {
+    const ambit_node *node = ambit_graph_node(q->graph, leaf[i]);
+    if (node->op != AMBIT_LEAF_UNKNOWN) continue;
+    r->input[q->nx + r->np] = leaf[i];
+    r->p[r->np] = node->value;
+    name[q->nx + r->np] = data_name(r, leaf[i]);
+    r->np++;
+  }
+  for (size_t i = 0; i < q->nx + r->np; i++)
+    if (!name[i]) return no_memory(f);
+  r->name = name;
+  return AMBIT_OK;
+}
+
+ambit_status ambit_equations_prepare(const ambit_equations *q, ambit_arena *arena, ambit_ready *r, ambit_failure *f) {
+  *r = (ambit_ready) { .graph = q->graph, .arena = arena, .nx = q->nx };
+  ambit_status status = bind(q, r, f);
+  if (status == AMBIT_OK) status = find_inputs(q, r, f);
+  for (size_t i = 0; i < r->np && status == AMBIT_OK; i++)
+    if (ambit_interval_is_empty(r->p[i]) || !ambit_interval_is_bounded(r->p[i]))
+      status = ambit_fail(f, AMBIT_INVALID, "the uncertain datum `%s` is empty or not bounded: [%g, %g]",
+          r->name[r->nx + i], r->p[i].lo, r->p[i].hi);
+  return status;
+}
+
+ambit_status ambit_equations_seal(const ambit_ready *r, size_t ne, const ambit_expr *equation, uint32_t flags,
+    const ambit_tape **tape, ambit_failure *f) {
+  return ambit_tape_seal(r->graph, r->arena, ne, equation, r->nx + r->np, r->input, 0, flags, tape, f);
+}
+
+ambit_status ambit_equations_differentiate(const ambit_ready *r, size_t ne, const ambit_expr *equation, size_t first,
+    size_t n, uint32_t flags, const ambit_tape **tape, ambit_failure *f) {
+  ambit_expr *entry = room(r->arena, ne * n, sizeof *entry);
+  if (!entry) return no_memory(f);
+  for (size_t i = 0; i < ne; i++)
+    for (size_t j = 0; j < n; j++) {
+      ambit_failure why = { 0 };
+      entry[i * n + j] = ambit_graph_derivative(r->graph, equation[i], r->input[first + j], &why);
+      if (entry[i * n + j] == AMBIT_NO_EXPR)
+        return ambit_fail(f, why.status == AMBIT_OK ? AMBIT_NOMEM : why.status, "equation %zu has no derivative: %s",
+            i + 1, why.message[0] ? why.message : "out of memory");
+    }
+  return ambit_tape_seal(r->graph, r->arena, ne * n, entry, r->nx + r->np, r->input, 0, flags, tape, f);
+}
+
+bool ambit_equations_at(
+    const ambit_ready *r, const ambit_tape *tape, const double *x, ambit_interval *slot, double *out) {
+  ambit_interval *in = slot + tape->nconst;
+  for (size_t i = 0; i < r->nx; i++) in[i] = (ambit_interval) { x[i], x[i] };
+  for (size_t i = 0; i < r->np; i++) {
+    double m = ambit_interval_mid(r->p[i]);
+    in[r->nx + i] = (ambit_interval) { m, m };
+  }
+  if (ambit_hull(tape, in, slot) & (AMBIT_F_PARTIAL | AMBIT_F_EMPTY | AMBIT_F_UNBOUNDED)) return false;
+  for (uint32_t k = 0; k < tape->nout; k++) out[k] = ambit_interval_mid(slot[tape->out[k]]);
+  return true;
+}

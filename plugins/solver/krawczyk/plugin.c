@@ -1,0 +1,31 @@
+/* plugin.c -- the entry of the plugin and its options. */
+#include "krawczyk.h"
+#include <string.h>
+
+static const ambit_param param[] = {
+  { "tolerance", "1", "", "1e-8",
+      "boxes narrower than this, relative to the unknowns' size or absolutely below 1, are cut no further" },
+  { "boxes_max", "1", "integer", "100000", "boxes that are looked at before the search gives up" },
+  { "undecided_max", "1", "integer", "1000", "undecided boxes before the search gives up" },
+  { "roots_max", "1", "integer", "10000", "roots before the search gives up" },
+  { NULL, NULL, NULL, NULL, NULL },
+};
+
+static const ambit_solver solver = {
+  .size = sizeof solver,
+  .want = AMBIT_WANT_RHS | AMBIT_WANT_JACOBIAN | AMBIT_WANT_SLOPE | AMBIT_WANT_INVARIANT,
+  .needs_rigorous = 1,
+  .param = param,
+  .open = krawczyk_open,
+  .run = krawczyk_run,
+  .close = krawczyk_close,
+  .solves = AMBIT_SOLVES_ROOTS,
+};
+
+static const void *get(const char *interface_id) { return strcmp(interface_id, AMBIT_SOLVER) == 0 ? &solver : NULL; }
+
+const ambit_plugin ambit_entry = { sizeof ambit_entry, AMBIT_ABI, "solver.krawczyk", "1.0",
+  "Finds and proves all roots of n equations in n unknowns in a box, for every value of uncertain data: interval "
+  "Newton "
+  "operator preconditioned as Krawczyk's, narrowing by the formulas run backwards, epsilon inflation, bisection.",
+  get };

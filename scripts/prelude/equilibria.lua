@@ -1,0 +1,93 @@
+-- equilibria.lua -- ambit.equilibria { m:dynamics() or an ode, box = { beta1 = { lo, hi }, ... } }: every state of rest
+-- in the box, proved.
+--
+-- At rest every rate vanishes. A rate that is nothing but another state (beta1' of beta1: a speed) says that this state
+-- is 0; it is put in, and what is left are the accelerations at speed 0. Invariants (closed loops, the norm of a
+-- quaternion) must hold besides.
+local check = require "ambit.check"
+local core = require "ambit.core"
+local roots = require "ambit.roots"
+local simulate = require "ambit.simulate"
+
+local verb = {}
+
+-- The states that must be 0: { name = true }. A mechanism knows its speeds; those of a quaternion are no one's rate.
+local function find_speeds(system)
+  local speeds, is_state = {}, {}
+  for _, name in ipairs(system.states) do is_state[name] = true end
+  for _, speed in ipairs(system.mechanism and core.speeds(system.mechanism.handle) or {}) do
+    speeds[speed.name] = is_state[speed.name]
+  end
+  for i in ipairs(system.states) do
+    for k, name in ipairs(system.states) do
+      if system.rates[i] == system.symbols[k] then speeds[name] = true end
+    end
+  end
+  return speeds
+end
+
+-- Does the rate of this state say nothing at rest? That of a coordinate of a mechanism is linear in the speeds; without
+-- motions given in time there is nothing else in it.
+local function is_idle(system, i, speeds)
+  if not system.mechanism or speeds[system.states[i]] then return false end
+  return not roots.symbols({ system.rates[i] }).t
+end
+
+-- The equations with all speeds 0, and the bindings that make them so.
+local function equations(system, speeds)
+  local leaves, values, list = {}, {}, {}
+  for k, name in ipairs(system.states) do
+    if speeds[name] then leaves[#leaves + 1], values[#values + 1] = system.symbols[k], core.expression(0) end
+  end
+  for i, rate in ipairs(system.rates) do
+    local skipped = is_idle(system, i, speeds)
+    for k, name in ipairs(system.states) do skipped = skipped or speeds[name] and rate == system.symbols[k] end
+    if not skipped then list[#list + 1] = rate end
+  end
+  for _, invariant in ipairs(core.system_invariants(system.system)) do list[#list + 1] = invariant end
+  return list, leaves, values
+end
+
+local function check_box(names, system, speeds, what)
+  local positions = {}
+  for _, name in ipairs(system.states) do
+    if not speeds[name] then positions[#positions + 1] = name end
+  end
+  local searched = {}
+  for _, name in ipairs(names) do
+    searched[name] = true
+    if speeds[name] then check.fail("%s: box: the speed `%s` is 0 at rest; leave it out", what, name) end
+    local known = false
+    for _, position in ipairs(positions) do known = known or position == name end
+    if not known then
+      check.fail("%s: box: there is no state `%s`%s", what, name, check.suggest(name, positions))
+    end
+  end
+  return searched
+end
+
+function verb.equilibria(t)
+  check.table(t, "equilibria")
+  local system = simulate.system(t, "equilibria")
+  local q = roots.settings(t, "equilibria", { "box", "at" }, 1)
+  local speeds = find_speeds(system)
+  local names, ranges = roots.read_box(t.box, "equilibria")
+  local searched = check_box(names, system, speeds, "equilibria")
+  local list, leaves, values = equations(system, speeds)
+  local symbols, allowed = roots.symbols(list), {}
+  for _, name in ipairs(system.states) do allowed[name] = true end
+  for _, name in ipairs(check.sorted(t.at or {})) do
+    if speeds[name] or searched[name] then check.fail("equilibria: at: `%s` has a place already", name) end
+  end
+  local more_leaves, more_values = roots.bind(t.at, symbols, allowed, "equilibria")
+  table.move(more_leaves, 1, #more_leaves, #leaves + 1, leaves)
+  table.move(more_values, 1, #more_values, #values + 1, values)
+  q.expressions, q.names, q.ranges, q.leaves, q.values = list, names, ranges, leaves, values
+  q.symbols = {}
+  for i, name in ipairs(names) do
+    for k, state in ipairs(system.states) do if state == name then q.symbols[i] = system.symbols[k] end end
+  end
+  return roots.finish(q, "equilibria", roots.run(q))
+end
+
+return verb

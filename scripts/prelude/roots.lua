@@ -1,0 +1,204 @@
+-- roots.lua -- ambit.roots { { f1, f2 }, box = { x = { lo, hi }, y = { lo, hi } }, at = { name = value } }: every root
+-- in the box, proved. The first entry may be a function(s) that returns the expressions; s.x is the unknown x.
+local check = require "ambit.check"
+local core = require "ambit.core"
+local evaluate = require "ambit.evaluate"
+local option = require "ambit.option"
+local session = require "ambit.session"
+local shape = require "ambit.shape"
+
+local verb = {}
+
+-- One end of a range: an infinite number, or anything that is one number in the unit.
+local function bound(value, side, unit, what)
+  if value == math.huge or value == -math.huge then return value end
+  local e = core.expression(value, unit, what)
+  if not core.is_constant(e) then
+    check.fail("%s: the ends of a range are known numbers, not uncertain themselves", what)
+  end
+  return core.interval(e)[side]
+end
+
+-- { lo, hi }, an enclosure, or a text such as "[0, 1]" -> enclosure
+function verb.range(value, what, unit)
+  local kind = check.kind(value)
+  if kind == "table" then
+    check.keys(value, {}, what, 2)
+    if value[1] == nil or value[2] == nil then check.fail("%s: expected { lo, hi }", what) end
+    local lo, hi = bound(value[1], "lo", unit, what), bound(value[2], "hi", unit, what)
+    if lo > hi then
+      check.fail("%s: the range is empty: %s is greater than %s", what, core.literal(lo), core.literal(hi))
+    end
+    return core.interval(lo, hi)
+  end
+  if kind == "function" or kind == "boolean" or kind == "nil" then
+    check.fail("%s: expected { lo, hi }, an enclosure or a text, got %s", what, kind)
+  end
+  return core.interval(value)
+end
+
+-- The ranges of the unknowns by sorted name.
+function verb.read_box(box, what)
+  if box == nil then check.fail("%s: box is missing: { x = { lo, hi }, ... } for every unknown", what) end
+  check.table(box, what .. ": box")
+  local names, ranges = {}, {}
+  for i, name in ipairs(check.sorted(box)) do
+    names[i] = check.text(name, what .. ": box: name of an unknown")
+    ranges[i] = verb.range(box[name], ("%s: box.%s"):format(what, name))
+  end
+  return names, ranges
+end
+
+-- The symbols that expressions reach, by name.
+function verb.symbols(expressions)
+  local symbols = {}
+  for _, leaf in ipairs(core.leaves(expressions)) do
+    if leaf.kind == "symbol" then symbols[leaf.name] = leaf end
+    if leaf.kind == "time" then symbols.t = leaf end
+  end
+  return symbols
+end
+
+-- Values of `at` for symbols; others are no mistake as long as `allowed` names them.
+function verb.bind(at, symbols, allowed, what)
+  local leaves, values = {}, {}
+  for _, name in ipairs(check.sorted(check.table(at or {}, what .. ": at"))) do
+    local leaf = symbols[name]
+    if leaf then
+      leaves[#leaves + 1] = leaf.expression
+      values[#values + 1] = core.expression(at[name], leaf.unit, ("%s: at.%s"):format(what, name))
+    elseif not allowed[name] then
+      check.fail("%s: at: there is no variable `%s`%s", what, tostring(name),
+        check.suggest(name, check.sorted(symbols)))
+    end
+  end
+  return leaves, values
+end
+
+-- What an unknown box or its root looks like: enclosures by name; facts besides are reached through the metatable.
+local function named(names, facts, value)
+  local point = {}
+  for i, name in ipairs(names) do point[name] = value(i) end
+  return evaluate.with_status(point, facts)
+end
+
+-- a lies within b
+local function is_inside(a, b) return a.lo >= b.lo and a.hi <= b.hi end
+
+local function precedes(names)
+  return function(a, b)
+    for _, name in ipairs(names) do
+      if a[name].lo ~= b[name].lo then return a[name].lo < b[name].lo end
+    end
+    return false
+  end
+end
+
+local function read_track(track, names, ranges)
+  local proved, undecided = {}, {}
+  for i = 1, core.track_count(track) do
+    local _, _, _, event = core.track_step(track, i)
+    local facts = { inside = true }
+    local point = named(names, facts, function(k)
+      local x = core.track_value(track, i, k, false)
+      facts.inside = facts.inside and is_inside(x, ranges[k])
+      return x
+    end)
+    local list = event == 1 and proved or undecided
+    list[#list + 1] = point
+  end
+  table.sort(proved, precedes(names))
+  table.sort(undecided, precedes(names))
+  return proved, undecided
+end
+
+local Roots = { __name = "roots" }
+Roots.__index = Roots
+
+function Roots.__tostring(self)
+  local lines = { ("%s: %d root%s proved, %d box%s undecided"):format(self.status, #self.proved,
+    #self.proved == 1 and "" or "s", #self.undecided, #self.undecided == 1 and "" or "es") }
+  for _, point in ipairs(self.proved) do
+    local parts = {}
+    for _, name in ipairs(self.unknowns) do parts[#parts + 1] = ("%s = %s"):format(name, tostring(point[name])) end
+    lines[#lines + 1] = "  " .. table.concat(parts, ", ")
+  end
+  if self.reason ~= "" then lines[#lines + 1] = self.reason end
+  return table.concat(lines, "\n")
+end
+
+-- The solver's name, its options and those of the arithmetic; every other key of t must be among own_keys.
+function verb.settings(t, what, own_keys, positional)
+  local q = { solver = t.solver == nil and "krawczyk" or check.text(t.solver, what .. ": solver") }
+  local declaration = option.declaration("solver", q.solver)
+  local known = { "solver", "arithmetic" }
+  table.move(own_keys, 1, #own_keys, #known + 1, known)
+  local names = option.names(declaration)
+  table.move(names, 1, #names, #known + 1, known)
+  check.keys(t, known, ("%s with solver %s"):format(what, q.solver), positional)
+  q.options, q.option_list = option.collect(t, declaration)
+  q.arithmetic_options = {}
+  if t.arithmetic ~= nil then
+    q.arithmetic, q.arithmetic_options = option.arithmetic(t.arithmetic, what .. ": arithmetic")
+  end
+  return q
+end
+
+-- q: settings, and expressions, names, symbols (expressions), ranges, leaves, values, centre (numbers or nil)
+function verb.run(q)
+  local track, facts, report = core.roots(q.solver, q.arithmetic, q.options, q.arithmetic_options, q.expressions,
+    q.symbols, q.names, q.leaves, q.values, q.ranges, q.centre)
+  facts.proved, facts.undecided = read_track(track, q.names, q.ranges)
+  facts.unknowns, facts.solver, facts.arithmetic, facts.report = q.names, q.solver, report.arithmetic, report
+  return setmetatable(facts, Roots)
+end
+
+-- The end of the verb `what`.
+function verb.finish(q, what, facts)
+  session.finish(what, facts, facts.report,
+    { "solver", q.solver, "arithmetic", facts.arithmetic, "options", q.option_list, "boxes", facts.boxes })
+  return facts
+end
+
+-- The unknowns' symbols.
+local function unknowns(names, symbols, what)
+  local list = {}
+  for i, name in ipairs(names) do
+    if not symbols[name] then
+      check.fail("%s: box: no equation depends on `%s`%s", what, name, check.suggest(name, check.sorted(symbols)))
+    end
+    list[i] = symbols[name].expression
+  end
+  return list
+end
+
+local function expressions_of(t, names, what)
+  if type(t[1]) ~= "function" then return (shape.flatten(evaluate.subject(t, what), what)) end
+  local values = {}
+  for _, name in ipairs(names) do values[name] = core.symbol(name, "1") end
+  local s = setmetatable({}, {
+    __index = function(_, key)
+      if values[key] == nil then
+        check.fail("%s: `box` names no unknown `%s`%s", what, tostring(key), check.suggest(key, names))
+      end
+      return values[key]
+    end,
+  })
+  return (shape.flatten(t[1](s), what))
+end
+
+function verb.roots(t)
+  check.table(t, "roots")
+  local q = verb.settings(t, "roots", { "box", "at" }, #t)
+  q.names, q.ranges = verb.read_box(t.box, "roots")
+  q.expressions = expressions_of(t, q.names, "roots")
+  local symbols = verb.symbols(q.expressions)
+  for _, name in ipairs(q.names) do
+    if t.at and t.at[name] ~= nil then check.fail("roots: `%s` is in `box` and in `at`", name) end
+  end
+  q.symbols = unknowns(q.names, symbols, "roots")
+  q.leaves, q.values = verb.bind(t.at, symbols, {}, "roots")
+  return verb.finish(q, "roots", verb.run(q))
+end
+
+return verb
