@@ -13,6 +13,10 @@ static ambit_expr op2(ambit_graph *g, uint32_t op, ambit_expr a, ambit_expr b) {
 static ambit_expr add(ambit_graph *g, ambit_expr a, ambit_expr b) { return ambit_fold_sum(g, a, b, false); }
 static ambit_expr subtract(ambit_graph *g, ambit_expr a, ambit_expr b) { return ambit_fold_sum(g, a, b, true); }
 static ambit_expr times(ambit_graph *g, ambit_expr a, ambit_expr b) { return op2(g, AMBIT_OP_MUL, a, b); }
+/* a da, where da may be a structural zero: it stays one even where a is not proved to be defined */
+static ambit_expr share(ambit_graph *g, ambit_expr a, ambit_expr da) {
+  return da == AMBIT_ZERO ? AMBIT_ZERO : times(g, a, da);
+}
 static ambit_expr over(ambit_graph *g, ambit_expr a, ambit_expr b) { return op2(g, AMBIT_OP_DIV, a, b); }
 static ambit_expr unary(ambit_graph *g, uint32_t op, ambit_expr a) { return op2(g, op, a, a); }
 
@@ -53,10 +57,10 @@ static ambit_expr differential(ambit_graph *g, ambit_expr e, ambit_node x, ambit
   case AMBIT_OP_ADD: return add(g, da, db);
   case AMBIT_OP_SUB: return subtract(g, da, db);
   case AMBIT_OP_NEG: return ambit_fold_negate(g, da);
-  case AMBIT_OP_MUL: return add(g, times(g, da, x.b), times(g, x.a, db));
-  case AMBIT_OP_DIV: return over(g, subtract(g, da, times(g, e, db)), x.b);
+  case AMBIT_OP_MUL: return add(g, share(g, x.b, da), share(g, x.a, db));
+  case AMBIT_OP_DIV: return over(g, subtract(g, da, share(g, e, db)), x.b);
   case AMBIT_OP_ATAN2: {
-    ambit_expr turn = subtract(g, times(g, x.b, da), times(g, x.a, db));
+    ambit_expr turn = subtract(g, share(g, x.b, da), share(g, x.a, db));
     return over(g, turn, add(g, unary(g, AMBIT_OP_SQR, x.a), unary(g, AMBIT_OP_SQR, x.b)));
   }
   default: return times(g, slope(g, e, x.op, x.a, x.b), da);

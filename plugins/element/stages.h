@@ -1,9 +1,15 @@
 /* stages.h -- a joint as a sequence of elementary motions, each along a direction that is fixed in the frame reached by
 ** the ones before: turn by c q about n, or slide by c q along it.
 **
-** Each stage is a revolute or a prismatic joint (revolute.c, prismatic.c have the formulas with their source), so the
-** motion of `to` is the motion of `from` carried through all of them, and the wrench goes the other way. The balance of
-** coordinate q is the sum of c n.t or c n.f over the stages that it moves, plus the effort.
+** One stage, in own axes (subscript 1: after it), with p = n s the displacement and Q = Rot(n, q) the rotation:
+**   turn    w_1 = Q^T w + n q'                               v_1 = Q^T v
+**           alpha_1 = Q^T alpha + n q'' + (Q^T w) x n q'     a_1 = Q^T a
+**   slide   w_1 = w          v_1 = v + w x p + n s'
+**           alpha_1 = alpha  a_1 = a + alpha x p + w x (w x p) + 2 w x n s' + n s''
+** The wrench (t, f) after it acts before it as (Q t + p x Q f, Q f); along the motion n.t (n.f) + effort = 0
+** [Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 4]. The motion of `to` is the motion of `from` carried
+** through all stages, and the wrench goes the other way. The balance of coordinate q is the sum of c n.t or c n.f over
+** the stages that it moves, plus the effort. A motion that is given in time puts in the power that the balance lacks.
 */
 #ifndef AMBIT_STAGES_H
 #define AMBIT_STAGES_H
@@ -13,12 +19,15 @@
 
 enum { STAGES_FROM, STAGES_TO, STAGES_JOINT };
 
+#define STAGE_IS_STATE UINT32_MAX
+
 typedef struct stage {
   int turns;              /* 1: turns about the axis, 0: slides along it */
   ambit_vector3 axis;     /* unit vector */
   uint32_t coordinate;    /* its number within the joint */
   ambit_expr coefficient; /* c: rad or m per unit of the coordinate */
   const char *unit;       /* of the coordinate */
+  uint32_t given;         /* parameter that may give the only coordinate's motion, or STAGE_IS_STATE */
 } stage;
 
 typedef struct stages {
@@ -29,11 +38,11 @@ typedef struct stages {
 static inline void stages_push(stages *s, stage one) { s->list[s->count++] = one; }
 
 static inline stage stage_turn(ambit_build *b, ambit_vector3 axis, uint32_t coordinate) {
-  return (stage) { 1, axis, coordinate, b->num(b, "1"), "rad" };
+  return (stage) { 1, axis, coordinate, b->num(b, "1"), "rad", STAGE_IS_STATE };
 }
 
 static inline stage stage_slide(ambit_build *b, ambit_vector3 axis, uint32_t coordinate) {
-  return (stage) { 0, axis, coordinate, b->num(b, "1"), "m" };
+  return (stage) { 0, axis, coordinate, b->num(b, "1"), "m", STAGE_IS_STATE };
 }
 
 /* The unit vector of parameter `index`; a direction that moves in time fails. */
@@ -48,16 +57,20 @@ static inline ambit_vector3 stages_direction(ambit_build *b, int i) {
   return v;
 }
 
+/* q, or its time derivative of that order */
+static inline ambit_expr stage_coordinate(ambit_build *b, const stage *s, uint32_t order) {
+  if (s->given != STAGE_IS_STATE) return ambit_joint_coordinate(b, s->given, order, s->unit);
+  return b->state(b, s->coordinate, order, s->unit);
+}
+
 /* c q n, or its time derivative of that order */
 static inline ambit_vector3 stage_motion(ambit_build *b, const stage *s, uint32_t order) {
-  ambit_expr q = b->state(b, s->coordinate, order, s->unit);
-  return ambit_vector3_scale(b, ambit_multiply(b, s->coefficient, q), s->axis);
+  return ambit_vector3_scale(b, ambit_multiply(b, s->coefficient, stage_coordinate(b, s, order)), s->axis);
 }
 
 static inline ambit_rotation stage_rotation(ambit_build *b, const stage *s) {
   if (!s->turns) return ambit_rotation_identity(b);
-  ambit_expr q = b->state(b, s->coordinate, 0, s->unit);
-  return ambit_rotation_about(b, s->axis, ambit_multiply(b, s->coefficient, q));
+  return ambit_rotation_about(b, s->axis, ambit_multiply(b, s->coefficient, stage_coordinate(b, s, 0)));
 }
 
 static inline ambit_vector3 stage_offset(ambit_build *b, const stage *s) {
@@ -140,18 +153,23 @@ static inline ambit_status stages_balance(ambit_build *b, const stages *s, uint3
 static inline int stages_know(uint32_t port, uint32_t quantity) {
   int of_joint = quantity >= AMBIT_COORDINATE && quantity <= AMBIT_RATE2;
   return (port == STAGES_JOINT && (of_joint || quantity == AMBIT_BALANCE)) ||
-         (port == STAGES_TO && quantity <= AMBIT_ACCEL) || (port == STAGES_FROM && quantity == AMBIT_WRENCH);
+         (port == STAGES_TO && quantity <= AMBIT_ACCEL) || (port == STAGES_FROM && quantity == AMBIT_WRENCH) ||
+         (port == AMBIT_NO_PORT && quantity == AMBIT_POWER);
 }
 
 static inline ambit_status stages_express(
     ambit_build *b, const stages *s, uint32_t dof, uint32_t port, uint32_t quantity, ambit_expr *out) {
   if (quantity == AMBIT_POSE) return stages_pose(b, s, out);
   if (quantity <= AMBIT_ACCEL) return stages_velocity(b, s, quantity, out);
+  if (quantity == AMBIT_POWER) {
+    uint32_t given = s->list[0].given;
+    return given == STAGE_IS_STATE ? AMBIT_UNABLE : ambit_drive_power(b, STAGES_JOINT, given, out);
+  }
   if (port == STAGES_FROM) return stages_force(b, s, out, NULL);
   if (quantity == AMBIT_BALANCE) return stages_balance(b, s, dof, out);
   for (uint32_t i = 0; i < s->count; i++) {
     const stage *one = &s->list[i];
-    out[one->coordinate] = b->state(b, one->coordinate, quantity - AMBIT_COORDINATE, one->unit);
+    out[one->coordinate] = stage_coordinate(b, one, quantity - AMBIT_COORDINATE);
   }
   return AMBIT_OK;
 }
@@ -169,5 +187,5 @@ static inline ambit_status stages_express(
     ambit_status status = stages_know(port, quantity) ? build(b, &s) : AMBIT_UNABLE;                                   \
     return status == AMBIT_OK ? stages_express(b, &s, dof, port, quantity, out) : status;                              \
   }                                                                                                                    \
-  static const ambit_element element = { sizeof element, 3, ports, params, express };
+  static const ambit_element element = { sizeof element, 3, ports, params, express, NULL };
 #endif

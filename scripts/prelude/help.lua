@@ -16,7 +16,18 @@ mag(), mig(), contains(x), hull(x), intersect(x), text(digits), is_empty(), is_b
   mechanism = [[
 mechanism { "name", gravity = { 0, 0, "-9.81" } }: parts are added with m:<element> { ... } to m.world and to the frames
 that elements return; m:position(frame), m:orientation(frame), m:velocity(frame), m:angular_velocity(frame),
-m:acceleration(frame), m:energy(), m:coordinates(), m:mass_matrix(), m:generalised_forces(), m:dynamics().]],
+m:acceleration(frame), m:distance(a, b), m:angle(a, b, axis), m:relative_pose(a, b), m:relative_velocity(a, b),
+m:total_mass(), m:centre_of_mass(), m:momentum(), m:reaction(joint), m:energy(), m:power(), m:coordinates(),
+m:mass_matrix(), m:generalised_forces(), m:dynamics().]],
+  load = [[
+load { "robot.urdf", tolerances = { mass = "2%", ["*_joint.offset"] = "0.1 mm" }, gravity = { 0, 0, "-9.81" } }: a
+mechanism from a URDF file or a Lua table of RBDL, with m.links.NAME, m.joints.NAME, m:limits(), m:tolerances(). Also
+name = "arm", base = frame of another mechanism, damping = true, friction = true. Into a mechanism that there is:
+m:load { "arm.urdf", from = frame, name = "left" }.]],
+  chain = [[
+chain { "leg", doc = "...", ports = { from = "frame" }, parameters = { thigh = { "m", "0.4", "its length" } },
+build = function(m, p) ... return { foot = frame } end }: from then on m:leg { name = "left", from = f } is an element;
+its parts are left.knee, ..., what build returns is left.foot.]],
   ode = [[
 ode { states = { "x" }, parameters = { a = 1 }, equations = function(s, p, t) return { x = -p.a * s.x } end }]],
   evaluate = [[
@@ -30,6 +41,9 @@ reason, t_reached, cpu_seconds, step_count, rigorous, x, :at(t), :steps().]],
 compare { expression or table of them, at = { name = value }, arithmetics = { "interval", { "affine", symbols =
 { 10, 20 } } }, repeats = 5 }: width against run time, a result with status, rows, and a table when printed. Without
 expressions: how `ambit compare` shall compare this scene.]],
+  view = [[
+view { m, run = run, points = { tip = frame }, at = { joint = value }, t = { 0, 5 }, title = "" }: what `ambit view` shows
+of a mechanism; otherwise nothing happens.]],
   derivative = "derivative(e, x): de/dx for a variable, an unknown or ambit.time.",
   simplify = "simplify(e): an equal expression with fewer operations, if one is found.",
   plugins = "plugins([kind]): what there is, without loading it.",

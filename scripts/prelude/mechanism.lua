@@ -1,30 +1,66 @@
--- mechanism.lua -- m = ambit.mechanism "arm"; m:<element> { ... }; m:position(frame); m:dynamics().
+-- mechanism.lua -- m = ambit.mechanism "arm"; m:<element> { ... }; m:<chain> { ... }; m:position(frame); m:dynamics().
+local chain = require "ambit.chain"
 local check = require "ambit.check"
 local core = require "ambit.core"
 local element = require "ambit.element"
 local frame = require "ambit.frame"
+local mimic = require "ambit.mimic"
 local session = require "ambit.session"
+local structure = require "ambit.structure"
+local tree = require "ambit.tree"
 
 local Mechanism = { __name = "mechanism" }
 local methods = {}
 local constructors = {}
 
--- A method, else an element plugin of that name.
+local function check_self(self, key)
+  if getmetatable(self) ~= Mechanism then check.fail("%s: write m:%s { ... }, with a colon", key, key) end
+end
+
+local function is_element(name)
+  for _, entry in ipairs(core.list()) do
+    if entry.kind == "element" and entry.name == name then return true end
+  end
+  return false
+end
+
+-- The function behind m:<element>.
+local function element_constructor(key)
+  element.declaration(key)
+  mimic.declare(key)
+  return function(self, t)
+    check_self(self, key)
+    t = mimic.resolve(self, key, tree.named(self, key, t))
+    structure.check(self, key, t)
+    self.places[core.part_count(self.handle)] = core.where():gsub(": $", "")
+    return element.add(self, key, t)
+  end
+end
+
+local function chain_constructor(definition)
+  return function(self, t)
+    check_self(self, definition.name)
+    return chain.add(self, definition, t)
+  end
+end
+
+local function check_known(key)
+  if is_element(key) then return end
+  local others = check.sorted(methods)
+  table.move(chain.names(), 1, #chain.names(), #others + 1, others)
+  local near = core.nearest(key, others)
+  if near then check.fail("a mechanism has no `%s`; did you mean `%s`?", key, near) end
+end
+
+-- A method, else a chain, else an element plugin of that name.
 function Mechanism.__index(_, key)
   if methods[key] then return methods[key] end
   if type(key) ~= "string" then check.fail("a mechanism has no entry [%s]", tostring(key)) end
+  local definition = not constructors[key] and chain.find(key)
+  if definition then return chain_constructor(definition) end
   if not constructors[key] then
-    local near = core.nearest(key, check.sorted(methods))
-    local exists = false
-    for _, entry in ipairs(near and core.list() or {}) do
-      exists = exists or entry.kind == "element" and entry.name == key
-    end
-    if near and not exists then check.fail('a mechanism has no `%s`; did you mean `%s`?', key, near) end
-    element.declaration(key)
-    constructors[key] = function(self, t)
-      if getmetatable(self) ~= Mechanism then check.fail("%s: write m:%s { ... }, with a colon", key, key) end
-      return element.add(self, key, t)
-    end
+    check_known(key)
+    constructors[key] = element_constructor(key)
   end
   return constructors[key]
 end
@@ -32,9 +68,12 @@ end
 function Mechanism.__tostring(self) return ('mechanism "%s" (%d parts)'):format(self.name,
   core.part_count(self.handle)) end
 
-for _, part in ipairs { "measure", "dynamics", "loops", "assemble" } do require("ambit." .. part).install(methods) end
+for _, part in ipairs { "measure", "dynamics", "loops", "assemble", "tree", "mimic", "load" } do
+  require("ambit." .. part).install(methods)
+end
 
 check.methods(methods, Mechanism)
+chain.reserved = methods
 
 local mechanism = {}
 
@@ -44,12 +83,13 @@ function mechanism.new(t)
   check.table(t, "mechanism")
   check.keys(t, { "name", "gravity" }, "mechanism", 1)
   local name = check.text(t[1] or t.name or "mechanism", "mechanism: name")
-  local self = setmetatable({ name = name, handle = core.mechanism(name), declared = {}, cached = false,
-    cached_parts = false },
+  local self = setmetatable({ name = name, handle = core.mechanism(name), declared = {}, places = {}, closures = {},
+    scope = false,
+    cached = false, cached_parts = false },
     Mechanism)
   self.world = frame.new(self, 0, { index = 0, kind = "frame" })
   session.add(session.mechanisms, self)
-  if t.gravity ~= nil then element.add(self, "gravity", type(t.gravity) == "table" and t.gravity or { t.gravity }) end
+  if t.gravity ~= nil then self:gravity(type(t.gravity) == "table" and t.gravity or { t.gravity }) end
   return self
 end
 

@@ -76,10 +76,10 @@ static inline double track_widest(const track *k, const track_record *r) {
   return most;
 }
 
-/* misses of one solution in enclosures and in tubes, looked at in the middle of every step */
-static inline size_t track_misses(const track *k, solution_oracle *o, const double *u, int show) {
+/* misses of the solution that starts from the oracle's states, in enclosures and in tubes, looked at in the middle of
+** every step */
+static inline size_t track_follow(const track *k, solution_oracle *o, int show) {
   size_t misses = 0;
-  solution_start(o, u);
   for (size_t n = 0; n < k->count; n++) {
     const track_record *r = &k->record[n];
     solution_advance(o, 0.5 * (r->from + r->to));
@@ -97,6 +97,11 @@ static inline size_t track_misses(const track *k, solution_oracle *o, const doub
     }
   }
   return misses;
+}
+
+static inline size_t track_misses(const track *k, solution_oracle *o, const double *u, int show) {
+  solution_start(o, u);
+  return track_follow(k, o, show);
 }
 
 /* `samples` solutions: corners of the data's box first, then random ones */

@@ -1,0 +1,41 @@
+/* sloppy_prismatic.c -- a slider whose guide is wider than it: displaced by the given amount along n, and by up to
+** `play` in any direction perpendicular to n (play.h). It does not tilt: a guide is long.
+*/
+#include "play.h"
+
+enum { AXIS, DISPLACEMENT, PLAY };
+
+static const ambit_port ports[] = { PLAY_PORTS("the frame that carries the guide", "the frame that slides") };
+static const ambit_param params[] = {
+  { "axis", "1", "axis", "z", "direction of motion, in the axes of `from`" },
+  { "displacement", "m", "", NULL, "by which `to` is displaced along the axis" },
+  { "play", "m", "", NULL, "largest displacement in any direction perpendicular to the axis" },
+  { NULL, NULL, NULL, NULL, NULL },
+};
+
+static ambit_status express(ambit_build *b, uint32_t port, uint32_t quantity, ambit_expr *out) {
+  ambit_expr play = *b->param(b, PLAY);
+  ambit_vector3 n;
+  ambit_status status = play_asked(b, port, quantity, "prismatic");
+  if (status == AMBIT_OK) status = ambit_vector3_unit(b, b->param(b, AXIS), &n);
+  if (status != AMBIT_OK) return status;
+  const ambit_expr *from = b->get(b, PLAY_FROM, AMBIT_POSE);
+  if (!from) return AMBIT_INVALID;
+  ambit_pose before = ambit_pose_read(from);
+  ambit_vector3 along = ambit_vector3_scale(b, *b->param(b, DISPLACEMENT), n);
+  ambit_pose pose = ambit_pose_after(b, before, ambit_rotation_identity(b), along);
+  ambit_vector3 d = play_across(b, ambit_rotation_turn(b, before.rotation, n), play);
+  pose.position = ambit_vector3_add(b, pose.position, d);
+  ambit_pose_write(pose, out);
+  return AMBIT_OK;
+}
+
+static ambit_status check(ambit_build *b) { return play_check(b, *b->param(b, PLAY)); }
+
+static const ambit_element element = { sizeof element, 2, ports, params, express, check };
+
+AMBIT_ELEMENT_ENTRY("sloppy_prismatic", "1.0",
+    "A slider with play: displaced by `displacement` along `axis` and by up to `play` in any direction perpendicular "
+    "to "
+    "it. Positions only.",
+    element)
