@@ -1,6 +1,7 @@
 -- explain.lua -- `ambit explain`: what a scene loads, builds and leaves out, in numbers.
 local check = require "ambit.check"
 local core = require "ambit.core"
+local explain_tree = require "ambit.command.explain_tree"
 local scene = require "ambit.command.scene"
 local session = require "ambit.session"
 
@@ -8,8 +9,9 @@ local command = { scene = true }
 
 command.usage = [[
 usage: ambit explain [--json] SCENE.lua [ARG ...]
-Runs the scene with its output discarded, then prints which plugins and libraries it loaded, which quantities were built
-of those available, and the size of every verb's problem.
+Runs the scene with its output discarded, then prints which plugins and libraries it loaded, the model tree of every
+mechanism (parts, what hangs on what, coordinates, masses, closed loops), how many quantities were built of those
+available, and the size of every verb's problem.
   --json       one object per line instead]]
 
 local function discard_output()
@@ -37,14 +39,10 @@ local function libraries()
   return list
 end
 
+-- The mechanisms of the scene, in the order in which they were made.
 local function mechanisms()
   local list = {}
-  local numbers = check.sorted(session.mechanisms)
-  for _, number in ipairs(numbers) do
-    local m = session.mechanisms[number]
-    local pulled, available = core.pulled(m.handle)
-    list[#list + 1] = { name = m.name, parts = core.part_count(m.handle), pulled = pulled, available = available }
-  end
+  for _, number in ipairs(check.sorted(session.mechanisms)) do list[#list + 1] = session.mechanisms[number] end
   return list
 end
 
@@ -64,9 +62,7 @@ local function print_text(write, facts)
   write("loaded plugins:    %s\n", #facts.loaded > 0 and table.concat(facts.loaded, " ") or "none")
   write("not loaded:        %s\n", table.concat(facts.left, " "))
   write("shared libraries:  %s\n", table.concat(facts.libraries, " "))
-  for _, m in ipairs(facts.mechanisms) do
-    write("\nmechanism \"%s\": %d parts, %d of %d quantities built\n", m.name, m.parts, m.pulled, m.available)
-  end
+  for _, m in ipairs(facts.mechanisms) do explain_tree.write(write, m) end
   for i, verb in ipairs(facts.verbs) do
     write("\n%d. %s (%s)%s%s\n", i, verb.verb, verb.status,
       verb.report.arithmetic and " in " .. verb.report.arithmetic or "",
@@ -94,8 +90,7 @@ local function write_json(facts)
   core.record("plugins", { "loaded", table.concat(facts.loaded, " "), "left", table.concat(facts.left, " "),
     "libraries",
     table.concat(facts.libraries, " ") })
-  for _, m in ipairs(facts.mechanisms) do core.record("mechanism", pairs_of(m, { "name", "parts", "pulled",
-    "available" })) end
+  for _, m in ipairs(facts.mechanisms) do explain_tree.record(m) end
   for _, verb in ipairs(facts.verbs) do
     core.record("verb", { "verb", verb.verb, "status", verb.status, "report", pairs_of(verb.report, keys) })
   end

@@ -2,7 +2,7 @@
 -- The format: https://wiki.ros.org/urdf/XML. Numbers stay the decimals that they are written as.
 --
 -- Strict with what moves or weighs something; whatever else the file says (visual, collision, material, transmission,
--- gazebo, tags of other programs) is passed over. `safety_controller` and `calibration` say nothing about the mechanics.
+-- gazebo, tags of other programs) is passed over.
 local check = require "ambit.check"
 local xml = require "ambit.xml"
 
@@ -149,7 +149,7 @@ function urdf.read(text, file)
   if root.tag ~= "robot" then
     check.fail("%s:%d: expected a URDF, whose outermost tag is <robot>, got <%s>", file, root.line, root.tag)
   end
-  local robot = { file = file, name = root.attr.name, links = {}, joints = {} }
+  local robot = { file = file, line = root.line, name = root.attr.name, links = {}, joints = {} }
   for _, node in ipairs(root) do
     if node.tag == "link" then
       robot.links[#robot.links + 1] = read_link(file, node)
