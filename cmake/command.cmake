@@ -19,7 +19,8 @@ foreach(folder prelude command)
 endforeach()
 include(cmake/skeleton.cmake)
 list(APPEND embedded "ambit.command.skeletons|command/skeletons|${AMBIT_SKELETONS}")
-list(APPEND embedded_paths ${AMBIT_SKELETONS})
+list(APPEND embedded "ambit.view_parts|view_parts|${AMBIT_VIEW_PARTS}")
+list(APPEND embedded_paths ${AMBIT_SKELETONS} ${AMBIT_VIEW_PARTS})
 set(embedded_source ${PROJECT_BINARY_DIR}/embedded.c)
 add_custom_command(OUTPUT ${embedded_source}
   COMMAND ${CMAKE_COMMAND} -DOUTPUT=${embedded_source} "-DFILES=${embedded}" -P ${PROJECT_SOURCE_DIR}/cmake/embed.cmake

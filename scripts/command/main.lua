@@ -5,6 +5,7 @@ local commands = {
   { "run", "run a scene" },
   { "explain", "what a scene loads, builds and leaves out" },
   { "compare", "width against run time over the arithmetics" },
+  { "view", "a page that shows mechanisms and their enclosures over time" },
   { "plugins", "list the plugins, or print the manual of one" },
   { "check", "put a plugin through the conformance kit" },
   { "new", "write the skeleton of a plugin" },

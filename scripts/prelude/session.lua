@@ -11,6 +11,8 @@ local session = {
   asked = nil,                            -- a list: `ambit compare` wants to know what is evaluated
   comparisons = {},                       -- what ambit.compare found, in order
   compare = nil,                          -- how the scene wants to be compared
+  runs = nil,                             -- a list: `ambit view` wants to know what is simulated
+  views = {},                             -- what ambit.view asks to be shown, in order
 }
 
 local count = 0
@@ -31,6 +33,11 @@ function session.ask(request)
   if not session.asked then return end
   request.place = core.where():gsub(": $", "")
   session.asked[#session.asked + 1] = request
+end
+
+-- A simulation that has ended, and what it was asked.
+function session.remember(run, request)
+  if session.runs then session.runs[#session.runs + 1] = { run = run, request = request } end
 end
 
 -- Called once at the end of every verb: remembers it and writes its `result` record.
