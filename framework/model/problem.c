@@ -15,7 +15,8 @@ typedef struct build {
   ambit_graph *graph;
   ambit_arena *arena;
   ambit_failure *f;
-  ambit_expr *rate, *start;  /* [nx] without point unknowns */
+  size_t ninvariant;         /* 0 unless they are wanted */
+  ambit_expr *rate, *start;  /* [nx] without point unknowns; behind the rates, the invariants [ninvariant] */
   ambit_expr *input;         /* [nx + np + uses_time] of the right-hand side */
   ambit_expr *unknown;       /* [nu] */
   const ambit_tape *initial; /* always sealed, because its hull is needed */
@@ -46,7 +47,7 @@ static ambit_status check_times(const build *b) {
 
 /* -- expressions */
 
-static ambit_status copy_expressions(build *b) {
+static ambit_status check_expressions(const build *b) {
   const ambit_system *s = b->q->system;
   if (s->nx == 0) return ambit_fail(b->f, AMBIT_INVALID, "the system has no states");
   for (size_t i = 0; i < s->nx; i++) {
@@ -54,12 +55,25 @@ static ambit_status copy_expressions(build *b) {
       return ambit_fail(b->f, AMBIT_INVALID, "state `%s` has no initial value", s->name[i]);
     if (s->rate[i] == AMBIT_NO_EXPR) return ambit_fail(b->f, AMBIT_INVALID, "state `%s` has no equation", s->name[i]);
   }
-  b->rate = room(b, s->nx, sizeof *b->rate);
+  for (size_t i = 0; i < b->ninvariant; i++)
+    if (s->invariant[i] == AMBIT_NO_EXPR)
+      return ambit_fail(b->f, AMBIT_INVALID, "invariant `%s` has no formula", s->invariant_name[i]);
+  return AMBIT_OK;
+}
+
+static ambit_status copy_expressions(build *b) {
+  const ambit_system *s = b->q->system;
+  b->ninvariant = b->q->want & AMBIT_WANT_INVARIANT ? s->ninvariant : 0;
+  ambit_status status = check_expressions(b);
+  if (status != AMBIT_OK) return status;
+  size_t n = s->nx + b->ninvariant;
+  b->rate = room(b, n, sizeof *b->rate);
   b->start = room(b, s->nx, sizeof *b->start);
   if (!b->rate || !b->start) return no_memory(b);
   memcpy(b->rate, s->rate, s->nx * sizeof *b->rate);
+  if (b->ninvariant) memcpy(b->rate + s->nx, s->invariant, b->ninvariant * sizeof *b->rate);
   memcpy(b->start, b->q->initial, s->nx * sizeof *b->start);
-  ambit_status status = ambit_unknowns_fold_points(b->graph, b->arena, s->nx, b->rate, b->f);
+  status = ambit_unknowns_fold_points(b->graph, b->arena, n, b->rate, b->f);
   return status == AMBIT_OK ? ambit_unknowns_fold_points(b->graph, b->arena, s->nx, b->start, b->f) : status;
 }
 
@@ -75,32 +89,33 @@ static ambit_status find_strangers(const build *b, size_t ne, const ambit_expr *
 }
 
 /* All e[i] together reach only unknowns and the allowed leaves; otherwise the failure says which one does not. */
-static ambit_status check_leaves(const build *b, const ambit_expr *e, const char *what, size_t nallowed,
-    const ambit_expr *allowed, const char *hint) {
-  const ambit_system *s = b->q->system;
+static ambit_status check_leaves(const build *b, size_t n, const ambit_expr *e, const char *what,
+    const char *const *whose, size_t nallowed, const ambit_expr *allowed, const char *hint) {
   char name[NAMES_MAX];
   size_t strangers;
-  ambit_status status = find_strangers(b, s->nx, e, nallowed, allowed, &strangers, name);
+  ambit_status status = find_strangers(b, n, e, nallowed, allowed, &strangers, name);
   if (status != AMBIT_OK || strangers == 0) return status;
-  for (size_t i = 0; i < s->nx; i++) {
+  for (size_t i = 0; i < n; i++) {
     status = find_strangers(b, 1, &e[i], nallowed, allowed, &strangers, name);
     if (status != AMBIT_OK) return status;
-    if (strangers)
-      return ambit_fail(b->f, AMBIT_INVALID, "the %s of state `%s` depends on %s%s", what, s->name[i], name, hint);
+    if (strangers) return ambit_fail(b->f, AMBIT_INVALID, "the %s `%s` depends on %s%s", what, whose[i], name, hint);
   }
   return AMBIT_OK;
 }
 
 static ambit_status check_reach(const build *b) {
   const ambit_system *s = b->q->system;
+  static const char hint[] = ", which is neither a state nor a parameter";
   ambit_expr *allowed = room(b, s->nx + 1, sizeof *allowed);
   if (!allowed) return no_memory(b);
   memcpy(allowed, s->state, s->nx * sizeof *allowed);
   allowed[s->nx] = ambit_graph_time(b->graph);
-  ambit_status status =
-      check_leaves(b, b->rate, "right-hand side", s->nx + 1, allowed, ", which is neither a state nor a parameter");
+  ambit_status status = check_leaves(b, s->nx, b->rate, "right-hand side of state", s->name, s->nx + 1, allowed, hint);
+  if (status == AMBIT_OK && b->ninvariant)
+    status = check_leaves(b, b->ninvariant, b->rate + s->nx, "invariant", s->invariant_name, s->nx + 1, allowed, hint);
   if (status != AMBIT_OK) return status;
-  return check_leaves(b, b->start, "initial value", 0, NULL, ", but it may use numbers and uncertain data only");
+  return check_leaves(b, s->nx, b->start, "initial value of state", s->name, 0, NULL,
+      ", but it may use numbers and uncertain data only");
 }
 
 /* -- parameters and unknowns */
@@ -113,12 +128,12 @@ static const char *parameter_name(const build *b, ambit_expr e, size_t number) {
   return ambit_arena_text(b->arena, name);
 }
 
-/* Inputs of the right-hand side: states, then the unknowns it reaches, then time if it is used. */
+/* Inputs of the right-hand side and of invariants: states, then the unknowns they reach, then time if it is used. */
 static ambit_status find_parameters(build *b) {
   const ambit_system *s = b->q->system;
   size_t n;
   ambit_expr *leaf;
-  ambit_status status = ambit_unknowns_leaves(b->graph, b->arena, s->nx, b->rate, &n, &leaf, b->f);
+  ambit_status status = ambit_unknowns_leaves(b->graph, b->arena, s->nx + b->ninvariant, b->rate, &n, &leaf, b->f);
   if (status != AMBIT_OK) return status;
   b->input = room(b, s->nx + n + 1, sizeof *b->input);
   const char **name = room(b, s->nx + n, sizeof *name);
@@ -205,35 +220,53 @@ static ambit_status find_hulls(build *b) {
 
 static size_t count_inputs(const build *b) { return (size_t)b->p->nx + b->p->np + b->p->uses_time; }
 
-static ambit_status seal_rhs(build *b) {
+static ambit_status seal_flow(build *b, size_t n, const ambit_expr *e, const ambit_tape **tape) {
   uint32_t series = b->q->want & AMBIT_WANT_SERIES ? AMBIT_TAPE_SERIES : 0;
-  return ambit_tape_seal(b->graph, b->arena, b->p->nx, b->rate, count_inputs(b), b->input, b->p->nx,
-      series | b->q->seal, &b->p->rhs, b->f);
+  return ambit_tape_seal(
+      b->graph, b->arena, n, e, count_inputs(b), b->input, b->p->nx, series | b->q->seal, tape, b->f);
 }
 
-static ambit_status seal_jacobian(build *b) {
+static ambit_status seal_jacobian(
+    build *b, size_t n, const ambit_expr *e, const char *what, const char *const *whose, const ambit_tape **tape) {
   size_t nx = b->p->nx;
-  ambit_expr *entry = room(b, nx * nx, sizeof *entry);
+  ambit_expr *entry = room(b, n * nx, sizeof *entry);
   if (!entry) return no_memory(b);
-  for (size_t i = 0; i < nx; i++)
+  for (size_t i = 0; i < n; i++)
     for (size_t j = 0; j < nx; j++) {
       ambit_failure why = { 0 };
-      entry[i * nx + j] = ambit_graph_derivative(b->graph, b->rate[i], b->input[j], &why);
+      entry[i * nx + j] = ambit_graph_derivative(b->graph, e[i], b->input[j], &why);
       if (entry[i * nx + j] == AMBIT_NO_EXPR)
         return ambit_fail(b->f, why.status == AMBIT_OK ? AMBIT_NOMEM : why.status,
-            "the solver needs the Jacobian, but the right-hand side of state `%s` has no derivative: %s", b->p->name[i],
+            "the solver needs the Jacobian, but the %s `%s` has no derivative: %s", what, whose[i],
             why.message[0] ? why.message : "out of memory");
     }
-  return ambit_tape_seal(
-      b->graph, b->arena, nx * nx, entry, count_inputs(b), b->input, nx, b->q->seal, &b->p->jacobian, b->f);
+  return ambit_tape_seal(b->graph, b->arena, n * nx, entry, count_inputs(b), b->input, nx, b->q->seal, tape, b->f);
+}
+
+/* The Jacobian only for solvers that want Jacobians: series have slopes, which need no derivative. */
+static ambit_status seal_invariants(build *b) {
+  ambit_problem *p = b->p;
+  const ambit_expr *g = b->rate + p->nx;
+  const char **name = room(b, b->ninvariant, sizeof *name);
+  if (!name) return no_memory(b);
+  for (size_t i = 0; i < b->ninvariant; i++)
+    if (!(name[i] = ambit_arena_text(b->arena, b->q->system->invariant_name[i]))) return no_memory(b);
+  p->ninvariant = (uint32_t)b->ninvariant;
+  p->invariant_name = name;
+  ambit_status status = seal_flow(b, b->ninvariant, g, &p->invariant);
+  if (status != AMBIT_OK || !(b->q->want & AMBIT_WANT_JACOBIAN)) return status;
+  return seal_jacobian(b, b->ninvariant, g, "invariant", name, &p->invariant_jacobian);
 }
 
 static ambit_status seal_wanted(build *b) {
   uint32_t want = b->q->want;
+  ambit_problem *p = b->p;
   ambit_status status = AMBIT_OK;
-  if (want & (AMBIT_WANT_RHS | AMBIT_WANT_SERIES)) status = seal_rhs(b);
-  if (status == AMBIT_OK && (want & AMBIT_WANT_JACOBIAN)) status = seal_jacobian(b);
-  if (want & AMBIT_WANT_INITIAL) b->p->initial = b->initial;
+  if (want & (AMBIT_WANT_RHS | AMBIT_WANT_SERIES)) status = seal_flow(b, p->nx, b->rate, &p->rhs);
+  if (status == AMBIT_OK && (want & AMBIT_WANT_JACOBIAN))
+    status = seal_jacobian(b, p->nx, b->rate, "right-hand side of state", p->name, &p->jacobian);
+  if (status == AMBIT_OK && b->ninvariant) status = seal_invariants(b);
+  if (want & AMBIT_WANT_INITIAL) p->initial = b->initial;
   return status;
 }
 

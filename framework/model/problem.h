@@ -15,8 +15,9 @@ typedef struct ambit_problem_request {
 } ambit_problem_request;
 
 /* Fills everything but arithmetic and actx; all of it lives in the arena. Parameters are the unknowns that the
-** right-hand sides reach; unknowns are those that initial values and parameters reach, each once. INVALID: f names
-** the state and what is wrong with it. */
+** right-hand sides and, if they are wanted, the invariants reach; unknowns are those that initial values and parameters
+** reach, each once. Nothing is built for invariants that are not wanted. INVALID: f names the state or invariant and
+** what is wrong with it. */
 ambit_status ambit_problem_build(
     const ambit_problem_request *q, ambit_arena *arena, ambit_problem *p, ambit_failure *f);
 #endif

@@ -106,6 +106,9 @@ static ambit_status prepare(job *j, ambit_failure *f) {
     status = ambit_pair_choose(q->registry, q->solver, j->solver, q->arithmetic, j->arithmetic, f);
   if (status == AMBIT_OK) status = ambit_context_lease(q->registry, &j->lease, f);
   if (status != AMBIT_OK) return status;
+  if (j->solver->solves != AMBIT_SOLVES_FLOW)
+    return ambit_fail(f, AMBIT_INVALID,
+        "solver `%s` finds roots and does not advance in time; `simulate` needs one that does", q->solver);
   ambit_failure own = { 0 };
   j->option =
       ambit_context_options(j->lease, j->solver->param, "solver", q->solver, q->nsolver_option, q->solver_option, &own);
@@ -198,6 +201,8 @@ static void fill_report(const job *j, double built, const ambit_simulate_result 
   report->graph_nodes = ambit_graph_count(j->q->system->graph);
   count_tape(j->problem.rhs, report);
   count_tape(j->problem.jacobian, report);
+  count_tape(j->problem.invariant, report);
+  count_tape(j->problem.invariant_jacobian, report);
   report->states = j->problem.nx;
   report->parameters = j->problem.np;
   report->unknowns = j->problem.nu;

@@ -90,6 +90,25 @@ static void truth_shared(double t, double u, ambit_interval *x) {
   x[1] = point(-u);
 }
 
+/* (x, y) turns about (0, 0) and stays on a circle of radius u, which is an invariant */
+static void build_circle(kit_model *m) {
+  ambit_expr u = datum(m, 0.5, 0.75);
+  size_t x = state(m, "x", u), y = state(m, "y", number(m, 0));
+  m->rate[x] = negative(m, m->state[y]);
+  m->rate[y] = m->state[x];
+  ambit_expr square[2];
+  for (size_t i = 0; i < 2; i++) square[i] = op(m, AMBIT_OP_SQR, m->state[i], m->state[i]);
+  ambit_expr radius = op(m, AMBIT_OP_SQRT, op(m, AMBIT_OP_ADD, square[0], square[1]), 0);
+  m->ninvariant = 1;
+  m->invariant[0] = op(m, AMBIT_OP_SUB, radius, u);
+  m->invariant_name[0] = "radius";
+}
+
+static void truth_circle(double t, double u, ambit_interval *x) {
+  x[0] = ambit_interval_mul(point(u), function(AMBIT_OP_COS, point(t)));
+  x[1] = ambit_interval_mul(point(u), function(AMBIT_OP_SIN, point(t)));
+}
+
 /* x' = x^2: gone at t = 1 */
 static void build_escape(kit_model *m) {
   size_t x = state(m, "x", number(m, 1));
@@ -119,6 +138,7 @@ const kit_problem kit_problems[] = {
   { "logistic", build_logistic, truth_logistic, 1, 1.25, INFINITY, 3, { 0, 1, 2 }, INFINITY },
   { "explicit time", build_bell, truth_bell, 0, 0, INFINITY, 5, { -1, -0.3, 0x1p-60, 0.5, 2 }, INFINITY },
   { "shared datum", build_shared, truth_shared, 1, 3, INFINITY, 3, { 0, 0.5, 1 }, 1e-12 },
+  { "circle with an invariant", build_circle, truth_circle, 0.5, 0.75, INFINITY, 3, { 0, 1, 7 }, 0.26 },
   { "finite escape", build_escape, truth_escape, 0, 0, 1, 3, { 0, 0.5, 2 }, INFINITY },
   { "edge of the domain", build_edge, truth_edge, 0, 0, 1, 3, { 0, 0.5, 2 }, INFINITY },
 };

@@ -11,6 +11,9 @@ typedef struct kit_model {
   size_t nx;
   const char *name[KIT_STATES], *unit[KIT_STATES];
   ambit_expr state[KIT_STATES], rate[KIT_STATES], initial[KIT_STATES];
+  size_t ninvariant;
+  ambit_expr invariant[KIT_STATES];
+  const char *invariant_name[KIT_STATES];
   ambit_system system;
 } kit_model;
 

@@ -3,7 +3,8 @@
 ** A group is n generators. The youngest groups are the boxes of the last steps, moved along with the flow and so not
 ** wrapped at all. When `keep` groups of one level are there, the older half is replaced by one group of the next
 ** level: the box along the principal axes of their sum. Groups of the highest level are condensed into their own
-** level. With keep = 32 no box is wrapped more than three times in the first 65536 steps, and memory is bounded.
+** level. With keep = 32 no box is wrapped more than three times in the first 65536 boxes (steps, and cuts by
+** invariants), and memory is bounded.
 ** keep = 0 is Lohner's classical set: one orthogonal frame, renewed at every step [Lohner 1988].
 **
 ** Change of frame: let F = D Q, D powers of two, and E = I - Q^T Q with |E| <= eps < 1 in the row-sum norm. Then
@@ -86,6 +87,37 @@ void history_multiply(history *g, const double *M, size_t pitch, const double *r
     pad[i] += gamma * sum + weight * ((double)g->n * 0x1p-1073);
   }
   for (size_t c = 0; c < padded(g); c += BLOCK) multiply_block(g, M, pitch, c);
+}
+
+/* -- how the generators lie to a subspace */
+
+void history_spread(const history *g, uint32_t k, const double *J, size_t pitch, double *spread) {
+  size_t count = padded(g);
+  for (uint32_t r = 0; r < k; r++) {
+    double *out = spread + r * g->pitch;
+    memset(out, 0, g->pitch * sizeof *out);
+    for (uint32_t i = 0; i < g->n; i++) {
+      const double *row = g->direction + i * g->pitch;
+      double factor = J[r * pitch + i];
+      for (size_t c = 0; c < count && factor != 0; c++) out[c] += factor * row[c];
+    }
+    for (size_t c = 0; c < count; c++) out[c] *= g->weight[c];
+  }
+}
+
+void history_correlate(const history *g, uint32_t k, const double *spread, double *cross, double *square) {
+  size_t count = padded(g);
+  for (uint32_t i = 0; i < g->n; i++) {
+    const double *row = g->direction + i * g->pitch;
+    double sum = 0;
+    for (size_t c = 0; c < count; c++) sum += (row[c] * g->weight[c]) * (row[c] * g->weight[c]);
+    square[i] = sum;
+    for (uint32_t r = 0; r < k; r++) {
+      double product = 0;
+      for (size_t c = 0; c < count; c++) product += (row[c] * g->weight[c]) * spread[r * g->pitch + c];
+      cross[(size_t)r * g->n + i] = product;
+    }
+  }
 }
 
 /* -- condensing */

@@ -35,6 +35,7 @@ enum why {
   WHY_BOX,     /* nor over the whole set */
   WHY_NO_STEP, /* no step that is long enough could be proved */
   WHY_WIDE,
+  WHY_APART, /* the set does not meet an invariant */
   WHY_STOPPED
 };
 
@@ -42,6 +43,30 @@ typedef struct options {
   uint32_t order, slope_order, history, pieces;
   double tolerance, step_max, step_min, width_max;
 } options;
+
+/* k invariants, linear over the set: 0 in value +- varies + slope (xi, G e + low) (invariant.c), and the gain that uses
+** them (contract.c) */
+typedef struct constraint {
+  uint32_t k; /* 0: there are none, and nothing below is used */
+  ambit_jet *centre_jet, *box_jet;
+  double *from, *to;             /* [nc] the cube of xi */
+  double *value, *varies;        /* [k] */
+  double *slope_mid, *slope_rad; /* [k x ndir] over the set */
+  double *part_mid, *part_rad;   /* [ndir] over a piece of it */
+  double *low, *high;            /* [k] what slopes leave, over all pieces */
+  double *away, *outward;        /* [nx x nc] columns that lead away from the manifold; [k x nc] J of them */
+  double *spread;                /* [k x history.pitch] J G */
+  double *cross, *gain;          /* [k x nx] */
+  double *normal, *whole, *done; /* [k x k] [k] [k] */
+  double *unit;                  /* [k] one over how far each row reaches */
+  double *before;                /* [nx] mean squares of the set */
+  double *move;                  /* [nx x nx] */
+  double *pivot_mid, *pivot_rad; /* [k x nx] scratch of the rank */
+  double *largest;               /* [k] unit of each row, from the start */
+  double *least;                 /* [k] pivots at the start, 0: none */
+  uint32_t culprit;              /* the invariant that is not met, or loses rank */
+  int lost;                      /* it loses rank */
+} constraint;
 
 typedef struct lohner {
   const ambit_host *host;
@@ -65,6 +90,7 @@ typedef struct lohner {
   double t, t_next;
   span step;
   int at_instant;                             /* the step ends on an instant of the problem */
+  int lenient;                                /* about states that start from zero (step.c) */
   double guess;                               /* next step length to try */
   uint32_t next;                              /* the instant ahead */
   double *series_mid, *series_rad;            /* [nx x (order + 1)] of the centre */
@@ -86,12 +112,14 @@ typedef struct lohner {
   /* -- the record */
   double *lo, *hi, *tube_lo, *tube_hi; /* [nx] */
   uint32_t culprit;                    /* the state that is too wide */
+
+  constraint constraint;
 } lohner;
 
 /* start.c: the initial set, from open() on */
 ambit_status lohner_open(const ambit_host *h, const ambit_problem *p, const double *option, void **self);
 void lohner_close(void *self);
-void lohner_start(lohner *s); /* the set at time[0] */
+enum why lohner_start(lohner *s); /* the set at time[0]; WHY_NOTHING or WHY_APART */
 
 /* run.c */
 ambit_status lohner_run(void *self, ambit_sink *sink);
@@ -102,13 +130,34 @@ enum why lohner_find_step(lohner *s); /* series, a length, and its proof */
 /* series.c: coefficients of jets, values of polynomials */
 uint32_t lohner_centre_series(lohner *s);
 uint32_t lohner_box_series(lohner *s, const double *from, const double *to); /* from, to [nc]: part of xi's box */
+void lohner_put_centre(const lohner *s, ambit_jet *jet);
+void lohner_put_box(lohner *s, ambit_jet *jet, const double *from, const double *to); /* with seeds of slopes */
 ball lohner_increment(const lohner *s, uint32_t i);              /* of the centre over the step, with its excess */
 void lohner_transfer(const lohner *s, double *mid, double *rad); /* slopes at the end of the step */
 void lohner_tube(lohner *s);                                     /* bounds over the whole step */
+double lohner_reach(const lohner *s, uint32_t j);                /* bound of the coordinate of direction j */
 /* set.c */
 void lohner_pieces(lohner *s); /* slopes at the end of the step for the pieces of the set; destroys the box series */
-void lohner_move(lohner *s);   /* the set, from the start of the step to its end */
-void lohner_hull(lohner *s);   /* rest, radius, lo, hi of the set */
+/* [-low, high]: what a row S of slopes, mid +- rad, and the point row `matrix` make different, (S - M) v, for xi in
+** [from, to] */
+void lohner_beyond(const lohner *s, const double *mid, const double *rad, const double *matrix, const double *from,
+    const double *to, double *low, double *high);
+void lohner_move(lohner *s); /* the set, from the start of the step to its end */
+/* new midpoint of state i: the old one, a step and a shift; *rest: what is not in it */
+void lohner_shift(const lohner *s, uint32_t i, double step, ball shift, double *centre, double *low, double *rest);
+void lohner_hull(lohner *s); /* rest, radius, lo, hi of the set */
+
+/* invariant.c */
+ambit_status lohner_open_invariants(lohner *s);
+void lohner_close_invariants(lohner *s);
+/* invariants over the set at time t, `pieces` of xi's cube at a time (at most 1: the whole); 0: they cannot be used */
+int lohner_linearise(lohner *s, double t, uint32_t pieces);
+/* contract.c */
+/* the part of the set on which the invariants vanish, and its hull */
+enum why lohner_contract(lohner *s, double t, uint32_t pieces);
+/* rank.c */
+void lohner_note_rank(lohner *s); /* as it is at the start */
+int lohner_loses_rank(lohner *s); /* 1: constraint.culprit depends on others here, as far as can be told */
 
 /* history.c */
 int history_open(const ambit_host *h, history *g, uint32_t n, uint32_t keep);
@@ -118,6 +167,10 @@ void history_clear(history *g);
 void history_multiply(history *g, const double *M, size_t pitch, const double *rest, double *pad);
 void history_push(history *g, const double *box); /* n new generators: the box, one for each state */
 void history_sum(const history *g, double *rest); /* rest[i] >= sum over columns of |G_ic| */
+/* about J G [k x g->pitch], J [k x n] with rows `pitch` apart, about G (J G)^T, transposed [k x n], and about the sums
+** of squares of the rows of G [n] */
+void history_spread(const history *g, uint32_t k, const double *J, size_t pitch, double *spread);
+void history_correlate(const history *g, uint32_t k, const double *spread, double *cross, double *square);
 
 /* frame.c: orthogonal frames; results are approximate, bounds are not */
 void frame_axes(

@@ -1,5 +1,6 @@
 /* run.c -- from step to step, into the sink; and what a run that could not go on has to say. */
 #include "lohner.h"
+#include <stdio.h>
 
 #define FORGET 0.9 /* per step: how fast a state's size is forgotten */
 
@@ -45,6 +46,7 @@ static enum why advance(lohner *s) {
   lohner_pieces(s);
   lohner_move(s);
   lohner_hull(s);
+  if (lohner_contract(s, s->t_next, s->pieces) != WHY_NOTHING) return WHY_APART;
   for (uint32_t i = 0; i < s->nx; i++) {
     s->size[i] = larger(FORGET * s->size[i], larger(fabs(s->lo[i]), fabs(s->hi[i])));
     s->culprit = i;
@@ -55,8 +57,8 @@ static enum why advance(lohner *s) {
   return WHY_NOTHING;
 }
 
-static AMBIT_WORKER enum why integrate(lohner *s, ambit_sink *sink) {
-  lohner_start(s);
+static enum why integrate(lohner *s, ambit_sink *sink) {
+  if (lohner_start(s) != WHY_NOTHING) return WHY_APART;
   while (s->next < s->problem.ntime) {
     double t_from = s->t;
     enum why why = advance(s);
@@ -64,6 +66,12 @@ static AMBIT_WORKER enum why integrate(lohner *s, ambit_sink *sink) {
     if (emit(s, sink, t_from)) return WHY_STOPPED;
   }
   return WHY_NOTHING;
+}
+
+static AMBIT_WORKER enum why work(lohner *s, ambit_sink *sink) {
+  enum why why = integrate(s, sink);
+  s->constraint.lost = why != WHY_NOTHING && why != WHY_APART && why != WHY_STOPPED && lohner_loses_rank(s);
+  return why;
 }
 
 /* -- reasons */
@@ -74,42 +82,64 @@ static double width(const lohner *s) {
   return 2 * most;
 }
 
+static void say_rank(const lohner *s, size_t room, char *text) {
+  text[0] = '\0';
+  if (s->constraint.lost)
+    snprintf(
+        text, room, " (the constraints may lose rank here: `%s`)", s->problem.invariant_name[s->constraint.culprit]);
+}
+
+/* Only solutions on which the invariants vanish are claimed, and there are none. */
+static ambit_status explain_apart(const lohner *s) {
+  const char *name = s->problem.invariant_name[s->constraint.culprit];
+  if (s->t == s->problem.time[0] && s->t_next == s->t)
+    return s->host->fail(s->host, AMBIT_DOMAIN,
+        "the initial set does not meet the constraint `%s`: no initial state of it can satisfy it; mend the initial "
+        "values",
+        name);
+  return s->host->fail(s->host, AMBIT_BROKEN,
+      "at t = %.9g s no state of the enclosure satisfies the constraint `%s`: no initial state does, or the equations "
+      "of motion do not keep it",
+      s->t_next, name);
+}
+
 static ambit_status explain(const lohner *s, enum why why) {
   const ambit_host *h = s->host;
+  char rank[160];
   switch (why) {
   case WHY_NOTHING: return AMBIT_OK;
   case WHY_STOPPED: return AMBIT_STOPPED;
+  case WHY_APART: return explain_apart(s);
+  default: say_rank(s, sizeof rank, rank);
+  }
+  switch (why) {
   case WHY_CENTRE:
     return h->fail(h, AMBIT_UNABLE,
-        "at t = %.9g s the right-hand side is not defined, not smooth or too large at the midpoint of the enclosure; "
+        "at t = %.9g s the right-hand side is not defined, not smooth or too large at the midpoint of the enclosure%s; "
         "end before it",
-        s->t);
+        s->t, rank);
   case WHY_BOX:
     return h->fail(h, AMBIT_UNABLE,
         "at t = %.9g s the enclosure, up to %.3g wide, reaches a point where the right-hand side is not defined, not "
-        "smooth or too large; "
-        "split the initial set, or end before it",
-        s->t, width(s));
+        "smooth or too large%s; split the initial set, or end before it",
+        s->t, width(s), rank);
   case WHY_WIDE:
     return h->fail(h, AMBIT_UNABLE,
-        "the enclosure of `%s` grew wider than %.4g in the step from t = %.9g s; split the initial set, raise "
-        "`pieces`, "
-        "or allow more by "
-        "`width_max`",
-        s->problem.name[s->culprit], s->limit[s->culprit], s->t);
+        "the enclosure of `%s` grew wider than %.4g in the step from t = %.9g s%s; split the initial set, raise "
+        "`pieces`, or allow more by `width_max`",
+        s->problem.name[s->culprit], s->limit[s->culprit], s->t, rank);
   default:
     return h->fail(h, AMBIT_UNABLE,
         "at t = %.9g s no step of at least %.3g s could be proved, with an enclosure up to %.3g wide: a solution may "
-        "escape or leave "
-        "the domain of the right-hand side near here; if not, split the initial set, lower `step_min` or raise "
-        "`tolerance`",
-        s->t, s->options.step_min, width(s));
+        "escape or leave the domain of the right-hand side near here%s; if not, split the initial set, lower "
+        "`step_min` or raise `tolerance`",
+        s->t, s->options.step_min, width(s), rank);
   }
 }
 
 ambit_status lohner_run(void *self, ambit_sink *sink) {
   ambit_rounding outside = ambit_round_up();
-  enum why why = integrate(self, sink);
+  enum why why = work(self, sink);
   ambit_rounding_restore(outside);
   return explain(self, why);
 }

@@ -17,10 +17,14 @@ static uint32_t put_time_and_solve(lohner *s, ambit_jet *jet, uint32_t order) {
   return s->jet->solve(jet, s->nx, order);
 }
 
+void lohner_put_centre(const lohner *s, ambit_jet *jet) {
+  for (uint32_t i = 0; i < s->nx; i++) s->jet->put(jet, i, 0, s->centre[i], 0, NULL, NULL);
+  for (uint32_t i = 0; i < s->np; i++) s->jet->put(jet, s->nx + i, 0, s->fixed[i], 0, NULL, NULL);
+}
+
 uint32_t lohner_centre_series(lohner *s) {
   uint32_t p = s->options.order;
-  for (uint32_t i = 0; i < s->nx; i++) s->jet->put(s->centre_jet, i, 0, s->centre[i], 0, NULL, NULL);
-  for (uint32_t i = 0; i < s->np; i++) s->jet->put(s->centre_jet, s->nx + i, 0, s->fixed[i], 0, NULL, NULL);
+  lohner_put_centre(s, s->centre_jet);
   uint32_t flags = put_time_and_solve(s, s->centre_jet, p);
   for (uint32_t i = 0; i < s->nx && !flags; i++)
     for (uint32_t k = 0; k <= p; k++) {
@@ -40,20 +44,25 @@ static ball box_of(double centre, uint32_t nc, const double *row, const double *
   return ball_of(low, high);
 }
 
-uint32_t lohner_box_series(lohner *s, const double *from, const double *to) {
-  uint32_t nc = s->nc, q = s->options.slope_order;
+void lohner_put_box(lohner *s, ambit_jet *jet, const double *from, const double *to) {
+  uint32_t nc = s->nc;
   for (uint32_t i = 0; i < s->nx; i++) {
     const double *row = s->column + (size_t)i * nc;
     ball box = box_of(s->centre[i], nc, row, from, to, s->rest[i] + fabs(s->low[i]));
     for (uint32_t j = 0; j < s->ndir; j++) s->seed[j] = j < nc ? row[j] : j - nc == i;
-    s->jet->put(s->box_jet, i, 0, box.mid, box.rad, s->seed, s->no_radius);
+    s->jet->put(jet, i, 0, box.mid, box.rad, s->seed, s->no_radius);
   }
   for (uint32_t i = 0; i < s->np; i++) {
     const double *row = s->fixed_column + (size_t)i * nc;
     ball box = box_of(s->fixed[i], nc, row, from, to, 0);
     for (uint32_t j = 0; j < s->ndir; j++) s->seed[j] = j < nc ? row[j] : 0;
-    s->jet->put(s->box_jet, s->nx + i, 0, box.mid, box.rad, s->seed, s->no_radius);
+    s->jet->put(jet, s->nx + i, 0, box.mid, box.rad, s->seed, s->no_radius);
   }
+}
+
+uint32_t lohner_box_series(lohner *s, const double *from, const double *to) {
+  uint32_t q = s->options.slope_order;
+  lohner_put_box(s, s->box_jet, from, to);
   uint32_t flags = put_time_and_solve(s, s->box_jet, q);
   for (uint32_t i = 0; i < s->nx && !flags; i++)
     for (uint32_t k = 0; k <= q; k++) {
@@ -94,6 +103,10 @@ void lohner_transfer(const lohner *s, double *mid, double *rad) {
     for (size_t k = q; k-- > 0;) horner(&s->step, n, m, r, a + k * n, b + k * n);
     for (size_t j = 0; j < n; j++) r[j] += s->slope_excess[(size_t)i * n + j];
   }
+}
+
+double lohner_reach(const lohner *s, uint32_t j) {
+  return j < s->nc ? 1 : s->rest[j - s->nc] + fabs(s->low[j - s->nc]);
 }
 
 /* -- bounds over the whole step */
@@ -138,7 +151,7 @@ void lohner_tube(lohner *s) {
     double rest = s->excess[i];
     for (size_t j = 0; j < n; j++) {
       size_t slope = (size_t)i * (q + 1) * n + j;
-      double reach = j < s->nc ? 1 : s->rest[j - s->nc] + fabs(s->low[j - s->nc]);
+      double reach = lohner_reach(s, (uint32_t)j);
       if (reach == 0) continue;
       bounds d = range(s, q + 1, s->slope_mid + slope, s->slope_rad + slope, n);
       rest += (larger(d.low, d.high) + s->slope_excess[(size_t)i * n + j]) * reach;

@@ -91,14 +91,11 @@ static void choose_matrix(lohner *s) {
   }
 }
 
-/* row i of (S - M) v over piece k, added to [-low, high] */
-static void nonlinear_part(const lohner *s, uint32_t i, uint32_t k, double *low, double *high) {
-  size_t row = (size_t)i * s->ndir, at = (size_t)k * s->nx * s->ndir + row;
-  const double *from = s->piece_from + (size_t)k * s->nc, *to = s->piece_to + (size_t)k * s->nc;
+void lohner_beyond(const lohner *s, const double *mid, const double *rad, const double *matrix, const double *from,
+    const double *to, double *low, double *high) {
   *low = *high = 0;
   for (uint32_t j = 0; j < s->ndir; j++) {
-    double mid = s->transfer_mid[at + j], rad = s->transfer_rad[at + j], m = s->matrix[row + j];
-    double above = (mid - m) + rad, below = (m - mid) + rad; /* S - M in [-below, above] */
+    double above = (mid[j] - matrix[j]) + rad[j], below = (matrix[j] - mid[j]) + rad[j]; /* S - M in [-below, above] */
     if (j >= s->nc) {
       double most = larger(above, below) * (s->rest[j - s->nc] + fabs(s->low[j - s->nc]));
       *low += most, *high += most;
@@ -114,28 +111,35 @@ static ball nonlinear(const lohner *s, uint32_t i) {
   double low = -INFINITY, high = -INFINITY;
   for (uint32_t k = 0; k < s->pieces; k++) {
     double l, h;
-    nonlinear_part(s, i, k, &l, &h);
+    size_t row = (size_t)i * s->ndir, at = (size_t)k * s->nx * s->ndir + row;
+    lohner_beyond(s, s->transfer_mid + at, s->transfer_rad + at, s->matrix + row, s->piece_from + (size_t)k * s->nc,
+        s->piece_to + (size_t)k * s->nc, &l, &h);
     low = larger_or_nan(low, l), high = larger_or_nan(high, h);
   }
   return ball_of(low, high);
 }
 
-/* New midpoint of state i; what is not in it goes to added[i]. */
-static void move_centre(lohner *s, uint32_t i, double *centre, double *low) {
+void lohner_shift(const lohner *s, uint32_t i, double step, ball shift, double *centre, double *low, double *rest) {
+  double sum;
+  shift = ball_add(shift, ball_two_sum(s->centre[i], step, &sum));
+  ball left = ball_two_sum(sum, shift.mid, centre);
+  *low = left.mid;
+  *rest = left.rad + shift.rad;
+}
+
+/* What is not in the new midpoint of state i goes to added[i]. */
+static void move_centre(lohner *s, uint32_t i) {
   const double *row = s->matrix + (size_t)i * s->ndir + s->nc;
   ball shift = nonlinear(s, i), step = lohner_increment(s, i);
   for (uint32_t j = 0; j < s->nx; j++)
     if (s->low[j] != 0) shift = ball_add(shift, ball_of((-row[j]) * s->low[j], row[j] * s->low[j]));
-  double sum;
-  shift = ball_add(shift, ball_two_sum(s->centre[i], step.mid, &sum));
-  ball rest = ball_two_sum(sum, shift.mid, centre);
-  *low = rest.mid;
-  s->added[i] = rest.rad + shift.rad + step.rad;
+  lohner_shift(s, i, step.mid, shift, &s->new_centre[i], &s->new_low[i], &s->added[i]);
+  s->added[i] += step.rad;
 }
 
 void lohner_move(lohner *s) {
   choose_matrix(s);
-  for (uint32_t i = 0; i < s->nx; i++) move_centre(s, i, &s->new_centre[i], &s->new_low[i]);
+  for (uint32_t i = 0; i < s->nx; i++) move_centre(s, i);
   memcpy(s->centre, s->new_centre, s->nx * sizeof(double));
   memcpy(s->low, s->new_low, s->nx * sizeof(double));
   for (uint32_t i = 0; i < s->nx && s->nc; i++)

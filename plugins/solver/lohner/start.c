@@ -208,7 +208,8 @@ static ambit_status open_set(lohner *s, origin *o) {
   s->ndir = s->nc + s->nx;
   if (!allocate_vectors(s)) return no_memory(s->host);
   keep_origin(s, o);
-  return open_series(s);
+  ambit_status status = open_series(s);
+  return status == AMBIT_OK ? lohner_open_invariants(s) : status;
 }
 
 ambit_status lohner_open(const ambit_host *h, const ambit_problem *p, const double *option, void **self) {
@@ -236,9 +237,10 @@ void lohner_close(void *self) {
   lohner *s = self;
   if (s->centre_jet) s->jet->close(s->centre_jet);
   if (s->box_jet) s->jet->close(s->box_jet);
+  lohner_close_invariants(s);
 }
 
-void lohner_start(lohner *s) {
+enum why lohner_start(lohner *s) {
   const ambit_problem *p = &s->problem;
   size_t bytes = s->nx * sizeof(double);
   memcpy(s->centre, s->start, bytes);
@@ -246,13 +248,16 @@ void lohner_start(lohner *s) {
   if (s->nc) memcpy(s->column, s->start_column, bytes * s->nc);
   history_clear(&s->history);
   history_push(&s->history, s->start_rest);
+  s->t = s->t_next = p->time[0];
   lohner_hull(s);
+  if (lohner_contract(s, s->t, 1) != WHY_NOTHING) return WHY_APART;
+  lohner_note_rank(s);
   for (uint32_t i = 0; i < s->nx; i++) {
     s->size[i] = larger(fabs(s->lo[i]), fabs(s->hi[i]));
     s->limit[i] = s->options.width_max * larger(1, s->size[i]);
   }
-  s->t = p->time[0];
   s->next = 1;
   s->guess = smaller(fabs(p->time[1] - p->time[0]), s->options.step_max);
   if (s->options.step_min == 0) s->options.step_min = RESOLUTION * fabs(p->time[p->ntime - 1] - p->time[0]);
+  return WHY_NOTHING;
 }
