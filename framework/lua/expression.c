@@ -122,6 +122,17 @@ static int leaves(lua_State *L) {
   return 1;
 }
 
+/* substitute({e, ...}, {leaf, ...}, {value, ...}) -> {e, ...}: each leaf replaced by its value */
+static int substitute(lua_State *L) {
+  size_t n = (size_t)luaL_len(L, 1), count = (size_t)luaL_len(L, 2);
+  ambit_expr *e = ambit_lua_to_array(L, 1, n), *leaf = ambit_lua_to_array(L, 2, count);
+  ambit_expr *value = ambit_lua_to_array(L, 3, count);
+  ambit_failure f = { 0 };
+  if (ambit_graph_substitute(AMBIT_LUA(L)->graph, n, e, count, leaf, value, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
+  ambit_lua_push_expressions(L, n, e);
+  return 1;
+}
+
 static int nodes(lua_State *L) {
   lua_pushinteger(L, ambit_graph_count(AMBIT_LUA(L)->graph));
   return 1;
@@ -132,7 +143,8 @@ void ambit_lua_open_expression(lua_State *L, ambit_lua *core) {
     { NULL, NULL } };
   static const luaL_Reg functions[] = { { "derivative", derivative }, { "simplify", simplify },
     { "expression", expression }, { "symbol", symbol }, { "time", time_symbol }, { "pi", pi },
-    { "is_constant", is_constant }, { "leaves", leaves }, { "nodes", nodes }, { NULL, NULL } };
+    { "is_constant", is_constant }, { "leaves", leaves }, { "nodes", nodes },
+    { "substitute", substitute }, { NULL, NULL } };
   static const char *const operators[][2] = { { "__add", "add" }, { "__sub", "sub" }, { "__mul", "mul" },
     { "__div", "div" }, { "__unm", "neg" }, { "__pow", "pow" } };
   ambit_lua_set_functions(L, core, functions);

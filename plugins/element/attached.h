@@ -66,5 +66,5 @@ static ambit_status attached_express(ambit_build *b, uint32_t port, uint32_t qua
 }
 
 static const ambit_element attached_element = { sizeof attached_element, 2, attached_port, attached_param,
-  attached_express };
+  attached_express, NULL };
 #endif

@@ -15,7 +15,7 @@ static ambit_status express(ambit_build *b, uint32_t port, uint32_t quantity, am
   return AMBIT_OK;
 }
 
-static const ambit_element element = { sizeof element, 0, NULL, params, express };
+static const ambit_element element = { sizeof element, 0, NULL, params, express, NULL };
 
 AMBIT_ELEMENT_ENTRY(
     "gravity", "1.0", "A uniform field of gravity, { 0, 0, \"-9.81\" } for instance; several add up.", element)

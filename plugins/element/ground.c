@@ -38,7 +38,7 @@ static ambit_status express(ambit_build *b, uint32_t port, uint32_t quantity, am
   return AMBIT_OK;
 }
 
-static const ambit_element element = { sizeof element, 1, ports, params, express };
+static const ambit_element element = { sizeof element, 1, ports, params, express, NULL };
 
 AMBIT_ELEMENT_ENTRY(
     "ground", "1.0", "A frame fixed in the world at `position`, perhaps turned by `angle` about `axis`.", element)

@@ -1,7 +1,7 @@
 /* point_mass.c -- a mass at the origin of a frame.
 **
 ** d'Alembert: it exerts the inertial force -m a, no torque; a is the proper acceleration, so that the weight is in
-** it. Energy: m v^2 / 2 and -m g.r.
+** it. Energy: m v^2 / 2 and -m g.r; momentum m v, angular momentum r x m v.
 */
 #include <ambit/spatial.h>
 
@@ -35,13 +35,15 @@ static ambit_status express_energy(ambit_build *b, ambit_expr m, ambit_expr *out
 
 static ambit_status express(ambit_build *b, uint32_t port, uint32_t quantity, ambit_expr *out) {
   ambit_expr m = *b->param(b, MASS);
-  int wrench = port == AT && quantity == AMBIT_WRENCH, energy = port == AMBIT_NO_PORT && quantity == AMBIT_ENERGY;
-  if (!wrench && !energy) return AMBIT_UNABLE;
-  ambit_status status = ambit_check_mass(b, m);
-  if (status != AMBIT_OK) return status;
-  return wrench ? express_wrench(b, m, out) : express_energy(b, m, out);
+  if (port == AT && quantity == AMBIT_WRENCH) return express_wrench(b, m, out);
+  if (port != AMBIT_NO_PORT) return AMBIT_UNABLE;
+  if (quantity == AMBIT_ENERGY) return express_energy(b, m, out);
+  if (quantity < AMBIT_MASS || quantity > AMBIT_MOMENTUM) return AMBIT_UNABLE;
+  return ambit_express_mass(b, AT, quantity, m, ambit_vector3_zero(), ambit_vector3_zero(), out);
 }
 
-static const ambit_element element = { sizeof element, 1, ports, params, express };
+static ambit_status check(ambit_build *b) { return ambit_check_mass(b, *b->param(b, MASS)); }
+
+static const ambit_element element = { sizeof element, 1, ports, params, express, check };
 
 AMBIT_ELEMENT_ENTRY("point_mass", "1.0", "A mass without extent at the origin of a frame.", element)

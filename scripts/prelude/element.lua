@@ -3,6 +3,7 @@
 local check = require "ambit.check"
 local core = require "ambit.core"
 local frame = require "ambit.frame"
+local law = require "ambit.law"
 local parameter = require "ambit.parameter"
 
 local element = {}
@@ -55,41 +56,56 @@ local function connections(self, d, t)
   return list
 end
 
--- A function as a value is a law: called once with expressions (coordinate, rate of the joint it acts on; time), and
--- recorded.
-local function law(self, d, t, value, what)
-  local arguments = {}
+-- Data of a joint have one unit if it turns and another if it slides ("N m/rad|N/m"): that of the joint at hand, where
+-- it can be told.
+local function fitting(self, d, t, param)
+  if not param.unit:find "|" then return param end
+  local turning, sliding = param.unit:match "^(.-)|(.*)$"
   for _, port in ipairs(d.ports) do
-    if port.role == "in" and port.kind == "joint" and t[port.name] ~= nil then
-      local part, number = frame.place(self, t[port.name], "joint", what)
-      local dof = math.max(port.dof, 1)
-      for _, quantity in ipairs { core.COORDINATE, core.RATE } do
-        local list = core.pull(self.handle, part, number, quantity, dof)
-        arguments[#arguments + 1] = dof == 1 and list[1] or list
+    local part = port.kind == "joint" and port.role == "in" and t[port.name] ~= nil
+      and frame.place(self, t[port.name], "joint", param.what)
+    for _, c in ipairs(part and core.coordinates(self.handle) or {}) do
+      if c.part == part then
+        return setmetatable({ unit = c.unit == "rad" and turning or sliding }, { __index = param })
       end
     end
   end
-  arguments[#arguments + 1] = core.time()
-  local result = value(table.unpack(arguments))
-  if result == nil then check.fail("%s: the function returned nothing", what) end
-  return result
+  return param
 end
 
 local function parameters(self, d, t)
   local first = take_positional(d, t)
-  local list = {}
+  local list, values, laws = {}, {}, {}
+  local function express(i, param, value)
+    list[i] = parameter.express(fitting(self, d, t, param), value, param.what)
+    values[param.name] = list[i]
+  end
   for i, param in ipairs(d.parameters) do
     local value = t[param.name]
     if i == 1 and first ~= nil then value = first end
-    if type(value) == "function" then value = law(self, d, t, value, param.what) end
-    if value == nil then
-      list[i] = parameter.fallback(param, param.what) or false
+    if type(value) == "function" then
+      laws[i], list[i] = value, false
+    elseif value ~= nil then
+      express(i, param, value)
     else
-      list[i] = parameter.express(param, value, param.what)
+      list[i] = parameter.fallback(param, param.what) or false
     end
+  end
+  for i, param in ipairs(d.parameters) do
+    if laws[i] then express(i, param, law.record(self, d, t, values, param, laws[i])) end
   end
   return list
 end
+
+-- What a part was made of: its connections and parameters, as core.add takes them.
+local made = setmetatable({}, { __mode = "k" })
+
+local function remember(self, part, links, values)
+  made[self] = made[self] or {}
+  made[self][part] = { links = links, values = values }
+end
+
+function element.made(m, part) return made[m][part] end
 
 -- Adds one element; returns its OUT frames and joints, in the order of their declaration.
 function element.add(self, name, t)
@@ -99,8 +115,10 @@ function element.add(self, name, t)
   if t.name ~= nil then check.text(t.name, name .. ": name") end
   local where = core.where():gsub(": $", "")
   local links = connections(self, d, t)
-  local part = core.add(self.handle, name, t.name, where, parameters(self, d, t), links)
+  local values = parameters(self, d, t)
+  local part = core.add(self.handle, name, t.name, where, values, links)
   self.declared[part] = d
+  remember(self, part, links, values)
   local outs = {}
   for i, port in ipairs(d.outs) do outs[i] = frame.new(self, part, port) end
   return table.unpack(outs)

@@ -4,14 +4,23 @@ local core = require "ambit.core"
 
 local parameter = {}
 
+-- "N m/rad or N/m": some data have one unit or another.
+function parameter.unit_text(param) return (param.unit:gsub("|", " or ")) end
+
 local axes = { x = { 1, 0, 0 }, y = { 0, 1, 0 }, z = { 0, 0, 1 } }
 
 local function one(param, value, what)
   if type(value) == "table" or type(value) == "function" or type(value) == "boolean" then
     check.fail("%s: expected a number, text or expression%s, got %s", what,
-      param.unit ~= "1" and " in " .. param.unit or "", check.kind(value))
+      param.unit ~= "1" and " in " .. parameter.unit_text(param) or "", check.kind(value))
   end
-  return core.expression(value, param.unit, what)
+  local units = {}
+  for unit in param.unit:gmatch "[^|]+" do units[#units + 1] = unit end
+  for i = 1, #units - 1 do
+    local fits, e = pcall(core.expression, value, units[i], what)
+    if fits then return e end
+  end
+  return core.expression(value, units[#units], what)
 end
 
 -- { a, b, c }, { x =, y =, z = } or rows of rows, as one list of n expressions

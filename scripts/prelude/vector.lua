@@ -18,6 +18,13 @@ function Vector.__add(a, b) return Vector.new(a.x + b.x, a.y + b.y, a.z + b.z) e
 function Vector.__sub(a, b) return Vector.new(a.x - b.x, a.y - b.y, a.z - b.z) end
 function Vector.__unm(a) return Vector.new(-a.x, -a.y, -a.z) end
 
+-- by a number, an expression or an enclosure; write an expression second (v * e): the first operand decides
+function Vector.__mul(a, b)
+  local v, s = a, b
+  if getmetatable(a) ~= Vector then v, s = b, a end
+  return Vector.new(v.x * s, v.y * s, v.z * s)
+end
+
 function Vector.new(x, y, z) return setmetatable({ x = x, y = y, z = z }, Vector) end
 
 -- rotation (nine entries by rows) times v

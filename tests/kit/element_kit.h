@@ -12,10 +12,10 @@
 **   pose          a proper rotation
 **   twist         R^T R' and R^T r'
 **   acceleration  w' and v' + w x v - R^T g
-**   joints        rates are the derivatives of the coordinate
-**   power         sum of wrench.twist at OUT frames + effort.rate
-**                 = sum of wrench.twist at IN frames + balance.rate + dE/dt (not for elements that drive a joint:
-** those have an IN joint)
+**   joints        rates are the derivatives of the coordinates; with fewer speeds than coordinates (AMBIT_DOF) they
+**                 are what AMBIT_COORDINATE_RATE says, and the variables of a row without multiplier a unit vector
+**   power         element_kit_power.c: wrenches, efforts, multipliers, AMBIT_ENERGY and AMBIT_POWER fit together
+**   momentum      element_kit_momentum.c: action and reaction; AMBIT_MASS, AMBIT_MASS_MOMENT, AMBIT_MOMENTUM
 */
 #ifndef AMBIT_ELEMENT_KIT_H
 #define AMBIT_ELEMENT_KIT_H
@@ -25,7 +25,7 @@ typedef struct element_kit_report {
   unsigned stages;                       /* combinations of parameters */
   unsigned expressed, refused, declined; /* quantities, over all stages */
   unsigned compared;                     /* numbers that had to vanish, over all stages and points */
-  unsigned powers;                       /* balances of power that were closed */
+  unsigned powers, reactions;            /* balances of power and of momentum that were closed */
   unsigned failures;
   char first[600]; /* the first failure */
 } element_kit_report;

@@ -61,7 +61,7 @@ static const ambit_port mover_port[] = {
   { "to", AMBIT_PORT_FRAME, AMBIT_ROLE_OUT, 0, 0, "the moving frame" },
   { "joint", AMBIT_PORT_JOINT, AMBIT_ROLE_OUT, 6, 0, "three angles, three displacements" },
 };
-const ambit_element element_stage_mover = { sizeof(ambit_element), 2, mover_port, NULL, express_mover };
+const ambit_element element_stage_mover = { sizeof(ambit_element), 2, mover_port, NULL, express_mover, NULL };
 
 /* -- what is exerted */
 
@@ -78,7 +78,7 @@ static ambit_status express_load(ambit_build *b, uint32_t port, uint32_t quantit
 static const ambit_port load_port[] = { { "at", AMBIT_PORT_FRAME, AMBIT_ROLE_IN, 0, 0, "the loaded frame" } };
 static const ambit_param load_param[] = { { "wrench", "1", "6", NULL, "torque and force" },
   { NULL, NULL, NULL, NULL, NULL } };
-const ambit_element element_stage_load = { sizeof(ambit_element), 1, load_port, load_param, express_load };
+const ambit_element element_stage_load = { sizeof(ambit_element), 1, load_port, load_param, express_load, NULL };
 
 static ambit_status express_field(ambit_build *b, uint32_t port, uint32_t quantity, ambit_expr *out) {
   return port == AMBIT_NO_PORT && quantity == AMBIT_FIELD ? give_param(b, 3, out) : AMBIT_UNABLE;
@@ -86,30 +86,34 @@ static ambit_status express_field(ambit_build *b, uint32_t port, uint32_t quanti
 
 static const ambit_param field_param[] = { { "field", "m/s^2", "3", NULL, "gravity" },
   { NULL, NULL, NULL, NULL, NULL } };
-const ambit_element element_stage_field = { sizeof(ambit_element), 0, NULL, field_param, express_field };
+const ambit_element element_stage_field = { sizeof(ambit_element), 0, NULL, field_param, express_field, NULL };
 
-/* -- joints; the number of degrees is known from what the stage gives */
+/* -- joints; the numbers of speeds and of coordinates are known from what the stage gives */
 
+static uint32_t count(ambit_build *b, uint32_t param) {
+  uint32_t n = 0;
+  const ambit_expr *flags = b->param(b, param);
+  while (n < AMBIT_QUANTITY_MAX && flags[n]) n++;
+  return n;
+}
+
+/* With more coordinates than speeds the first q' are the speeds, the others 0. */
 static ambit_status express_joint(ambit_build *b, uint32_t port, uint32_t quantity, ambit_expr *out) {
-  if (port != 0 || quantity < AMBIT_COORDINATE || quantity > AMBIT_RATE2) return AMBIT_UNABLE;
-  uint32_t dof = 0;
-  const ambit_expr *flags = b->param(b, 0);
-  while (dof < AMBIT_QUANTITY_MAX && flags[dof]) {
-    out[dof] = b->state(b, dof, quantity - AMBIT_COORDINATE, "1");
-    dof++;
+  if (port != 0 || quantity < AMBIT_COORDINATE || quantity > AMBIT_COORDINATE_RATE) return AMBIT_UNABLE;
+  uint32_t dof = count(b, 0), coordinates = count(b, 1), order = quantity - AMBIT_COORDINATE;
+  if (quantity == AMBIT_COORDINATE || quantity == AMBIT_COORDINATE_RATE) {
+    for (uint32_t i = 0; i < coordinates; i++)
+      out[i] = quantity == AMBIT_COORDINATE ? b->state(b, i, 0, "1") : i < dof ? b->speed(b, i, 1, "1/s") : 0;
+    return AMBIT_OK;
   }
+  if (quantity > AMBIT_RATE2) return AMBIT_UNABLE;
+  for (uint32_t i = 0; i < dof; i++)
+    out[i] = dof == coordinates ? b->state(b, i, order, "1") : b->speed(b, i, order, "1/s");
   return AMBIT_OK;
 }
 
 static ambit_status express_effort(ambit_build *b, uint32_t port, uint32_t quantity, ambit_expr *out) {
-  if (port != 0 || quantity != AMBIT_EFFORT) return AMBIT_UNABLE;
-  uint32_t dof = 0;
-  const ambit_expr *effort = b->param(b, 0);
-  while (dof < AMBIT_QUANTITY_MAX && effort[dof]) {
-    out[dof] = effort[dof];
-    dof++;
-  }
-  return AMBIT_OK;
+  return port == 0 && quantity == AMBIT_EFFORT ? give_param(b, count(b, 0), out) : AMBIT_UNABLE;
 }
 
 static void make(element_stage_joint *j, uint32_t dof, uint32_t role) {
@@ -117,8 +121,11 @@ static void make(element_stage_joint *j, uint32_t dof, uint32_t role) {
   j->port[0] = (ambit_port) { "joint", AMBIT_PORT_JOINT, role, dof, 0, "the joint" };
   j->param[0] = (ambit_param) { "value", "1", j->shape, NULL, "one for each degree of freedom, then 0" };
   j->param[1] = (ambit_param) { NULL, NULL, NULL, NULL, NULL };
+  j->param[2] = j->param[1];
+  if (role == AMBIT_ROLE_OUT)
+    j->param[1] = (ambit_param) { "coordinates", "1", j->shape, NULL, "one for each coordinate, then 0" };
   j->element = (ambit_element) { sizeof(ambit_element), 1, j->port, j->param,
-    role == AMBIT_ROLE_OUT ? express_joint : express_effort };
+    role == AMBIT_ROLE_OUT ? express_joint : express_effort, NULL };
 }
 
 void element_stage_make_joint(element_stage_joint *j, uint32_t dof) { make(j, dof, AMBIT_ROLE_OUT); }

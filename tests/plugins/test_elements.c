@@ -3,8 +3,8 @@
 #include "kit/element_kit.h"
 #include <ambit/spatial.h>
 #include <setjmp.h>
-#include <stdbool.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 #include <cmocka.h>
@@ -24,26 +24,62 @@ static void all_plugins_conform(void **state) {
   (void)state;
   static const struct {
     const char *name;
-    bool frames, powers;
-  } element[] = { { "ground", true, true }, { "frame", true, true }, { "rigid_link", true, true },
-    { "revolute", true, true }, { "prismatic", true, true }, { "sloppy_joint", true, false },
-    { "rigid_body", false, true }, { "point_mass", false, true }, { "gravity", false, true },
-    { "joint_torque", false, false }, { "weld", true, true }, { "cylindrical", true, true },
-    { "universal", true, true }, { "planar", true, true }, { "screw", true, true }, { "spherical", true, true },
-    { "free", true, true } };
+    bool frames, powers, reactions; /* has OUT frames; balances of power, of momentum are closed */
+  } element[] = { { "ground", true, true, false }, { "frame", true, true, true }, { "rigid_link", true, true, true },
+    { "revolute", true, true, true }, { "prismatic", true, true, true }, { "sloppy_joint", true, false, false },
+    { "rigid_body", false, true, true }, { "point_mass", false, true, true }, { "gravity", false, true, false },
+    { "joint_torque", false, true, false }, { "weld", true, true, true }, { "cylindrical", true, true, true },
+    { "universal", true, true, true }, { "planar", true, true, true }, { "screw", true, true, true },
+    { "spherical", true, true, true }, { "free", true, true, true }, { "joint_spring", false, true, false },
+    { "joint_damper", false, true, false }, { "joint_friction", false, true, false },
+    { "spring_damper", false, true, true }, { "force_law", false, true, true }, { "bushing", false, true, true },
+    { "applied_force", false, true, false }, { "applied_torque", false, true, false } };
   for (size_t i = 0; i < sizeof element / sizeof *element; i++)
     for (uint64_t seed = 1; seed <= 3; seed++) {
       element_kit_report r = run_plugin(element[i].name, seed);
       assert_true(r.stages >= 2 && r.declined > 0);
       assert_int_equal(r.powers > 0, element[i].powers);
+      assert_int_equal(r.reactions > 0, element[i].reactions);
       if (element[i].frames) assert_true(r.compared > 50);
     }
+}
+
+/* AMBIT_ELEMENTS: the names of all, separated by blanks */
+static void so_do_all_others(void **state) {
+  (void)state;
+  char name[64];
+  unsigned count = 0;
+  for (const char *at = AMBIT_ELEMENTS; *at; count++) {
+    size_t length = strcspn(at, " ");
+    snprintf(name, sizeof name, "%.*s", (int)length, at);
+    run_plugin(name, 7);
+    at += length + (at[length] == ' ');
+  }
+  assert_true(count >= 25);
 }
 
 /* -- the kit finds mistakes: a good element, with one of them */
 
 static const ambit_element *good; /* what `mistaken` wraps */
-enum { NONE, TWIST_SIGN, NO_CORIOLIS, TORQUE_LOST, NOT_TURNED, HALF_WRITTEN, SILENT, GREEDY, RATE_WRONG };
+enum {
+  NONE,
+  TWIST_SIGN,
+  NO_CORIOLIS,
+  TORQUE_LOST,
+  NOT_TURNED,
+  HALF_WRITTEN,
+  SILENT,
+  GREEDY,
+  RATE_WRONG,
+  POWER_SIGN,
+  POWER_LOST,
+  ENERGY_WRONG,
+  EFFORT_SIGN,
+  MOMENTUM_WRONG,
+  MASS_LOST,
+  TOO_MUCH_FORCE,
+  COORDINATE_RATE_WRONG
+};
 static int mistake;
 
 static ambit_status mistaken(ambit_build *b, uint32_t port, uint32_t quantity, ambit_expr *out) {
@@ -57,6 +93,15 @@ static ambit_status mistaken(ambit_build *b, uint32_t port, uint32_t quantity, a
     for (int i = 0; i < 9; i++) out[i] = 1; /* node 1 is the constant 1 */
   if (mistake == HALF_WRITTEN && quantity == AMBIT_ACCEL) out[5] = UINT32_MAX;
   if (mistake == RATE_WRONG && quantity == AMBIT_RATE2) out[0] = ambit_multiply(b, out[0], b->num(b, "2"));
+  if (mistake == POWER_SIGN && quantity == AMBIT_POWER) out[0] = ambit_negate(b, out[0]);
+  if (mistake == POWER_LOST && quantity == AMBIT_POWER) out[0] = 0;
+  if (mistake == ENERGY_WRONG && quantity == AMBIT_ENERGY) out[1] = ambit_multiply(b, b->num(b, "2"), out[1]);
+  if (mistake == EFFORT_SIGN && quantity == AMBIT_EFFORT) out[0] = ambit_negate(b, out[0]);
+  if (mistake == MOMENTUM_WRONG && quantity == AMBIT_MOMENTUM) out[0] = ambit_negate(b, out[0]);
+  if (mistake == MASS_LOST && quantity == AMBIT_MASS) return AMBIT_UNABLE;
+  if (mistake == TOO_MUCH_FORCE && quantity == AMBIT_WRENCH)
+    for (int i = 0; i < 6; i++) out[i] = ambit_multiply(b, b->num(b, "2"), out[i]);
+  if (mistake == COORDINATE_RATE_WRONG && quantity == AMBIT_COORDINATE_RATE) out[0] = ambit_negate(b, out[0]);
   if (mistake == NO_CORIOLIS && quantity == AMBIT_ACCEL) {
     const ambit_expr *from = b->get(b, 0, AMBIT_ACCEL);
     if (!from) return AMBIT_INVALID;
@@ -90,6 +135,41 @@ static void the_kit_finds_mistakes(void **state) {
   the_kit_finds("revolute", SILENT, "broken");
   the_kit_finds("point_mass", GREEDY, "is not declined");
   the_kit_finds("revolute", RATE_WRONG, "second rate is wrong");
+  the_kit_finds("spring_damper", NONE, "");
+  the_kit_finds("joint_damper", POWER_SIGN, "power is wrong");
+  the_kit_finds("joint_torque", POWER_LOST, "power is wrong");
+  the_kit_finds("revolute", POWER_LOST, "power is wrong"); /* of the drive */
+  the_kit_finds("applied_force", POWER_LOST, "power is wrong");
+  the_kit_finds("spring_damper", ENERGY_WRONG, "power is wrong");
+  the_kit_finds("joint_spring", EFFORT_SIGN, "power is wrong");
+  the_kit_finds("bushing", TOO_MUCH_FORCE, "power is wrong");
+  the_kit_finds(
+      "close_distance", TOO_MUCH_FORCE, "power is wrong"); /* virtual power: multipliers times the rates of g */
+  the_kit_finds("close_distance", POWER_LOST, "power is wrong");
+  the_kit_finds("rigid_body", MOMENTUM_WRONG, "action and reaction (moment) is wrong");
+  the_kit_finds("point_mass", MASS_LOST, "no mass");
+  the_kit_finds("spherical_quaternion", NONE, "");
+  the_kit_finds("spherical_quaternion", COORDINATE_RATE_WRONG, "is wrong");
+}
+
+/* A force that nothing bears, with its power told honestly: only Newton's third law is broken. */
+static ambit_status express_hook(ambit_build *b, uint32_t port, uint32_t quantity, ambit_expr *out) {
+  bool power = port == AMBIT_NO_PORT && quantity == AMBIT_POWER;
+  if (!power && !(port == 1 && quantity == AMBIT_WRENCH)) return AMBIT_UNABLE;
+  const ambit_expr *twist = power ? b->get(b, 1, AMBIT_TWIST) : NULL;
+  if (power && !twist) return AMBIT_INVALID;
+  for (int i = 0; i < 6 && !power; i++) out[i] = i == 5 ? b->num(b, "1") : 0;
+  if (power) out[0] = twist[5];
+  return AMBIT_OK;
+}
+
+static void the_kit_finds_a_lost_reaction(void **state) {
+  (void)state;
+  static const ambit_port port[] = { { "from", AMBIT_PORT_FRAME, AMBIT_ROLE_IN, 0, 0, "one frame" },
+    { "to", AMBIT_PORT_FRAME, AMBIT_ROLE_IN, 0, 0, "the other frame" } };
+  ambit_element e = { .size = sizeof e, .nport = 2, .port = port, .express = express_hook };
+  element_kit_report report = element_kit_run(&e, "hook", 1);
+  assert_non_null(strstr(report.first, "hook: action and reaction"));
 }
 
 static void the_kit_finds_bad_descriptions(void **state) {
@@ -114,7 +194,9 @@ static void the_kit_finds_bad_descriptions(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(all_plugins_conform),
+    cmocka_unit_test(so_do_all_others),
     cmocka_unit_test(the_kit_finds_mistakes),
+    cmocka_unit_test(the_kit_finds_a_lost_reaction),
     cmocka_unit_test(the_kit_finds_bad_descriptions),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

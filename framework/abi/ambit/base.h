@@ -62,7 +62,7 @@ struct ambit_host {
 ** as the index of the word). */
 typedef struct ambit_param {
   const char *name;     /* "stiffness" */
-  const char *unit;     /* SI, "N/m"; "1" if dimensionless */
+  const char *unit;     /* SI, "N/m"; "1" if dimensionless; "N m/rad|N/m": of a joint that turns, that slides */
   const char *shape;    /* see above */
   const char *fallback; /* text used when absent ("0.5", "0,0,1", "true"); NULL = required; "" = may be absent */
   const char *doc;      /* one sentence */

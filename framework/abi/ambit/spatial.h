@@ -30,8 +30,9 @@ static inline ambit_expr ambit_add(ambit_build *b, ambit_expr x, ambit_expr y) {
 static inline ambit_expr ambit_subtract(ambit_build *b, ambit_expr x, ambit_expr y) {
   return b->op(b, AMBIT_OP_SUB, x, y);
 }
+/* A component that a direction does not have stays 0, even beside a factor that is not proved to be defined. */
 static inline ambit_expr ambit_multiply(ambit_build *b, ambit_expr x, ambit_expr y) {
-  return b->op(b, AMBIT_OP_MUL, x, y);
+  return x == 0 || y == 0 ? 0 : b->op(b, AMBIT_OP_MUL, x, y);
 }
 static inline ambit_expr ambit_divide(ambit_build *b, ambit_expr x, ambit_expr y) {
   return b->op(b, AMBIT_OP_DIV, x, y);
@@ -240,14 +241,58 @@ static inline ambit_expr ambit_joint_coordinate(ambit_build *b, uint32_t given, 
   return e;
 }
 
+/* AMBIT_POWER of such a joint: a given motion puts in -balance ds/dt, the derivative at fixed coordinates. A joint that
+** follows coordinates only (a gear) does no work of its own.
+*/
+static inline ambit_status ambit_drive_power(ambit_build *b, uint32_t joint, uint32_t given, ambit_expr *out) {
+  const ambit_expr *motion = b->param(b, given);
+  ambit_expr rate = motion ? b->partial_time(b, *motion) : 0;
+  if (rate == 0) return AMBIT_UNABLE;
+  const ambit_expr *balance = b->get(b, joint, AMBIT_BALANCE);
+  if (!balance) return AMBIT_INVALID;
+  *out = ambit_negate(b, ambit_multiply(b, *balance, rate));
+  return AMBIT_OK;
+}
+
 /* -- masses */
 
-/* A fixed mass that is not certainly negative. */
+/* A fixed mass that may be positive. Zero is refused: a frame without mass needs no body, and a body of mass 0 is a slip
+** of the pen, or of the program that wrote the file.
+*/
 static inline ambit_status ambit_check_mass(ambit_build *b, ambit_expr mass) {
   double lo, hi;
   b->range(b, mass, &lo, &hi);
-  if (hi < 0) return b->fail(b, AMBIT_INVALID, "the mass is negative: %g kg", hi);
+  if (hi < 0) return b->fail(b, AMBIT_INVALID, "the mass is negative: %g kg; expected above 0", hi);
+  if (hi == 0) return b->fail(b, AMBIT_INVALID, "the mass is zero: expected above 0 kg; leave out a body without mass");
   return ambit_check_fixed(b, &mass, 1, "mass");
+}
+
+/* Mass, first moment and momentum of a mass m whose centre is at c of the frame at an IN port (AMBIT_MASS,
+** AMBIT_MASS_MOMENT, AMBIT_MOMENTUM); `spin`: its angular momentum about the centre, in the frame's axes.
+*/
+static inline ambit_status ambit_express_mass(ambit_build *b, uint32_t port, uint32_t quantity, ambit_expr m,
+    ambit_vector3 c, ambit_vector3 spin, ambit_expr *out) {
+  if (quantity == AMBIT_MASS) {
+    *out = m;
+    return AMBIT_OK;
+  }
+  const ambit_expr *at = b->get(b, port, AMBIT_POSE);
+  const ambit_expr *twist = at && quantity == AMBIT_MOMENTUM ? b->get(b, port, AMBIT_TWIST) : NULL;
+  if (!at || (quantity == AMBIT_MOMENTUM && !twist)) return AMBIT_INVALID;
+  ambit_pose pose = ambit_pose_read(at);
+  ambit_vector3 r = ambit_vector3_add(b, pose.position, ambit_rotation_turn(b, pose.rotation, c));
+  if (quantity == AMBIT_MASS_MOMENT) {
+    r = ambit_vector3_scale(b, m, r);
+    for (int i = 0; i < 3; i++) out[i] = r.c[i];
+    return AMBIT_OK;
+  }
+  ambit_vector3 v = ambit_velocity_at(b, ambit_screw_read(twist), c);
+  ambit_screw s;
+  s.linear = ambit_vector3_scale(b, m, ambit_rotation_turn(b, pose.rotation, v));
+  s.angular = ambit_vector3_add(
+      b, ambit_rotation_turn(b, pose.rotation, spin), ambit_vector3_cross(b, r, s.linear));
+  ambit_screw_write(s, out);
+  return AMBIT_OK;
 }
 
 /* Potential energy -m g.r of a mass whose centre is at c of the frame at an IN port; 0 where there is no field,
