@@ -98,6 +98,15 @@ static int pulled(lua_State *L) {
   return 2;
 }
 
+/* part_pulled(mechanism, part) -> number of its quantities that are there */
+static int part_pulled(lua_State *L) {
+  const ambit_mechanism *m = self(L);
+  lua_Integer part = luaL_checkinteger(L, 2);
+  luaL_argcheck(L, part >= 0 && part < (lua_Integer)ambit_mechanism_count(m), 2, "there is no such part");
+  lua_pushinteger(L, (lua_Integer)ambit_mechanism_part_pulled(m, (uint32_t)part));
+  return 1;
+}
+
 static int count(lua_State *L) {
   lua_pushinteger(L, ambit_mechanism_count(self(L)));
   return 1;
@@ -151,7 +160,7 @@ static int speeds(lua_State *L) {
 void ambit_lua_open_mechanism(lua_State *L, ambit_lua *core) {
   static const luaL_Reg meta[] = { { "__gc", close }, { NULL, NULL } };
   static const luaL_Reg functions[] = { { "mechanism", mechanism }, { "add", add }, { "pull", pull },
-    { "part_name", part_name }, { "pulled", pulled }, { "part_count", count }, { "coordinates", coordinates },
+    { "part_name", part_name }, { "pulled", pulled }, { "part_pulled", part_pulled }, { "part_count", count }, { "coordinates", coordinates },
     { "speeds", speeds }, { NULL, NULL } };
   static const struct {
     const char *name;
@@ -160,7 +169,8 @@ void ambit_lua_open_mechanism(lua_State *L, ambit_lua *core) {
     { "WRENCH", AMBIT_WRENCH }, { "ENERGY", AMBIT_ENERGY }, { "COORDINATE", AMBIT_COORDINATE }, { "RATE", AMBIT_RATE },
     { "RATE2", AMBIT_RATE2 }, { "EFFORT", AMBIT_EFFORT }, { "BALANCE", AMBIT_BALANCE },
     { "COORDINATE_RATE", AMBIT_COORDINATE_RATE }, { "RESIDUAL", AMBIT_RESIDUAL }, { "POWER", AMBIT_POWER },
-    { "FIELD", AMBIT_FIELD } };
+    { "FIELD", AMBIT_FIELD },
+    { "MASS", AMBIT_MASS }, { "MASS_MOMENT", AMBIT_MASS_MOMENT }, { "MOMENTUM", AMBIT_MOMENTUM } };
   ambit_lua_set_functions(L, core, functions);
   for (size_t i = 0; i < sizeof quantity / sizeof *quantity; i++) {
     lua_pushinteger(L, quantity[i].value);

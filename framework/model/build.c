@@ -113,9 +113,8 @@ static ambit_cell *reach(build *s, uint32_t port, uint32_t quantity) {
   ambit_mechanism *m = s->m;
   const ambit_part *p = part_of(s);
   if (port == AMBIT_NO_PORT) {
-    if (quantity == AMBIT_FIELD) return &m->field;
-    if (quantity == AMBIT_ENERGY) return &m->energy;
-    if (quantity == AMBIT_POWER) return &m->power;
+    ambit_cell *sum = ambit_mechanism_cell(m, quantity);
+    if (sum) return sum;
   } else if (port < p->element->nport) {
     bool own = p->element->port[port].role == AMBIT_ROLE_OUT || quantity == AMBIT_WRENCH || quantity == AMBIT_EFFORT;
     ambit_joined to = p->joined[port];
@@ -207,6 +206,13 @@ static ambit_expr diff_time(ambit_build *b, ambit_expr x) {
   return f.status == AMBIT_OK ? e : refuse(s, f.status, f.message);
 }
 
+static ambit_expr partial_time(ambit_build *b, ambit_expr x) {
+  build *s = of(b);
+  ambit_failure f = { 0 };
+  ambit_expr e = ambit_graph_time_derivative(s->m->graph, x, 0, NULL, NULL, &f);
+  return f.status == AMBIT_OK ? e : refuse(s, f.status, f.message);
+}
+
 static void range(ambit_build *b, ambit_expr x, double *lo, double *hi) {
   const ambit_graph *g = of(b)->m->graph;
   ambit_interval r = x < ambit_graph_count(g) ? ambit_graph_node(g, x)->range : AMBIT_ENTIRE;
@@ -215,10 +221,34 @@ static void range(ambit_build *b, ambit_expr x, double *lo, double *hi) {
 }
 
 ambit_status ambit_build_express(ambit_mechanism *m, ambit_cell *cell, ambit_expr *out) {
-  build s = { .open = { sizeof s.open, num, op, param, state, get, unknown, fail, diff_time, range, speed, multiplier },
+  build s = { .open = { sizeof s.open, num, op, param, state, get, unknown, fail, diff_time, range, speed, multiplier,
+                  partial_time },
     .m = m,
     .cell = cell };
   return part_of(&s)->element->express(&s.open, cell->port, cell->quantity, out);
+}
+
+ambit_status ambit_build_check(ambit_mechanism *m, uint32_t part, ambit_failure *f) {
+  ambit_cell cell = { .part = part, .port = AMBIT_NO_PORT };
+  ambit_failure own = { 0 };
+  build s = { .open = { .size = sizeof s.open,
+                  .num = num,
+                  .op = op,
+                  .param = param,
+                  .fail = fail,
+                  .diff_time = diff_time,
+                  .range = range,
+                  .partial_time = partial_time },
+    .m = m,
+    .cell = &cell };
+  if (!part_of(&s)->element->check) return AMBIT_OK;
+  m->failure = &own;
+  ambit_status status = part_of(&s)->element->check(&s.open);
+  m->failure = NULL;
+  if (own.status != AMBIT_OK) return ambit_fail(f, own.status, "%s", own.message);
+  if (status == AMBIT_OK) return AMBIT_OK;
+  char who[AMBIT_WHO_MAX];
+  return ambit_fail(f, status, "%s: its data are refused", ambit_part_who(part_of(&s), who));
 }
 
 /* -- the world */

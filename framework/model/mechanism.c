@@ -32,6 +32,9 @@ const char *ambit_quantity_name(uint32_t quantity) {
   case AMBIT_COORDINATE_RATE: return "rate of the coordinates";
   case AMBIT_RESIDUAL: return "residual";
   case AMBIT_FIELD: return "field";
+  case AMBIT_MASS: return "mass";
+  case AMBIT_MASS_MOMENT: return "first moment of the mass";
+  case AMBIT_MOMENTUM: return "momentum";
   default: return "unknown quantity";
   }
 }
@@ -40,18 +43,31 @@ const char *ambit_quantity_name(uint32_t quantity) {
 static const struct {
   uint32_t quantity[AMBIT_COLUMNS];
 } columns[] = {
-  { { AMBIT_ENERGY, AMBIT_FIELD, AMBIT_POWER } },
+  { { AMBIT_ENERGY, AMBIT_FIELD, AMBIT_POWER, AMBIT_MASS, AMBIT_MASS_MOMENT, AMBIT_MOMENTUM } },
   [AMBIT_PORT_FRAME] = { { AMBIT_POSE, AMBIT_TWIST, AMBIT_ACCEL, AMBIT_WRENCH } },
   [AMBIT_PORT_JOINT] = { { AMBIT_COORDINATE, AMBIT_RATE, AMBIT_RATE2, AMBIT_EFFORT, AMBIT_BALANCE,
       AMBIT_COORDINATE_RATE } },
   [AMBIT_PORT_CONSTRAINT] = { { AMBIT_RESIDUAL } },
 };
 
+ambit_cell *ambit_mechanism_cell(ambit_mechanism *m, uint32_t quantity) {
+  for (uint32_t k = 0; quantity && k < AMBIT_COLUMNS; k++)
+    if (m->whole[k].quantity == quantity) return &m->whole[k];
+  return NULL;
+}
+
+/* What may depend on accelerations, or on the field of gravity. */
+static bool is_cut(uint32_t quantity) {
+  return quantity == AMBIT_ACCEL || quantity == AMBIT_WRENCH || quantity == AMBIT_EFFORT || quantity == AMBIT_BALANCE ||
+         quantity == AMBIT_ENERGY || quantity == AMBIT_POWER;
+}
+
 ambit_cell *ambit_part_cell(const ambit_part *p, uint32_t port, uint32_t quantity) {
+  ambit_cell *cell = p->cut && is_cut(quantity) ? p->cut : p->cell;
   uint32_t row = port == AMBIT_NO_PORT ? p->element->nport : port;
   uint32_t kind = port == AMBIT_NO_PORT ? 0 : p->element->port[port].kind;
   for (uint32_t k = 0; quantity && k < AMBIT_COLUMNS; k++)
-    if (columns[kind].quantity[k] == quantity) return &p->cell[row * AMBIT_COLUMNS + k];
+    if (columns[kind].quantity[k] == quantity) return &cell[row * AMBIT_COLUMNS + k];
   return NULL;
 }
 
@@ -60,10 +76,13 @@ size_t ambit_quantity_count(const ambit_part *p, uint32_t port, uint32_t quantit
   case AMBIT_POSE: return 12;
   case AMBIT_TWIST:
   case AMBIT_ACCEL:
-  case AMBIT_WRENCH: return 6;
+  case AMBIT_WRENCH:
+  case AMBIT_MOMENTUM: return 6;
   case AMBIT_ENERGY: return 2;
-  case AMBIT_POWER: return 1;
-  case AMBIT_FIELD: return 3;
+  case AMBIT_POWER:
+  case AMBIT_MASS: return 1;
+  case AMBIT_FIELD:
+  case AMBIT_MASS_MOMENT: return 3;
   case AMBIT_COORDINATE:
   case AMBIT_COORDINATE_RATE: return ambit_port_coordinates(&p->element->port[port]);
   default: return ambit_port_dof(&p->element->port[port]);
@@ -72,7 +91,7 @@ size_t ambit_quantity_count(const ambit_part *p, uint32_t port, uint32_t quantit
 
 /* How many (port, quantity) express() may be asked for. */
 static size_t available(const ambit_element *e) {
-  size_t n = 3;
+  size_t n = AMBIT_COLUMNS;
   for (uint32_t i = 0; i < e->nport; i++) {
     const ambit_port *p = &e->port[i];
     bool out = p->role == AMBIT_ROLE_OUT, own_speeds = ambit_port_coordinates(p) != ambit_port_dof(p);
@@ -133,8 +152,7 @@ static void forget_sums(ambit_mechanism *m) {
     for (size_t k = 0; k < (p->element->nport + 1) * AMBIT_COLUMNS; k++)
       if (p->cell[k].open) p->cell[k].state = AMBIT_CELL_EMPTY, p->cell[k].open = false;
   }
-  m->field.state = m->energy.state = m->power.state = AMBIT_CELL_EMPTY;
-  m->field.open = m->energy.open = m->power.open = false;
+  for (uint32_t k = 0; k < AMBIT_COLUMNS; k++) m->whole[k].state = AMBIT_CELL_EMPTY, m->whole[k].open = false;
   m->nopen = 0;
 }
 
@@ -240,10 +258,11 @@ ambit_status ambit_mechanism_add(ambit_mechanism *m, const ambit_part_spec *spec
   m->part = grown;
   ambit_part part = { 0 };
   status = fill_part(m, &part, spec, f);
+  m->part[m->count] = part;
+  if (status == AMBIT_OK) status = ambit_build_check(m, (uint32_t)m->count, f);
   if (status != AMBIT_OK) return status;
   if (!ambit_part_enter_name(m, &part)) return no_memory(f);
   uint32_t own = (uint32_t)m->count++;
-  m->part[own] = part;
   for (uint32_t i = 0; i < part.element->nport; i++) attach(m, own, i);
   m->available += available(part.element);
   forget_sums(m);
@@ -257,11 +276,8 @@ ambit_mechanism *ambit_mechanism_open(ambit_graph *g, const char *name) {
   m->graph = g;
   m->arena = ambit_arena_open();
   m->name = m->arena ? ambit_arena_text(m->arena, name ? name : "mechanism") : NULL;
-  m->field.part = m->energy.part = m->power.part = UINT32_MAX;
-  m->field.port = m->energy.port = m->power.port = AMBIT_NO_PORT;
-  m->field.quantity = AMBIT_FIELD;
-  m->energy.quantity = AMBIT_ENERGY;
-  m->power.quantity = AMBIT_POWER;
+  for (uint32_t k = 0; k < AMBIT_COLUMNS; k++)
+    m->whole[k] = (ambit_cell) { .part = UINT32_MAX, .port = AMBIT_NO_PORT, .quantity = columns[0].quantity[k] };
   ambit_part_spec world = { .element = &ambit_world_element, .type = "world", .name = "world" };
   if (m->name && ambit_mechanism_add(m, &world, NULL, NULL) == AMBIT_OK) return m;
   ambit_mechanism_close(m);

@@ -36,11 +36,13 @@ const char *ambit_mechanism_part_name(const ambit_mechanism *m, uint32_t part);
 const ambit_element *ambit_mechanism_part_element(const ambit_mechanism *m, uint32_t part);
 
 /* The quantity at an OUT frame or joint port: motion is that of the frame; AMBIT_WRENCH, AMBIT_EFFORT: the sum over
-** all attached elements; frame AMBIT_NOWHERE: of the mechanism (AMBIT_FIELD, AMBIT_ENERGY, AMBIT_POWER). The pointer stays valid.
-** NULL: the failure says which element and why; a loop of elements is named part by part. */
+** all attached elements; frame AMBIT_NOWHERE: of the mechanism (AMBIT_FIELD, AMBIT_ENERGY, AMBIT_POWER, ...). The
+** pointer stays valid. NULL: the failure says which element and why; a loop of elements is named part by part. */
 const ambit_expr *ambit_mechanism_pull(ambit_mechanism *m, ambit_frame frame, uint32_t quantity, ambit_failure *f);
 /* how often express() was called, of how many (part, port, quantity) that exist: "leave out" in numbers */
 void ambit_mechanism_pulled(const ambit_mechanism *m, size_t *pulled, size_t *available);
+/* quantities at the ports of one part, part < count, that are there; 0: nobody asked for anything of it */
+size_t ambit_mechanism_part_pulled(const ambit_mechanism *m, uint32_t part);
 
 /* The coordinates that elements have made, in the order of the parts. */
 typedef struct ambit_coordinate {

@@ -81,6 +81,8 @@ static ambit_status take_param(ambit_mechanism *m, ambit_part *p, size_t i, cons
   return AMBIT_OK;
 }
 
+size_t ambit_part_components(const ambit_part *p, size_t i) { return components(&p->element->param[i]); }
+
 ambit_status ambit_part_take_params(
     ambit_mechanism *m, ambit_part *p, const ambit_expr *const *given, ambit_failure *f) {
   ambit_status status = AMBIT_OK;

@@ -37,6 +37,7 @@ typedef struct ambit_part {
   size_t nparam;
   ambit_joined *joined; /* [nport] */
   ambit_cell *cell;     /* [(nport + 1) * AMBIT_COLUMNS]; row nport: the part as a whole */
+  ambit_cell *cut;      /* the same while the mechanism is cut, for what accelerations may act on; else NULL; see cut.h */
   /* of all its OUT joints and constraints, in the order of the ports; each list holds places in the mechanism's list,
   ** UINT32_MAX: not (yet) made */
   uint32_t ncoordinate, dof, rows;
@@ -53,6 +54,14 @@ typedef struct ambit_part_names {
   size_t ntype, type_capacity;
 } ambit_part_names;
 
+/* What the user says about closed loops; loops.h reads it. */
+typedef struct ambit_loop_choice {
+  const char **reference_name; /* [nreference] coordinates, with their values where pivots are chosen */
+  const double *reference;
+  const char **independent; /* [nindependent] */
+  size_t nreference, nindependent;
+} ambit_loop_choice;
+
 struct ambit_mechanism {
   ambit_graph *graph;
   ambit_arena *arena;
@@ -65,7 +74,8 @@ struct ambit_mechanism {
   ambit_speed *speed;
   ambit_multiplier *multiplier;
   size_t ncoordinate, nspeed, nmultiplier, coordinate_capacity, speed_capacity, multiplier_capacity;
-  ambit_cell field, energy, power; /* sums over all parts */
+  ambit_cell whole[AMBIT_COLUMNS]; /* sums over all parts */
+  ambit_loop_choice choice;
   size_t pulled, available, nopen;
   /* while pulling */
   ambit_failure *failure;
@@ -78,6 +88,8 @@ struct ambit_mechanism {
 
 extern const ambit_element ambit_world_element;
 
+/* The sum of a quantity over all parts; NULL: there is none. */
+ambit_cell *ambit_mechanism_cell(ambit_mechanism *m, uint32_t quantity);
 /* The cell of a quantity at a port (AMBIT_NO_PORT: of the part); NULL: that kind of port has no such quantity. */
 ambit_cell *ambit_part_cell(const ambit_part *p, uint32_t port, uint32_t quantity);
 size_t ambit_quantity_count(const ambit_part *p, uint32_t port, uint32_t quantity);
@@ -100,7 +112,8 @@ const ambit_expr *ambit_pull_cell(ambit_mechanism *m, ambit_cell *cell, ambit_ce
 ambit_status ambit_part_check_name(const ambit_mechanism *m, const ambit_part *p, ambit_failure *f);
 const char *ambit_part_make_name(ambit_mechanism *m, const char *type);
 bool ambit_part_enter_name(ambit_mechanism *m, const ambit_part *p);
-/* In part_data.c: parameters given, or their fallbacks. */
+/* In part_data.c: how many numbers parameter i has; parameters given, or their fallbacks. */
+size_t ambit_part_components(const ambit_part *p, size_t i);
 ambit_status ambit_part_take_params(
     ambit_mechanism *m, ambit_part *p, const ambit_expr *const *given, ambit_failure *f);
 /* Are the speeds of its joints the time derivatives of their coordinates? */
@@ -115,4 +128,6 @@ const ambit_multiplier *ambit_part_multiplier(
     ambit_mechanism *m, uint32_t part, uint32_t i, const char *unit, ambit_failure *f);
 /* In build.c: calls express() of the cell's element. */
 ambit_status ambit_build_express(ambit_mechanism *m, ambit_cell *cell, ambit_expr *out);
+/* In build.c: calls check() of a part that is about to be added. */
+ambit_status ambit_build_check(ambit_mechanism *m, uint32_t part, ambit_failure *f);
 #endif

@@ -188,10 +188,7 @@ static const ambit_expr *serve(ambit_mechanism *m, ambit_cell *cell) {
 static ambit_cell *find(ambit_mechanism *m, ambit_frame frame, uint32_t quantity, ambit_failure *f) {
   ambit_cell *cell = NULL;
   if (frame.part == UINT32_MAX) {
-    cell = quantity == AMBIT_FIELD    ? &m->field
-           : quantity == AMBIT_ENERGY ? &m->energy
-           : quantity == AMBIT_POWER  ? &m->power
-                                      : NULL;
+    cell = ambit_mechanism_cell(m, quantity);
     if (!cell)
       ambit_fail(f, AMBIT_INVALID, "mechanism `%s` as a whole has no %s", m->name, ambit_quantity_name(quantity));
     return cell;

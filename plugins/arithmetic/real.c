@@ -56,40 +56,59 @@ static double power(double x, int32_t n) {
   return n < 0 ? 1 / result : result;
 }
 
-/* Flags of one row. z - z is 0 for a number and NaN for the rest, so that the usual case is a short vector loop. */
+/* 0 for a number, other bits for NaN and the infinities: z - z is 0 or NaN */
+static uint64_t oddness(double z) {
+  double zero = z - z;
+  uint64_t bits;
+  memcpy(&bits, &zero, sizeof bits);
+  return bits;
+}
+
+/* Flags of one row that has something odd in it. */
 static uint32_t inspect(const double *z, const double *x, const double *y, size_t lanes) {
-  uint64_t odd = 0;
-  for (size_t l = 0; l < lanes; l++) {
-    double zero = z[l] - z[l];
-    uint64_t bits;
-    memcpy(&bits, &zero, sizeof bits);
-    odd |= bits;
-  }
   uint32_t flags = 0;
-  for (size_t l = 0; odd && l < lanes; l++) {
+  for (size_t l = 0; l < lanes; l++) {
     if (isnan(z[l])) flags |= AMBIT_F_EMPTY | (isnan(x[l]) || isnan(y[l]) ? 0 : AMBIT_F_PARTIAL);
     if (isinf(z[l])) flags |= AMBIT_F_UNBOUNDED;
   }
   return flags;
 }
 
-/* z over the lanes of each instruction; y is x when unary */
+/* The same of all instructions of a run, once there are reasons to look. */
+static uint32_t inspect_run(const double *base, size_t pitch, size_t lanes, size_t count, const uint32_t *dst,
+    const uint32_t *a, const uint32_t *b) {
+  uint32_t flags = 0;
+  for (size_t i = 0; i < count; i++)
+    flags |= inspect(base + dst[i] * pitch, base + a[i] * pitch, base + b[i] * pitch, lanes);
+  return flags;
+}
+
+/* z over the lanes of each instruction, or over the instructions if there is one lane; y is x when unary */
 #define RUN(NAME, other, expression)                                                                                   \
   static uint32_t run_##NAME(const ambit_arithmetic *self, void *ctx, void *base, size_t pitch, size_t lanes,          \
       size_t count, const uint32_t *dst, const uint32_t *a, const uint32_t *b) {                                       \
     (void)self, (void)ctx, (void)b;                                                                                    \
-    uint32_t flags = 0;                                                                                                \
-    for (size_t i = 0; i < count; i++) {                                                                               \
-      double *r = (double *)base + dst[i] * pitch;                                                                     \
-      const double *left = (double *)base + a[i] * pitch, *right = (double *)base + other[i] * pitch;                  \
-      for (size_t l = 0; l < lanes; l++) {                                                                             \
-        double x = left[l], y = right[l];                                                                              \
-        (void)y;                                                                                                       \
-        r[l] = (expression);                                                                                           \
-      }                                                                                                                \
-      flags |= inspect(r, left, right, lanes);                                                                         \
+    double *slot = base;                                                                                               \
+    uint64_t odd = 0;                                                                                                  \
+    for (size_t i = 0; i < count && lanes == 1; i++) {                                                                 \
+      double x = slot[a[i] * pitch], y = slot[other[i] * pitch], z;                                                    \
+      (void)y;                                                                                                         \
+      z = (expression);                                                                                                \
+      slot[dst[i] * pitch] = z;                                                                                        \
+      odd |= oddness(z);                                                                                               \
     }                                                                                                                  \
-    return flags;                                                                                                      \
+    for (size_t i = 0; i < count && lanes != 1; i++) {                                                                 \
+      double *r = slot + dst[i] * pitch;                                                                               \
+      const double *left = slot + a[i] * pitch, *right = slot + other[i] * pitch;                                      \
+      for (size_t l = 0; l < lanes; l++) {                                                                             \
+        double x = left[l], y = right[l], z;                                                                           \
+        (void)y;                                                                                                       \
+        z = (expression);                                                                                              \
+        r[l] = z;                                                                                                      \
+        odd |= oddness(z);                                                                                             \
+      }                                                                                                                \
+    }                                                                                                                  \
+    return odd ? inspect_run(slot, pitch, lanes, count, dst, a, other) : 0;                                            \
   }
 
 RUN(ADD, b, x + y)

@@ -1,15 +1,54 @@
--- dynamics.lua -- the equations of motion of a mechanism, and its energy.
+-- dynamics.lua -- the equations of motion of a mechanism, M u' + bias = tau, and its energy.
+--
+-- Lists are in the order of m:speed_names(). Everything is pulled on demand, and ambit.evaluate takes it as it is.
+local check = require "ambit.check"
 local core = require "ambit.core"
+local frame = require "ambit.frame"
 local Matrix = require "ambit.matrix"
 local ode = require "ambit.ode"
 
 local methods = {}
 
+local function shaped(list) return setmetatable(list, Matrix) end
+
+local function rows_of(list, n, count)
+  local rows = {}
+  for i = 1, count do rows[i] = shaped(table.move(list, (i - 1) * n + 1, i * n, 1, {})) end
+  return shaped(rows)
+end
+
+local forms = { "auto", "mass_matrix", "articulated" }
+
+-- nil, "articulated" or { form = "articulated" }
+local function form_of(t, what)
+  if type(t) == "table" then
+    check.keys(t, { "form" }, what, 0)
+    t = t.form
+  end
+  if t == nil then return "auto" end
+  for _, form in ipairs(forms) do
+    if t == form then return form end
+  end
+  check.fail("%s: there is no form `%s`%s", what, tostring(t), check.suggest(t, forms))
+end
+
 -- Energy of the whole mechanism, J.
 function methods:energy()
   local e = core.pull(self.handle, -1, 0, core.ENERGY, 2)
-  return setmetatable({ kinetic = e[1], potential = e[2], total = e[1] + e[2] }, Matrix)
+  return shaped { kinetic = e[1], potential = e[2], total = e[1] + e[2] }
 end
+
+-- What drives, dampers and applied forces put in beyond that, W: the total energy changes by it.
+function methods:power() return core.pull(self.handle, -1, 0, core.POWER, 1)[1] end
+
+local function names_of(list)
+  local names = {}
+  for i, entry in ipairs(list) do names[i] = entry.name end
+  return names
+end
+
+function methods:coordinate_names() return names_of(core.coordinates(self.handle)) end
+function methods:speed_names() return names_of(core.speeds(self.handle)) end
 
 -- The joint coordinates as expressions, by name: beta1, beta1', beta1''.
 function methods:coordinates()
@@ -20,28 +59,61 @@ function methods:coordinates()
   for _, s in ipairs(core.speeds(self.handle)) do
     t[s.name], t[s.du_name] = s.u, s.du
   end
-  return setmetatable(t, Matrix)
+  return shaped(t)
 end
 
--- M(q) q'' = h(q, q'): the matrix by rows, and h.
+-- M by rows.
 function methods:mass_matrix()
   local n, mass = core.motion(self.handle)
-  local rows = {}
-  for i = 1, n do rows[i] = table.move(mass, (i - 1) * n + 1, i * n, 1, {}) end
-  return setmetatable(rows, Matrix)
+  return rows_of(mass, n, n)
 end
 
-function methods:generalised_forces()
-  local _, _, force = core.motion(self.handle)
-  return setmetatable(force, Matrix)
+-- h = -bias: what all elements exert along the speeds while u' is zero.
+function methods:generalised_forces() return shaped(core.force(self.handle)) end
+
+-- C u + g, and whatever else the elements exert: M u' + bias = tau.
+function methods:bias()
+  local list = core.force(self.handle)
+  for i, h in ipairs(list) do list[i] = -h end
+  return shaped(list)
+end
+
+-- What holds the mechanism at rest against the field of gravity alone.
+function methods:gravity_torque() return shaped(core.gravity_torque(self.handle)) end
+
+-- The generalised forces of a motion q, q', q''.
+function methods:inverse_dynamics() return shaped(core.inverse(self.handle)) end
+
+-- The accelerations as functions of q, q' and forces named tau_beta1, ...; form: "mass_matrix" | "articulated".
+function methods:forward_dynamics(t)
+  local list = core.forward(self.handle, form_of(t, "forward_dynamics"))
+  return shaped(list)
+end
+
+-- 6 rows, angular above linear velocity in world axes, for each speed; of a frame, or of a point { frame, offset }.
+function methods:jacobian(at)
+  local offset
+  if type(at) == "table" and not frame.is(at) and at[1] ~= nil then
+    check.keys(at, {}, "jacobian", 2)
+    local p = at[2]
+    if type(p) ~= "table" then
+      check.fail("jacobian: expected { frame, { x, y, z } }, got %s as offset", check.kind(p))
+    end
+    offset = {}
+    for i = 1, 3 do offset[i] = core.expression(p[i], "m", ("jacobian: offset[%d]"):format(i)) end
+    at = at[1]
+  end
+  local part, port = frame.place(self, at, "frame", "jacobian: expected m:jacobian(frame)")
+  local n, list = core.jacobian(self.handle, part, port, offset)
+  return rows_of(list, n, 6)
 end
 
 -- The equations of motion as a first-order system; made once as long as no part is added.
-function methods:dynamics()
-  local parts = core.part_count(self.handle)
-  if self.cached_parts ~= parts then
-    self.cached = ode.of_system(core.dynamics(self.handle), self.name)
-    self.cached_parts = parts
+function methods:dynamics(t)
+  local parts, form = core.part_count(self.handle), form_of(t, "dynamics")
+  if self.cached_parts ~= parts or self.cached_form ~= form then
+    self.cached = ode.of_system(core.dynamics(self.handle, form), self.name, self)
+    self.cached_parts, self.cached_form = parts, form
   end
   return self.cached
 end

@@ -1,25 +1,35 @@
 -- init.lua -- the module `ambit`: what a scene sees.
+local chain = require "ambit.chain"
 local check = require "ambit.check"
 local compare = require "ambit.compare"
 local core = require "ambit.core"
+local equilibria = require "ambit.equilibria"
 local evaluate = require "ambit.evaluate"
 local help = require "ambit.help"
+local load = require "ambit.load"
 local mechanism = require "ambit.mechanism"
 local ode = require "ambit.ode"
 local plugin = require "ambit.plugin"
+local roots = require "ambit.roots"
 local sample = require "ambit.sample"
 local simulate = require "ambit.simulate"
+local view = require "ambit.view"
 
 local ambit = {
   version = core.version,
   pi = core.pi(),
   time = core.time(),
   mechanism = mechanism.new,
+  load = load.load,
+  chain = function(t) return chain.new(t) end,
   ode = ode.new,
   evaluate = evaluate.evaluate,
   simulate = simulate.simulate,
   sample = sample.sample,
+  roots = roots.roots,
+  equilibria = equilibria.equilibria,
   compare = compare.compare,
+  view = view.view,
   plugins = plugin.plugins,
   plugin = plugin.plugin,
   help = help,

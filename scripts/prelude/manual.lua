@@ -37,7 +37,7 @@ end
 
 local function usage(p)
   if p.kind == "element" or p.kind == "chain" then return ("m:%s { ... }"):format(p.name) end
-  if p.kind == "solver" then return ('ambit.simulate { ..., solver = "%s" }'):format(p.name) end
+  if p.kind == "solver" then return ('ambit.%s { ..., solver = "%s" }'):format(p.verb, p.name) end
   if p.kind == "arithmetic" then return ('arithmetic = "%s"'):format(p.name) end
 end
 

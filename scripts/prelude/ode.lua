@@ -24,10 +24,11 @@ check.methods(Ode, Ode)
 
 local ode = {}
 
-function ode.of_system(system, name)
+-- mechanism: the one whose equations of motion these are, if they are of one
+function ode.of_system(system, name, mechanism)
   local names, units, symbols, rates = core.system_parts(system)
   local self = setmetatable({ name = name, system = system, states = names, units = units, symbols = symbols,
-    rates = rates }, Ode)
+    rates = rates, mechanism = mechanism or false }, Ode)
   session.add(session.odes, self)
   return self
 end

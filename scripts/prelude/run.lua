@@ -92,4 +92,6 @@ function run.new(facts)
   return setmetatable(facts, Run)
 end
 
+function run.is(value) return getmetatable(value) == Run end
+
 return run

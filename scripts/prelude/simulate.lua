@@ -3,6 +3,7 @@
 local check = require "ambit.check"
 local core = require "ambit.core"
 local instant = require "ambit.instant"
+local loops = require "ambit.loops"
 local mechanism = require "ambit.mechanism"
 local ode = require "ambit.ode"
 local option = require "ambit.option"
@@ -28,6 +29,9 @@ function verb.initial(t, system, what)
   end
   check.table(t, what .. ": initial")
   local by_place = #t == #system.states
+  if system.mechanism and not by_place then
+    loops.check_speeds(system.mechanism, system.states, t, what .. ": initial")
+  end
   if not by_place then check.keys(t, system.states, what .. ": initial") end
   local list = {}
   for i, name in ipairs(system.states) do
@@ -69,18 +73,28 @@ local function initial_enclosures(q)
   end
 end
 
-function verb.simulate(t)
-  local q = verb.request(t, "simulate", "lohner", {})
+-- A request -> its run.
+function verb.solve(q)
   local track, facts, report = core.simulate(q.system.system, q.solver, q.arithmetic, q.options, q.arithmetic_options,
     q.initial,
     q.times)
   facts.track, facts.states, facts.report = track, q.system.states, report
   facts.solver, facts.arithmetic, facts.t_start, facts.initial = q.solver, report.arithmetic, q.times[1],
     initial_enclosures(q)
-  session.finish("simulate", facts, report,
-    { "solver", q.solver, "arithmetic", report.arithmetic, "options", q.settings, "t_start", q.times[1], "t_end",
+  local result = run.new(facts)
+  local hint = facts.status == "unable" and q.system.mechanism and loops.hint(q.system.mechanism, result)
+  if hint then facts.reason = facts.reason .. "; " .. hint end
+  return result
+end
+
+function verb.simulate(t)
+  local q = verb.request(t, "simulate", "lohner", {})
+  local result = verb.solve(q)
+  session.finish("simulate", result, result.report,
+    { "solver", q.solver, "arithmetic", result.arithmetic, "options", q.settings, "t_start", q.times[1], "t_end",
       q.times[#q.times] })
-  return run.new(facts)
+  session.remember(result, q)
+  return result
 end
 
 return verb

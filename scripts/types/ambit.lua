@@ -168,39 +168,151 @@ local mechanism = {}
 ---@return ambit.mechanism
 function ambit.mechanism(t) end
 
+---@alias ambit.triple { x: ambit.expression, y: ambit.expression, z: ambit.expression }
+
+-- what can be measured: expressions, for ambit.evaluate
+
 ---@param frame ambit.frame
----@return { x: ambit.expression, y: ambit.expression, z: ambit.expression } # m, in the world
+---@return ambit.triple # m, in the world
 function mechanism:position(frame) end
 ---@param frame ambit.frame
 ---@return ambit.expression[][] # rotation by rows, own axes -> world
 function mechanism:orientation(frame) end
 ---@param frame ambit.frame
----@return { x: ambit.expression, y: ambit.expression, z: ambit.expression } # m/s, world axes
+---@return ambit.triple # m/s, world axes
 function mechanism:velocity(frame) end
 ---@param frame ambit.frame
----@return { x: ambit.expression, y: ambit.expression, z: ambit.expression } # rad/s, world axes
+---@return ambit.triple # rad/s, world axes
 function mechanism:angular_velocity(frame) end
 ---@param frame ambit.frame
----@return { x: ambit.expression, y: ambit.expression, z: ambit.expression } # m/s^2, world axes
+---@return ambit.triple # m/s^2, world axes
 function mechanism:acceleration(frame) end
+---@param a ambit.frame
+---@param b ambit.frame
+---@return ambit.expression # of the origins, m
+function mechanism:distance(a, b) end
+---@param a ambit.frame
+---@param b ambit.frame
+---@param axis? ambit.axis in the axes of a; without it the angle of the whole rotation, 0 to pi
+---@param near? ambit.datum the signed angle is within pi of it, rad
+---@return ambit.expression # rad
+function mechanism:angle(a, b, axis, near) end
+---@param a ambit.frame
+---@param b ambit.frame
+---@return { position: ambit.triple, rotation: ambit.expression[][] } # of b, in the axes of a
+function mechanism:relative_pose(a, b) end
+---@param a ambit.frame
+---@param b ambit.frame
+---@return { linear: ambit.triple, angular: ambit.triple } # of b as seen from a, in the axes of a
+function mechanism:relative_velocity(a, b) end
+---@return ambit.expression # kg
+function mechanism:total_mass() end
+---@return ambit.triple # m, in the world
+function mechanism:centre_of_mass() end
+---@param about? ambit.frame angular momentum about its origin; else about the world's
+---@return { linear: ambit.triple, angular: ambit.triple } # N s, N m s, world axes
+function mechanism:momentum(about) end
+---@param joint ambit.frame|ambit.joint
+---@param which? "motion" put in what the equations of motion make of accelerations and multipliers
+---@return { torque: ambit.triple, force: ambit.triple } # what the joint exerts on what it carries, in the axes of its frame
+function mechanism:reaction(joint, which) end
 ---@return { kinetic: ambit.expression, potential: ambit.expression, total: ambit.expression } # J
 function mechanism:energy() end
+---@return ambit.expression # W put in beyond what the potential energy gives up
+function mechanism:power() end
+
+-- equations of motion; lists are in the order of speed_names()
+
+---@return string[]
+function mechanism:coordinate_names() end
+---@return string[] # "beta1'", ...
+function mechanism:speed_names() end
 ---@return table<string, ambit.expression> # beta1, beta1', beta1'' ...
 function mechanism:coordinates() end
+---@param joint ambit.frame|ambit.joint
+---@return ambit.expression
+function mechanism:coordinate(joint) end
 ---@return ambit.expression[][] # M(q) by rows
 function mechanism:mass_matrix() end
+---@return ambit.expression[] # C(q, q') q' + g(q), with all forces of the elements: M q'' + bias = tau
+function mechanism:bias() end
+---@return ambit.expression[] # what gravity alone adds to the bias
+function mechanism:gravity_torque() end
 ---@return ambit.expression[] # h(q, q') of M q'' = h
 function mechanism:generalised_forces() end
+---@return ambit.expression[] # tau for given q, q', q''
+function mechanism:inverse_dynamics() end
+---@param t? { form: "mass_matrix"|"articulated" }
+---@return ambit.expression[] # q'' for given q, q' and tau_beta1, ...
+function mechanism:forward_dynamics(t) end
+---@param at ambit.frame|{ [1]: ambit.frame, [2]: ambit.datum[] } a frame, or a point with its offset in the frame's axes
+---@return ambit.expression[][] # 6 rows: angular above linear velocity in world axes, for each speed
+function mechanism:jacobian(at) end
+---@param t? { form: "mass_matrix"|"articulated" }
 ---@return ambit.ode
-function mechanism:dynamics() end
+function mechanism:dynamics(t) end
 
----@param t { from: ambit.frame, axis: ambit.axis, name: string? }
+-- closed loops
+
+---@return table<string, ambit.expression[]> # residuals by closing element
+function mechanism:constraints() end
+---@param names string[] coordinates or speeds that shall be independent
+function mechanism:independent(names) end
+---@param t table<string, number|string> a configuration at which the loops are closed: where pivots are chosen
+function mechanism:reference(t) end
+---@return string[] # rows that follow from the others at the reference
+function mechanism:redundant() end
+---@return table<string, ambit.expression> # as functions of the states
+function mechanism:multipliers() end
+---@param e any expressions in any shape
+---@return any # dependent speeds, accelerations and multipliers put in
+function mechanism:of_states(e) end
+---@param t { box: table<string, any>, t: any?, boxes: integer? }
+---@return { status: "proved"|"undecided"|"singular"|"empty", independent: string[], dependent: string[], redundant: string[] }
+function mechanism:rank(t) end
+
+---@class ambit.assembly
+---@field status "unique"|"none"|"several"|"undecided"
+---@field reason string?
+---@field configuration table<string, ambit.enclosure>? for `initial` and `at`
+---Coordinates by name are given; the others are sought in `box`, or `within` a radius of `guess`.
+---@param t { guess: table<string, ambit.datum>?, box: table<string, any>?, within: any, [string]: ambit.datum }
+---@return ambit.assembly
+function mechanism:assemble(t) end
+
+-- files
+
+---@param t string|{ [1]: string, from: ambit.frame?, tolerances: table<string, string>?, name: string?, damping: boolean?, friction: boolean? }
+---@return table<string, ambit.frame> # by name of link
+function mechanism:load(t) end
+---@param name string
+---@return ambit.frame
+function mechanism:link(name) end
+---@return table<string, { lower: any, upper: any, velocity: any, effort: any }> # by joint, as the file says
+function mechanism:limits() end
+---@param t? table<string, string> pattern = tolerance, for what is loaded from now on; nothing: what was laid
+---@return table?
+function mechanism:tolerances(t) end
+---A robot from URDF or from an RBDL model table.
+---@param t string|{ [1]: string, gravity: ambit.vector?, tolerances: table<string, string>?, name: string?, damping: boolean?, friction: boolean? }
+---@return ambit.mechanism
+function ambit.load(t) end
+
+---@return table # { name, path, type, where, parts }
+function mechanism:tree() end
+
+---A Lua function that assembles elements, as an element.
+---@param t { [1]: string, doc: string?, ports: table<string, any>?, parameters: table<string, any>?, build: fun(m: ambit.mechanism, p: table): ... }
+---@return fun(m: ambit.mechanism, t: table): any
+function ambit.chain(t) end
+
+---@param t { from: ambit.frame, axis: ambit.axis, angle: ambit.datum?, mimic: { joint: any, multiplier: ambit.datum?, offset: ambit.datum? }?, name: string? }
 ---@return ambit.frame, ambit.joint
 function mechanism:revolute(t) end
----@param t { from: ambit.frame, axis: ambit.axis, name: string? }
+---@param t { from: ambit.frame, axis: ambit.axis, displacement: ambit.datum?, mimic: { joint: any, multiplier: ambit.datum?, offset: ambit.datum? }?, name: string? }
 ---@return ambit.frame, ambit.joint
 function mechanism:prismatic(t) end
----@param t { from: ambit.frame, offset: ambit.vector?, name: string? }
+---@param t { from: ambit.frame, offset: ambit.vector?, axis: ambit.axis?, angle: ambit.datum?, name: string? }
 ---@return ambit.frame
 function mechanism:rigid_link(t) end
 ---@param t { from: ambit.frame, axis: ambit.axis, angle: ambit.datum?, play: ambit.datum?, name: string? }
@@ -208,6 +320,10 @@ function mechanism:rigid_link(t) end
 function mechanism:sloppy_joint(t) end
 ---@param t { at: ambit.frame, mass: ambit.datum, name: string? }
 function mechanism:point_mass(t) end
+---@param t { at: ambit.frame, mass: ambit.datum, centre: ambit.vector?, inertia: ambit.datum[][]?, name: string? }
+function mechanism:rigid_body(t) end
+---@param t { from: ambit.frame, to: ambit.frame, stiffness: ambit.datum?, damping: ambit.datum?, name: string? }
+function mechanism:spring_damper(t) end
 ---@param t ambit.vector
 function mechanism:gravity(t) end
 
@@ -327,6 +443,31 @@ function ambit.sample(t) end
 ---@param t { [1]: any, at: table<string, ambit.datum>?, arithmetics: (string|table)[]?, repeats: integer?, limit: number?, n: integer?, seed: integer? }
 ---@return ambit.comparison
 function ambit.compare(t) end
+
+---@class ambit.root
+---@field inside boolean is the enclosure inside the box that was searched?
+
+---@class ambit.roots
+---@field status "complete"|"unable"
+---@field reason string?
+---@field proved ambit.root[] each holds exactly one root: enclosures by name
+---@field undecided table[] boxes that may hold roots
+---@field boxes integer how many were looked at
+---@field cpu_seconds number
+
+---Every root of f = 0 in a box, with proof.
+---@param t { [1]: any, box: table<string, any>, at: table<string, ambit.datum>?, solver: string? }
+---@return ambit.roots
+function ambit.roots(t) end
+
+---Where a system rests: the speeds are zero, and so are their derivatives.
+---@param t { [1]: ambit.ode|ambit.mechanism, box: table<string, any>, at: table<string, ambit.datum>?, solver: string? }
+---@return ambit.roots
+function ambit.equilibria(t) end
+
+---What `ambit view` shows of a mechanism; otherwise it only checks what it is given.
+---@param t ambit.mechanism | { [1]: ambit.mechanism, run: ambit.run?, points: table<string|integer, ambit.frame>?, at: table<string, ambit.datum>?, t: ambit.datum[]?, arithmetic: string|table|nil, title: string? }
+function ambit.view(t) end
 
 ---@param kind? "arithmetic"|"element"|"solver"|"service"
 ---@return { kind: string, name: string, file: string, loaded: boolean }[]

@@ -51,7 +51,15 @@ describe("sample", function()
   end)
   it("repeats itself for the same seed", function()
     local a = ambit.between(0, 1)
-    assert.equal(ambit.sample { a, n = 10, seed = 3 }, ambit.sample { a, n = 10, seed = 3 })
-    assert.is_false(ambit.sample { a, n = 10, seed = 3 } == ambit.sample { a, n = 10, seed = 4 })
+    local wave = ambit.sin(7 * a) -- its extremes are inside
+    assert.equal(ambit.sample { wave, n = 10, seed = 3 }, ambit.sample { wave, n = 10, seed = 3 })
+    assert.is_false(ambit.sample { wave, n = 10, seed = 3 } == ambit.sample { wave, n = 10, seed = 4 })
+  end)
+  it("reaches the corners, which inner points miss in many dimensions", function()
+    local sum = 0
+    for _ = 1, 8 do sum = sum + ambit.between(0, 1) end
+    local hull = ambit.sample { sum, n = 4000 }
+    assert.equal(0, hull.lo)
+    assert.equal(8, hull.hi)
   end)
 end)

@@ -50,11 +50,15 @@ typedef uint32_t ambit_expr; /* node number in the graph; 0 is the constant 0 */
 #define AMBIT_COORDINATE_RATE 21u /* [c] OUT: q' from q and u; asked for only where c differs from d */
 /* Quantities of a constraint port with d rows. */
 /* [d] OUT: g, which vanishes. The element's wrenches and efforts are those of multipliers: virtual power
-** sum of lambda_k dg_k/dt, whatever the motion. A row whose time derivative vanishes identically (the norm of a
+** sum of lambda_k dg_k/dt, whatever the motion; where g itself moves in time, at fixed time, and the AMBIT_POWER is
+** -lambda_k times its derivative at fixed coordinates. A row whose time derivative vanishes identically (the norm of a
 ** quaternion) has none. */
 #define AMBIT_RESIDUAL 24u
 /* Quantities of the mechanism as a whole; port AMBIT_NO_PORT, summed over all elements. */
-#define AMBIT_FIELD 32u /* [3] acceleration of gravity, world axes, m/s^2 */
+#define AMBIT_FIELD 32u       /* [3] acceleration of gravity, world axes, m/s^2 */
+#define AMBIT_MASS 33u        /* [1] kg */
+#define AMBIT_MASS_MOMENT 34u /* [3] mass times position of its centre in the world, kg m */
+#define AMBIT_MOMENTUM 35u    /* [6] angular momentum about the world's origin, N m s, momentum, N s; world axes */
 #define AMBIT_NO_PORT UINT32_MAX
 #define AMBIT_QUANTITY_MAX 12u /* the largest count above */
 
@@ -98,6 +102,8 @@ struct ambit_build { /* [main] valid only during express() */
   ambit_expr (*speed)(ambit_build *b, uint32_t i, uint32_t order, const char *unit);
   /* the own multiplier number i (rows counted through the constraint ports) */
   ambit_expr (*multiplier)(ambit_build *b, uint32_t i, const char *unit);
+  /* time derivative of a given motion with all coordinates held: what is left of diff_time() in a mechanism at rest */
+  ambit_expr (*partial_time)(ambit_build *b, ambit_expr x);
 };
 
 typedef struct ambit_element {
@@ -108,5 +114,8 @@ typedef struct ambit_element {
   /* [main] writes the quantity (count above, or dof) into out. AMBIT_UNABLE without fail(): not mine, the kernel adds
   ** nothing */
   ambit_status (*express)(ambit_build *b, uint32_t port, uint32_t quantity, ambit_expr *out);
+  /* [main] NULL, or looks at the data when the element is added: fail() refuses it. No state(), speed(), multiplier(),
+  ** unknown() or get() */
+  ambit_status (*check)(ambit_build *b);
 } ambit_element;
 #endif

@@ -42,6 +42,6 @@ static ambit_status express(ambit_build *b, uint32_t port, uint32_t quantity, am
   return wrench ? express_wrench(b, k, ambit_pose_read(pose), out) : express_energy(b, k, ambit_pose_read(pose), out);
 }
 
-static const ambit_element element = { sizeof element, 1, ports, params, express };
+static const ambit_element element = { sizeof element, 1, ports, params, express, NULL };
 
 AMBIT_ELEMENT_ENTRY("skeleton", "0.1", "A spring without length between a frame and the origin of the world.", element)

@@ -1,0 +1,135 @@
+/* Problems: what becomes a parameter, which tapes are built, and what is refused, with invariants and without. */
+#include "model/problem.h"
+#include "graph/tape.h"
+#include "model/hull.h"
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+#include <cmocka.h>
+
+/* x' = a x, y' = -y with the invariants x y - b t and |x| - 1, all with unknown data */
+typedef struct scene {
+  ambit_graph *graph;
+  ambit_arena *arena;
+  ambit_expr state[2], rate[2], initial[2], invariant[2];
+  ambit_system system;
+  ambit_problem problem;
+  ambit_failure failure;
+} scene;
+
+static ambit_expr op(scene *s, uint32_t code, ambit_expr a, ambit_expr b) {
+  return ambit_graph_op(s->graph, code, a, b);
+}
+
+static void open_scene(scene *s) {
+  static const char *const name[] = { "x", "y" }, *const unit[] = { "1", "1" };
+  static const char *const row[] = { "loop: row 1", "loop: row 2" };
+  *s = (scene) { .graph = ambit_graph_open(), .arena = ambit_arena_open() };
+  for (size_t i = 0; i < 2; i++) {
+    s->state[i] = ambit_graph_symbol(s->graph, name[i], unit[i]);
+    s->initial[i] = ambit_graph_number(s->graph, 1);
+  }
+  ambit_expr a = ambit_graph_unknown(s->graph, "a", (ambit_interval) { 1, 2 });
+  ambit_expr b = ambit_graph_unknown(s->graph, "b", (ambit_interval) { 3, 4 });
+  s->rate[0] = op(s, AMBIT_OP_MUL, a, s->state[0]);
+  s->rate[1] = op(s, AMBIT_OP_NEG, s->state[1], s->state[1]);
+  ambit_expr product = op(s, AMBIT_OP_MUL, s->state[0], s->state[1]);
+  s->invariant[0] = op(s, AMBIT_OP_SUB, product, op(s, AMBIT_OP_MUL, b, ambit_graph_time(s->graph)));
+  ambit_expr size = op(s, AMBIT_OP_ABS, s->state[0], s->state[0]);
+  s->invariant[1] = op(s, AMBIT_OP_SUB, size, ambit_graph_number(s->graph, 1));
+  s->system = (ambit_system) { s->graph, 2, name, unit, s->state, s->rate, 1, s->invariant, row };
+}
+
+static void close_scene(scene *s) {
+  ambit_arena_close(s->arena);
+  ambit_graph_close(s->graph);
+}
+
+static ambit_status build(scene *s, uint32_t want) {
+  static const double time[] = { 0, 1 };
+  const ambit_problem_request q = { &s->system, s->initial, 2, time, want, 0 };
+  s->failure = (ambit_failure) { 0 };
+  return ambit_problem_build(&q, s->arena, &s->problem, &s->failure);
+}
+
+static void invariants_nobody_wants_are_not_built(void **unused) {
+  (void)unused;
+  scene s;
+  open_scene(&s);
+  s.system.ninvariant = 2;
+  assert_int_equal(build(&s, AMBIT_WANT_RHS | AMBIT_WANT_JACOBIAN), AMBIT_OK);
+  const ambit_problem *p = &s.problem;
+  assert_true(p->ninvariant == 0 && !p->invariant && !p->invariant_jacobian && !p->invariant_name);
+  assert_true(p->np == 1 && p->nu == 1 && p->uses_time == 0 && p->rhs->nin == 3);
+  close_scene(&s);
+}
+
+static void their_data_become_parameters(void **unused) {
+  (void)unused;
+  scene s;
+  open_scene(&s);
+  assert_int_equal(build(&s, AMBIT_WANT_RHS | AMBIT_WANT_SERIES | AMBIT_WANT_INVARIANT), AMBIT_OK);
+  const ambit_problem *p = &s.problem;
+  assert_true(p->ninvariant == 1 && !p->invariant_jacobian && p->np == 2 && p->nu == 2 && p->uses_time == 1);
+  assert_string_equal(p->name[3], "b");
+  assert_string_equal(p->invariant_name[0], "loop: row 1");
+  assert_true(p->invariant->nout == 1 && p->invariant->nin == 5 && p->rhs->nin == 5);
+  assert_true(p->invariant->flags & AMBIT_TAPE_SERIES);
+  assert_true(p->p_lo[1] == 3 && p->p_hi[1] == 4);
+  ambit_interval slot[64], in[5] = { { 2, 2 }, { 5, 5 }, { 9, 9 }, { 3, 3 }, { 0.5, 0.5 } }; /* x y a b t */
+  assert_int_equal(ambit_hull(p->invariant, in, slot), 0);
+  assert_true(slot[p->invariant->out[0]].lo == 8.5 && slot[p->invariant->out[0]].hi == 8.5);
+  close_scene(&s);
+}
+
+static void their_jacobian_comes_with_jacobians(void **unused) {
+  (void)unused;
+  scene s;
+  open_scene(&s);
+  assert_int_equal(build(&s, AMBIT_WANT_RHS | AMBIT_WANT_JACOBIAN | AMBIT_WANT_INVARIANT), AMBIT_OK);
+  const ambit_tape *t = s.problem.invariant_jacobian;
+  assert_true(t->nout == 2 && t->nin == 5 && !(s.problem.invariant->flags & AMBIT_TAPE_SERIES));
+  ambit_interval slot[64], in[5] = { { 2, 2 }, { 5, 5 }, { 9, 9 }, { 3, 3 }, { 0.5, 0.5 } };
+  assert_int_equal(ambit_hull(t, in, slot), 0);
+  assert_true(slot[t->out[0]].lo == 5 && slot[t->out[1]].hi == 2);
+  close_scene(&s);
+}
+
+static void no_derivative_is_an_error_only_where_one_is_needed(void **unused) {
+  (void)unused;
+  scene s;
+  open_scene(&s);
+  s.system.ninvariant = 2;
+  assert_int_equal(build(&s, AMBIT_WANT_RHS | AMBIT_WANT_SERIES | AMBIT_WANT_INVARIANT), AMBIT_OK);
+  assert_int_equal(s.problem.ninvariant, 2);
+  assert_int_not_equal(build(&s, AMBIT_WANT_RHS | AMBIT_WANT_JACOBIAN | AMBIT_WANT_INVARIANT), AMBIT_OK);
+  assert_non_null(strstr(s.failure.message, "invariant `loop: row 2` has no derivative"));
+  close_scene(&s);
+}
+
+static void strangers_are_named(void **unused) {
+  (void)unused;
+  scene s;
+  open_scene(&s);
+  ambit_expr stranger = ambit_graph_symbol(s.graph, "lambda", "N");
+  s.invariant[0] = op(&s, AMBIT_OP_MUL, stranger, s.state[0]);
+  assert_int_equal(build(&s, AMBIT_WANT_RHS), AMBIT_OK);
+  assert_int_equal(build(&s, AMBIT_WANT_RHS | AMBIT_WANT_INVARIANT), AMBIT_INVALID);
+  assert_non_null(strstr(s.failure.message, "the invariant `loop: row 1` depends on `lambda`"));
+  s.invariant[0] = AMBIT_NO_EXPR;
+  assert_int_equal(build(&s, AMBIT_WANT_RHS | AMBIT_WANT_INVARIANT), AMBIT_INVALID);
+  assert_non_null(strstr(s.failure.message, "invariant `loop: row 1` has no formula"));
+  close_scene(&s);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(invariants_nobody_wants_are_not_built),
+    cmocka_unit_test(their_data_become_parameters),
+    cmocka_unit_test(their_jacobian_comes_with_jacobians),
+    cmocka_unit_test(no_derivative_is_an_error_only_where_one_is_needed),
+    cmocka_unit_test(strangers_are_named),
+  };
+  return cmocka_run_group_tests_name("problem", tests, NULL, NULL);
+}
