@@ -1,5 +1,6 @@
 -- andrews.lua: Andrews' squeezer, seven bodies in a plane and three loops (Schiehlen, Multibody Systems Handbook, 1990;
 -- data of the IVP Test Set). What a drive torque of 0.033 N m does in the first 10 ms, proved.
+--   ambit run andrews.lua 0.03      for as many seconds
 local ambit = require "ambit"
 
 local m = ambit.mechanism "Andrews' squeezer"
@@ -54,7 +55,9 @@ m:independent { "beta" } -- the other six speeds follow from it
 local initial = start.configuration
 initial["beta'"] = 0
 
-local run = ambit.simulate { m:dynamics(), initial = initial, t = { 0, "0.002", "0.004", "0.006", "0.008", "0.01" } }
+local finish, times = tonumber(arg and arg[1]) or 0.01, { 0 }
+for k = 1, 5 do times[k + 1] = finish * k / 5 end
+local run = ambit.simulate { m:dynamics(), initial = initial, t = times }
 
 -- What the drive has put in is what energy has grown by.
 local energy = m:of_states { m:energy().total }[1]
@@ -62,12 +65,21 @@ local function energy_of(state) return ambit.evaluate { energy, at = state } end
 local before = energy_of(initial)
 
 print "t, s     beta, rad              theta, rad             beta', rad/s          work - growth of energy, J"
-for _, t in ipairs { 0.002, 0.004, 0.006, 0.008, 0.01 } do
-  if t <= run.t_reached then
-    local x = run:at(t)
+for k = 2, #times do
+  if times[k] <= run.t_reached then
+    local x = run:at(times[k])
     local work = ambit.interval "0.033" * (x.beta - initial.beta)
-    print(("%.3f    %-21s  %-21s  %-20s  %s"):format(t, x.beta, x.theta, x["beta'"], work - (energy_of(x) - before)))
+    print(("%.3f    %-21s  %-21s  %-20s  %s"):format(times[k], x.beta, x.theta, x["beta'"],
+      work - (energy_of(x) - before)))
   end
 end
 print(run)
+
+-- The last moment in full: the other speeds, and the accelerations, follow from the states.
+local q, final = m:coordinates(), run.x
+print "angle      rad                            rad/s                        rad/s^2"
+for _, name in ipairs(m:coordinate_names()) do
+  local now = ambit.evaluate { m:of_states { q[name .. "'"], q[name .. "''"] }, at = final }
+  print(("%-9s  %-29s  %-27s  %s"):format(name, final[name], now[1], now[2]))
+end
 print(("%.3f s of CPU time"):format(run.cpu_seconds))

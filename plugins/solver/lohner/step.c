@@ -162,6 +162,7 @@ static int slope_excess(lohner *s, const double *eps, const double *deps) {
     for (uint32_t j = 0; j < n; j++) {
       double slope = (fabs(s->slope_mid[at + j]) + s->slope_rad[at + j]) * top;
       s->dtail_in[(size_t)i * n + j] = slope + (deps ? deps[(size_t)i * n + j] : 0);
+      if (!(s->dtail_in[(size_t)i * n + j] < INFINITY)) return 0; /* NaN too */
     }
   }
   if (s->jet->tail(s->box_jet, q - 1, H, s->tail_in, s->dtail_in, s->tail_out, s->dtail_out) != AMBIT_OK) return 0;
