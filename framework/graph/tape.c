@@ -35,9 +35,7 @@ static ambit_status no_memory(ambit_failure *f) {
 }
 
 /* A few roundings wide. */
-static bool is_narrow(ambit_interval x) {
-  return x.hi - x.lo <= 0x1p-48 * fmax(fabs(x.lo), fabs(x.hi));
-}
+static bool is_narrow(ambit_interval x) { return x.hi - x.lo <= 0x1p-48 * fmax(fabs(x.lo), fabs(x.hi)); }
 
 static bool is_rational(uint32_t op) { return op <= AMBIT_OP_DIV; }
 

@@ -143,8 +143,8 @@ void ambit_lua_open_expression(lua_State *L, ambit_lua *core) {
     { NULL, NULL } };
   static const luaL_Reg functions[] = { { "derivative", derivative }, { "simplify", simplify },
     { "expression", expression }, { "symbol", symbol }, { "time", time_symbol }, { "pi", pi },
-    { "is_constant", is_constant }, { "leaves", leaves }, { "nodes", nodes },
-    { "substitute", substitute }, { NULL, NULL } };
+    { "is_constant", is_constant }, { "leaves", leaves }, { "nodes", nodes }, { "substitute", substitute },
+    { NULL, NULL } };
   static const char *const operators[][2] = { { "__add", "add" }, { "__sub", "sub" }, { "__mul", "mul" },
     { "__div", "div" }, { "__unm", "neg" }, { "__pow", "pow" } };
   ambit_lua_set_functions(L, core, functions);

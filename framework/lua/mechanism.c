@@ -160,8 +160,8 @@ static int speeds(lua_State *L) {
 void ambit_lua_open_mechanism(lua_State *L, ambit_lua *core) {
   static const luaL_Reg meta[] = { { "__gc", close }, { NULL, NULL } };
   static const luaL_Reg functions[] = { { "mechanism", mechanism }, { "add", add }, { "pull", pull },
-    { "part_name", part_name }, { "pulled", pulled }, { "part_pulled", part_pulled }, { "part_count", count }, { "coordinates", coordinates },
-    { "speeds", speeds }, { NULL, NULL } };
+    { "part_name", part_name }, { "pulled", pulled }, { "part_pulled", part_pulled }, { "part_count", count },
+    { "coordinates", coordinates }, { "speeds", speeds }, { NULL, NULL } };
   static const struct {
     const char *name;
     lua_Integer value;
@@ -169,8 +169,8 @@ void ambit_lua_open_mechanism(lua_State *L, ambit_lua *core) {
     { "WRENCH", AMBIT_WRENCH }, { "ENERGY", AMBIT_ENERGY }, { "COORDINATE", AMBIT_COORDINATE }, { "RATE", AMBIT_RATE },
     { "RATE2", AMBIT_RATE2 }, { "EFFORT", AMBIT_EFFORT }, { "BALANCE", AMBIT_BALANCE },
     { "COORDINATE_RATE", AMBIT_COORDINATE_RATE }, { "RESIDUAL", AMBIT_RESIDUAL }, { "POWER", AMBIT_POWER },
-    { "FIELD", AMBIT_FIELD },
-    { "MASS", AMBIT_MASS }, { "MASS_MOMENT", AMBIT_MASS_MOMENT }, { "MOMENTUM", AMBIT_MOMENTUM } };
+    { "FIELD", AMBIT_FIELD }, { "MASS", AMBIT_MASS }, { "MASS_MOMENT", AMBIT_MASS_MOMENT },
+    { "MOMENTUM", AMBIT_MOMENTUM } };
   ambit_lua_set_functions(L, core, functions);
   for (size_t i = 0; i < sizeof quantity / sizeof *quantity; i++) {
     lua_pushinteger(L, quantity[i].value);

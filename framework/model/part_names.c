@@ -44,7 +44,7 @@ bool ambit_part_enter_name(ambit_mechanism *m, const ambit_part *p) {
   return true;
 }
 
-/* beta' and beta'' are the derivatives of beta. */
+/* beta' and beta'' are the derivatives of beta, ball'.1 is a speed of ball. */
 ambit_status ambit_part_check_name(const ambit_mechanism *m, const ambit_part *p, ambit_failure *f) {
   size_t n = strlen(p->name);
   char who[AMBIT_WHO_MAX], first[AMBIT_WHO_MAX];
@@ -56,6 +56,8 @@ ambit_status ambit_part_check_name(const ambit_mechanism *m, const ambit_part *p
       return ambit_fail(f, AMBIT_INVALID, "%s: the name has a control character", who);
   if (p->name[n - 1] == '\'')
     return ambit_fail(f, AMBIT_INVALID, "%s: a name cannot end in `'`: that marks time derivatives", who);
+  if (strstr(p->name, "'."))
+    return ambit_fail(f, AMBIT_INVALID, "%s: a name cannot have `'` before a dot: that marks speeds", who);
   const ambit_part *other = find_name(m, p->name);
   if (other) return ambit_fail(f, AMBIT_INVALID, "%s: the name is taken by the %s", who, ambit_part_who(other, first));
   return AMBIT_OK;

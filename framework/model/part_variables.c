@@ -12,6 +12,7 @@
 
 #define NAME_BYTES 128
 #define UNIT_BYTES 80
+#define MULTIPLIER "lambda_"
 
 static const char *name_of(char out[NAME_BYTES], const char *before, const char *part, uint32_t number) {
   if (number)
@@ -28,14 +29,19 @@ static ambit_expr symbol(ambit_mechanism *m, const char *unit, const char *per, 
   return ambit_graph_symbol(m->graph, full, text);
 }
 
-/* A dot may make the name of a coordinate that of another one; without it the name is the part's own. */
-static ambit_status check_free(const ambit_mechanism *m, const ambit_part *p, const char *name, ambit_failure *f) {
+/* Parts have different names, but a dot may make the name of a coordinate that of another one, and a multiplier's begins
+** like no part's has to.
+*/
+static ambit_status check_free(
+    const ambit_mechanism *m, const ambit_part *p, const char *what, const char *name, ambit_failure *f) {
   char who[AMBIT_WHO_MAX];
-  for (size_t i = 0; i < m->ncoordinate && strchr(name, '.'); i++)
-    if (strcmp(m->coordinate[i].name, name) == 0)
-      return ambit_fail(
-          f, AMBIT_INVALID, "%s: its coordinate `%s` has the name of another one", ambit_part_who(p, who), name);
-  return AMBIT_OK;
+  bool taken = false;
+  for (size_t i = 0; i < m->nmultiplier; i++) taken = taken || strcmp(m->multiplier[i].name, name) == 0;
+  bool derived = strchr(name, '.') || strncmp(name, MULTIPLIER, strlen(MULTIPLIER)) == 0;
+  for (size_t i = 0; derived && i < m->ncoordinate; i++) taken = taken || strcmp(m->coordinate[i].name, name) == 0;
+  if (!taken) return AMBIT_OK;
+  return ambit_fail(
+      f, AMBIT_INVALID, "%s: its %s `%s` has the name of another variable", ambit_part_who(p, who), what, name);
 }
 
 static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
@@ -71,7 +77,7 @@ const ambit_coordinate *ambit_part_coordinate(
   if (p->coordinate[i] != UINT32_MAX) return &m->coordinate[p->coordinate[i]];
   char name[NAME_BYTES];
   name_of(name, "", p->name, p->ncoordinate > 1 ? i + 1 : 0);
-  if (check_free(m, p, name, f) != AMBIT_OK) return NULL;
+  if (check_free(m, p, "coordinate", name, f) != AMBIT_OK) return NULL;
   ambit_coordinate *grown =
       ambit_vector_reserve(m->coordinate, &m->coordinate_capacity, m->ncoordinate + 1, sizeof *grown);
   if (grown) m->coordinate = grown;
@@ -111,7 +117,8 @@ const ambit_multiplier *ambit_part_multiplier(
   const ambit_part *p = &m->part[part];
   if (p->multiplier[i] != UINT32_MAX) return &m->multiplier[p->multiplier[i]];
   char name[NAME_BYTES];
-  name_of(name, "lambda_", p->name, p->rows > 1 ? i + 1 : 0);
+  name_of(name, MULTIPLIER, p->name, p->rows > 1 ? i + 1 : 0);
+  if (check_free(m, p, "multiplier", name, f) != AMBIT_OK) return NULL;
   ambit_multiplier *grown =
       ambit_vector_reserve(m->multiplier, &m->multiplier_capacity, m->nmultiplier + 1, sizeof *grown);
   if (grown) m->multiplier = grown;

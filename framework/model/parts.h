@@ -37,7 +37,7 @@ typedef struct ambit_part {
   size_t nparam;
   ambit_joined *joined; /* [nport] */
   ambit_cell *cell;     /* [(nport + 1) * AMBIT_COLUMNS]; row nport: the part as a whole */
-  ambit_cell *cut;      /* the same while the mechanism is cut, for what accelerations may act on; else NULL; see cut.h */
+  ambit_cell *cut; /* the same while the mechanism is cut, for what accelerations may act on; else NULL; see cut.h */
   /* of all its OUT joints and constraints, in the order of the ports; each list holds places in the mechanism's list,
   ** UINT32_MAX: not (yet) made */
   uint32_t ncoordinate, dof, rows;

@@ -125,6 +125,24 @@ describe("assemble", function()
     assert.is_true(covered)
   end)
 
+  it("tells when a configuration may lie outside the box", function()
+    local m, phi = slider_crank(), ambit.between("0.6", "0.8") -- at 0.7 the slider is at the edge, s = 3.695
+    local c = m:assemble { phi = phi, box = { psi = { -1.5, 1.5 }, s = { 3, "3.695" } } }
+    assert.equal("unique", c.status)
+    assert.is_false(c.configuration.inside)
+    assert.is_truthy(c.reason:find("reaches out of the box", 1, true))
+    local whole = m:assemble { phi = phi, box = { psi = { -1.5, 1.5 }, s = { 3, 5 } } }
+    assert.is_true(whole.configuration.inside)
+    assert.equal("", whole.reason)
+  end)
+
+  it("takes no configuration from outside the box", function()
+    local m = slider_crank() -- the iteration ends at phi = 2 pi - 0.56
+    local c = m:assemble { s = "3.8", box = { psi = { -3, 3 }, phi = { "0.5", 3 } }, boxes_max = 1 }
+    assert.equal("undecided", c.status)
+    assert.is_nil(c.configuration)
+  end)
+
   it("proves Andrews' squeezer in a box of +-1e-3 around the published start", function()
     local c = squeezer():assemble { beta = squeezer_at.beta, box = squeezer_box(1e-3) }
     assert.equal("unique", c.status)

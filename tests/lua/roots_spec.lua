@@ -69,6 +69,22 @@ describe("roots", function()
     assert.equal(0, #none.proved + #none.undecided)
   end)
 
+  it("cuts an unknown without bounds, whatever the others are", function()
+    local line = { -math.huge, math.huge }
+    local function system(s) return { s.x - 0.5, (s.y - 1) * (s.y - 3) * (s.y + 5) - s.x } end
+    for _, x in ipairs { { 0, 1 }, line } do
+      local r = ambit.roots { system, box = { x = x, y = line } }
+      assert.equal("complete", r.status)
+      assert.equal(3, #r.proved)
+    end
+    local far = ambit.roots {
+      function(s) return { s.x ^ 2 - s.y, s.y ^ 2 - 2 * s.x } end, box = { x = line, y = line },
+    }
+    assert.equal(2, #far.proved)
+    assert.equal("unable", far.status) -- of numbers beyond the largest double nothing is known
+    assert.is_truthy(far.reason:find("reach out to infinity", 1, true))
+  end)
+
   it("is honest about double roots and about curves of roots", function()
     local double = ambit.roots { function(s) return s.x ^ 2 - 2 * s.x + 1 end, box = { x = { -9, 9 } } }
     assert.equal("unable", double.status)
@@ -168,6 +184,9 @@ describe("roots", function()
     refused("range is empty: 1 is greater than 0", { x, box = { x = { 1, 0 } } })
     refused("expected { lo, hi }", { x, box = { x = { 1 } } })
     refused("NaN", { x, box = { x = { 0, 0 / 0 } } })
+    refused("box.x: interval: the interval is empty", { x, box = { x = { math.huge, math.huge } } })
+    refused('box.x: interval: "abc" is no number', { x, box = { x = "abc" } })
+    refused("the box is empty: `x`", { x, box = { x = "[empty]" } })
     refused("not uncertain", { x, box = { x = { 0, ambit.between(1, 2) } } })
     refused("no equation depends on `y`", { x, box = { x = unit, y = unit } })
     refused("1 equation cannot fix 2 unknowns", { function(s) return s.x + s.y end, box = { x = unit, y = unit } })

@@ -34,7 +34,8 @@ static ambit_motion motion_of(bench *s) {
 static ambit_system system_of(bench *s) {
   ambit_system system;
   ambit_failure f = { 0 };
-  if (ambit_dynamics_system(s->machine.mechanism, AMBIT_FORM_AUTO, s->arena, &system, &f) != AMBIT_OK) fail_msg("%s", f.message);
+  if (ambit_dynamics_system(s->machine.mechanism, AMBIT_FORM_AUTO, s->arena, &system, &f) != AMBIT_OK)
+    fail_msg("%s", f.message);
   return system;
 }
 
@@ -290,7 +291,8 @@ static void spatial_chain_obeys_newton_and_euler(void **state) {
   memcpy(value, motion.mass, CHAIN * CHAIN * sizeof *value);
   memcpy(value + CHAIN * CHAIN, motion.force, CHAIN * sizeof *value);
   memcpy(value + CHAIN * CHAIN + CHAIN, qdd, CHAIN * sizeof *value);
-  for (int k = 0; k < CHAIN; k++) leaf[k] = motion.variables.coordinate[k].q, leaf[CHAIN + k] = motion.variables.coordinate[k].rate;
+  for (int k = 0; k < CHAIN; k++)
+    leaf[k] = motion.variables.coordinate[k].q, leaf[CHAIN + k] = motion.variables.coordinate[k].rate;
   ambit_random random = { 5 };
   for (int round = 0; round < 10; round++) {
     double x[2 * CHAIN], unit[CHAIN], tau[CHAIN], h[CHAIN], solved[CHAIN];

@@ -255,8 +255,8 @@ static void impossible_bodies(void **state) {
     machine_pull(s, at, AMBIT_WRENCH); /* a refused part has left nothing behind */
   }
   machine_datum both[] = { machine_text(s, "torque", "1"), machine_text(s, "force", "1"), machine_end };
-  uint32_t drive =
-      machine_try(s, machine_element(s, "joint_torque"), "joint_torque", "drive", (ambit_frame) { hinge.part, 2 }, both);
+  uint32_t drive = machine_try(
+      s, machine_element(s, "joint_torque"), "joint_torque", "drive", (ambit_frame) { hinge.part, 2 }, both);
   expect_refusal(s, drive, "either `torque` (N m) or `force` (N)");
 }
 

@@ -289,8 +289,7 @@ static inline ambit_status ambit_express_mass(ambit_build *b, uint32_t port, uin
   ambit_vector3 v = ambit_velocity_at(b, ambit_screw_read(twist), c);
   ambit_screw s;
   s.linear = ambit_vector3_scale(b, m, ambit_rotation_turn(b, pose.rotation, v));
-  s.angular = ambit_vector3_add(
-      b, ambit_rotation_turn(b, pose.rotation, spin), ambit_vector3_cross(b, r, s.linear));
+  s.angular = ambit_vector3_add(b, ambit_rotation_turn(b, pose.rotation, spin), ambit_vector3_cross(b, r, s.linear));
   ambit_screw_write(s, out);
   return AMBIT_OK;
 }
