@@ -64,22 +64,23 @@ local energy = m:of_states { m:energy().total }[1]
 local function energy_of(state) return ambit.evaluate { energy, at = state } end
 local before = energy_of(initial)
 
-print "t, s     beta, rad              theta, rad             beta', rad/s          work - growth of energy, J"
+local columns = "%-5s  %-42s  %-42s  %-38s  %s"
+print(columns:format("t, s", "beta, rad", "theta, rad", "beta', rad/s", "work - growth of energy, J"))
 for k = 2, #times do
   if times[k] <= run.t_reached then
     local x = run:at(times[k])
     local work = ambit.interval "0.033" * (x.beta - initial.beta)
-    print(("%.3f    %-21s  %-21s  %-20s  %s"):format(times[k], x.beta, x.theta, x["beta'"],
-      work - (energy_of(x) - before)))
+    print(columns:format(("%.3f"):format(times[k]), x.beta, x.theta, x["beta'"], work - (energy_of(x) - before)))
   end
 end
 print(run)
 
 -- The last moment in full: the other speeds, and the accelerations, follow from the states.
 local q, final = m:coordinates(), run.x
-print "angle      rad                            rad/s                        rad/s^2"
+columns = "%-7s  %-42s  %-42s  %s"
+print(columns:format("angle", "rad", "rad/s", "rad/s^2"))
 for _, name in ipairs(m:coordinate_names()) do
   local now = ambit.evaluate { m:of_states { q[name .. "'"], q[name .. "''"] }, at = final }
-  print(("%-9s  %-29s  %-27s  %s"):format(name, final[name], now[1], now[2]))
+  print(columns:format(name, final[name], now[1], now[2]))
 end
 print(("%.3f s of CPU time"):format(run.cpu_seconds))

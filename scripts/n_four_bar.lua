@@ -47,7 +47,7 @@ local function show(what, m, run, times)
   for _, t in ipairs(times) do
     if tonumber(t) <= run.t_reached then
       local x = run:at(t)
-      print(("  t = %-4s  theta = %-40s  gap of the loops < %.1e m"):format(t, x.theta, gap(m, x)))
+      print(("  t = %-4s  theta = %-42s  gap of the loops up to %.2g m"):format(t, x.theta, gap(m, x)))
     end
   end
   print("  " .. tostring(run))

@@ -17,12 +17,12 @@ local run = ambit.simulate {
   m:dynamics(), initial = { ["engine.crank"] = 0, ["engine.crank'"] = 100 }, t = times, solver = "lohner",
 }
 
-print "t, s    crank, rad               speed of the crank, rad/s    piston, mm"
+print "t, s    crank, rad                  speed of the crank, rad/s   piston, mm"
 local place = m:position(engine.slider).x
 for i = 2, #times do
   local x = run:at(times[i])
   local at = ambit.evaluate { place, at = { ["engine.crank"] = x["engine.crank"] } }
-  print(("%s   %-23s  %-27s  %s"):format(times[i], x["engine.crank"]:text(6), x["engine.crank'"]:text(6),
+  print(("%s   %-26s  %-26s  %s"):format(times[i], x["engine.crank"]:text(6), x["engine.crank'"]:text(6),
     (1000 * at):text(5)))
 end
 print(run)

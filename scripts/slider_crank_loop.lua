@@ -25,12 +25,13 @@ local start = { crank = angle, rod = -angle - ambit.asin(ambit.sin(angle) / 3), 
 local run = ambit.simulate { m:dynamics(), initial = start, t = { 0, "0.2", "0.4", "0.6" } }
 
 local wanted = { pin = m:position(pin).x, side = m:multipliers()["guide.1"] }
-print "t, s   crank, rad            pin, m                force of the guide, N"
+local columns = "%-5s  %-38s  %-40s  %s"
+print(columns:format("t, s", "crank, rad", "pin, m", "force of the guide, N"))
 for _, t in ipairs { 0.2, 0.4, 0.6 } do
   if t <= run.t_reached then
     local x = run:at(t)
     local now = ambit.evaluate { wanted, at = x }
-    print(("%.1f    %-20s  %-20s  %s"):format(t, x.crank, now.pin, now.side))
+    print(columns:format(t, x.crank, now.pin, now.side))
   end
 end
 print(run)

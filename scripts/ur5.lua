@@ -26,13 +26,13 @@ end
 local draws = 100000
 
 -- One row for each arithmetic, the last one for the sampled hull; the width of each component.
-local function compare(title, components, at)
+local function compare(title, names, components, at)
   local function row(name, result, seconds)
     local widths = {}
     for i = 1, #components do widths[i] = ("%10.6f"):format(result[i]:width()) end
-    print(("  %-15s %s %10.5f s"):format(name, table.concat(widths), seconds))
+    print(("  %-13s %s %9.3f ms"):format(name, table.concat(widths), 1000 * seconds))
   end
-  print(title)
+  print(("%s\n  %-13s %10s%10s%10s %12s"):format(title, "", names[1], names[2], names[3], "time"))
   local best
   for _, arithmetic in ipairs { "interval", "affine", "taylor_model" } do
     best = ambit.evaluate { components, at = at, arithmetic = arithmetic }
@@ -49,17 +49,17 @@ local function compare(title, components, at)
 end
 
 local tip = arm:position(arm.links.tool0)
-local tool = { tip.x, tip.y, tip.z }
+local tool, xyz = { tip.x, tip.y, tip.z }, { "x", "y", "z" }
 local torque = arm:gravity_torque()
-local held = { torque[2], torque[3], torque[4] } -- gravity turns nothing else
+local held, motors = { torque[2], torque[3], torque[4] }, { "shoulder", "elbow", "wrist 1" } -- the others bear nothing
 
 -- 12 uncertain data: seven lengths, five angles (the last joint turns the tool on the spot)
 local set = posture(function(q) return around(q, "0.5 deg") end)
-local box = compare("width of the box of the tool, m: lengths +-0.2 %, angles +-0.5 degrees", tool, set)
+local box = compare("width of the box of the tool, m: lengths +-0.2 %, angles +-0.5 degrees", xyz, tool, set)
 print("  the tool is in", box[1], box[2], box[3])
 
 -- the same lengths, six masses
-local moments = compare("\nwidth of the torques that hold the pose, N m: lengths +-0.2 %, masses +-2 %", held,
+local moments = compare("\nwidth of the torques that hold the pose, N m: lengths +-0.2 %, masses +-2 %", motors, held,
   posture(function(q) return q end))
 for i = 1, 3 do print(("  %-20s"):format(joints[i + 1]), moments[i]) end
 
@@ -68,8 +68,9 @@ local swept = posture(function(q, i)
   return (i == 2 or i == 3) and between(tonumber(q) - 0.1, tonumber(q) + 0.1) or q
 end)
 local limits = arm:limits()
-compare("\nwidth of the box of the tool, m, while the shoulder lifts and the elbow bends by +-0.1 rad", tool, swept)
-local range = compare("\nwidth of the holding torques, N m, in that range", held, swept)
+compare("\nwidth of the box of the tool, m, while the shoulder lifts and the elbow bends by +-0.1 rad", xyz, tool,
+  swept)
+local range = compare("\nwidth of the holding torques, N m, in that range", motors, held, swept)
 for i = 1, 3 do
   local most = limits[joints[i + 1]].effort
   local share = ambit.evaluate { range[i] / most }

@@ -1,7 +1,7 @@
 -- van_der_pol.lua: Van der Pol's oscillator from one exact point, and from a box of starting points.
 --
--- The limit cycle attracts: the point's enclosure stays narrow. A whole box is stretched along the cycle and folded; carried
--- in one piece it lives to about t = 5.
+-- The limit cycle attracts: the point's enclosure stays narrow. A whole box is stretched along the cycle and folded;
+-- carried in one piece it lives to about t = 5.
 local ambit = require "ambit"
 
 local oscillator = ambit.ode {

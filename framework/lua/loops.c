@@ -1,6 +1,7 @@
 /* loops.c -- closed loops as Lua values: constraints, the choice of independent speeds, multipliers, rank. */
 #include "lua/core.h"
 #include "lua/mechanism.h"
+#include "lua/request.h"
 #include "lua/system.h"
 #include "model/constrained.h"
 #include "model/rank.h"
@@ -46,34 +47,12 @@ static int has_constraints(lua_State *L) {
 
 /* -- the choice */
 
-/* {text, ...} at idx; the texts stay Lua's */
-static const char **names_of(lua_State *L, int idx, size_t *n) {
-  *n = (size_t)luaL_len(L, idx);
-  const char **name = lua_newuserdatauv(L, (*n + 1) * sizeof *name, 0);
-  for (size_t i = 0; i < *n; i++) {
-    lua_rawgeti(L, idx, (lua_Integer)i + 1);
-    name[i] = luaL_checkstring(L, -1);
-    lua_pop(L, 1); /* the table keeps it */
-  }
-  return name;
-}
-
-static double *numbers_of(lua_State *L, int idx, size_t n) {
-  double *x = lua_newuserdatauv(L, (n + 1) * sizeof *x, 0);
-  for (size_t i = 0; i < n; i++) {
-    lua_rawgeti(L, idx, (lua_Integer)i + 1);
-    x[i] = luaL_checknumber(L, -1);
-    lua_pop(L, 1);
-  }
-  return x;
-}
-
 /* loops_refer(mechanism, {name}, {number}) */
 static int loops_refer(lua_State *L) {
   ambit_failure f = { 0 };
   size_t n;
-  const char **name = names_of(L, 2, &n);
-  const double *value = numbers_of(L, 3, n);
+  const char **name = ambit_lua_texts(L, 2, &n);
+  const double *value = ambit_lua_numbers(L, 3, &n);
   if (ambit_loops_refer(ambit_lua_to_mechanism(L, 1), n, name, value, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
   return 0;
 }
@@ -82,7 +61,7 @@ static int loops_refer(lua_State *L) {
 static int loops_choose(lua_State *L) {
   ambit_failure f = { 0 };
   size_t n;
-  const char **name = names_of(L, 2, &n);
+  const char **name = ambit_lua_texts(L, 2, &n);
   if (ambit_loops_choose(ambit_lua_to_mechanism(L, 1), n, name, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
   return 0;
 }
@@ -210,9 +189,9 @@ static int rank(lua_State *L) {
   ambit_failure f = { 0 };
   ambit_rank result;
   ambit_rank_request q = { .mechanism = ambit_lua_to_mechanism(L, 1) };
-  q.name = names_of(L, 2, &q.n);
-  q.lo = numbers_of(L, 3, q.n);
-  q.hi = numbers_of(L, 4, q.n);
+  q.name = ambit_lua_texts(L, 2, &q.n);
+  q.lo = ambit_lua_numbers(L, 3, &q.n);
+  q.hi = ambit_lua_numbers(L, 4, &q.n);
   q.time_lo = luaL_checknumber(L, 5);
   q.time_hi = luaL_checknumber(L, 6);
   q.budget = (size_t)luaL_checkinteger(L, 7);

@@ -50,7 +50,7 @@ void ambit_lua_push_report(lua_State *L, const ambit_report *r) {
   ambit_lua_set_number(L, "seconds_run", r->seconds_run);
 }
 
-double *ambit_lua_times(lua_State *L, int idx, size_t *n) {
+double *ambit_lua_numbers(lua_State *L, int idx, size_t *n) {
   *n = (size_t)luaL_len(L, idx);
   double *t = lua_newuserdatauv(L, (*n + 1) * sizeof *t, 0);
   for (size_t i = 0; i < *n; i++) {
@@ -59,4 +59,15 @@ double *ambit_lua_times(lua_State *L, int idx, size_t *n) {
     lua_pop(L, 1);
   }
   return t;
+}
+
+const char **ambit_lua_texts(lua_State *L, int idx, size_t *n) {
+  *n = (size_t)luaL_len(L, idx);
+  const char **text = lua_newuserdatauv(L, (*n + 1) * sizeof *text, 0);
+  for (size_t i = 0; i < *n; i++) {
+    lua_rawgeti(L, idx, (lua_Integer)i + 1);
+    text[i] = luaL_checkstring(L, -1); /* the table keeps it */
+    lua_pop(L, 1);
+  }
+  return text;
 }

@@ -1,4 +1,4 @@
-/* request.h -- what the verbs share: options, instants, fields and reports between Lua tables and C. Arrays are Lua's
+/* request.h -- what the verbs share: options, lists, fields and reports between Lua tables and C. Arrays are Lua's
 ** (one userdata each, pushed). */
 #ifndef AMBIT_LUA_REQUEST_H
 #define AMBIT_LUA_REQUEST_H
@@ -6,7 +6,8 @@
 #include "model/report.h"
 
 ambit_option *ambit_lua_options(lua_State *L, int idx, size_t *n); /* {name, text, name, text, ...} */
-double *ambit_lua_times(lua_State *L, int idx, size_t *n);         /* {t, ...}, s */
+double *ambit_lua_numbers(lua_State *L, int idx, size_t *n);       /* {x, ...} */
+const char **ambit_lua_texts(lua_State *L, int idx, size_t *n);    /* {text, ...}; the texts stay the table's */
 void ambit_lua_push_report(lua_State *L, const ambit_report *r);
 
 /* Field of the table on top of the stack. */

@@ -1,10 +1,8 @@
 /* verbs.c -- evaluate, simulate and sample: Lua tables -> kernel requests -> Lua values. */
 #include "lua/core.h"
-#include "lua/interrupt.h"
-#include "lua/progress.h"
+#include "lua/receiver.h"
 #include "lua/request.h"
 #include "lua/system.h"
-#include "lua/track.h"
 #include "model/evaluate.h"
 #include "model/sample.h"
 #include "model/simulate.h"
@@ -67,44 +65,10 @@ static int sample_expressions(lua_State *L) {
 
 /* -- simulate */
 
-typedef struct receiver {
-  ambit_sink sink; /* first: what the solver sees */
-  ambit_track *track;
-  ambit_records *records;
-  const char *const *name;
-  ambit_progress progress;
-  ambit_failure failure; /* why the receiver stopped the run: memory, a full disk */
-} receiver;
-
-static int32_t emit(ambit_sink *s, const ambit_record *r) {
-  receiver *to = (receiver *)(void *)s;
-  if (!ambit_track_append(to->track, r)) {
-    ambit_fail(&to->failure, AMBIT_NOMEM, "out of memory for the steps of this run");
-    return 1;
-  }
-  if (to->records && ambit_records_step(to->records, r, to->name, &to->failure) != AMBIT_OK) return 1;
-  return ambit_interrupt_pending();
-}
-
-static int32_t progress(ambit_sink *s, double done, const char *message) {
-  receiver *to = (receiver *)(void *)s;
-  ambit_progress_draw(&to->progress, done, message);
-  return ambit_interrupt_pending();
-}
-
-static const char *outcome(const receiver *to, const ambit_simulate_result *result) {
-  if (to->failure.status != AMBIT_OK) return "stopped";
-  switch (result->status) {
-  case AMBIT_OK: return "complete";
-  case AMBIT_STOPPED: return "stopped";
-  default: return "unable";
-  }
-}
-
-static void push_result(lua_State *L, const receiver *to, const ambit_simulate_result *result) {
+static void push_result(lua_State *L, const ambit_receiver *to, const ambit_simulate_result *result) {
   lua_createtable(L, 0, 6);
-  ambit_lua_set_text(L, "status", outcome(to, result));
-  ambit_lua_set_text(L, "reason", to->failure.status != AMBIT_OK ? to->failure.message : result->reason);
+  ambit_lua_set_text(L, "status", ambit_receiver_status(to, result->status));
+  ambit_lua_set_text(L, "reason", ambit_receiver_reason(to, result->reason));
   ambit_lua_set_number(L, "t_reached", result->t_reached);
   ambit_lua_set_number(L, "cpu_seconds", result->cpu_seconds);
   ambit_lua_set_count(L, "step_count", result->steps);
@@ -121,27 +85,22 @@ static ambit_simulate_request simulate_request(lua_State *L) {
   q.solver_option = ambit_lua_options(L, 4, &q.nsolver_option);
   q.arithmetic_option = ambit_lua_options(L, 5, &q.narithmetic_option);
   q.initial = ambit_lua_to_array(L, 6, s->system.nx);
-  q.time = ambit_lua_times(L, 7, &q.ntime);
+  q.time = ambit_lua_numbers(L, 7, &q.ntime);
   return q;
 }
 
 /* simulate(system, solver, arithmetic or nil, solver options, arithmetic options, {initial}, {time}) -> track, result,
 ** report */
 static int simulate(lua_State *L) {
-  ambit_lua *core = AMBIT_LUA(L);
   ambit_simulate_request q = simulate_request(L);
-  receiver to = { .sink = { sizeof(ambit_sink), emit, progress }, .records = core->records, .name = q.system->name };
-  to.track = ambit_track_push(L, q.system->nx);
+  ambit_receiver to = ambit_receiver_push(L, q.system->nx, q.system->name);
   q.sink = &to.sink;
   ambit_simulate_result result = { 0 };
   ambit_report report = { 0 };
   ambit_failure f = { 0 };
-  ambit_interrupt interrupt;
-  ambit_progress_begin(&to.progress, core->progress);
-  ambit_interrupt_begin(&interrupt);
+  ambit_receiver_begin(L, &to);
   ambit_status status = ambit_simulate(&q, &result, &report, &f);
-  ambit_interrupt_end(&interrupt);
-  ambit_progress_end(&to.progress);
+  ambit_receiver_end(&to);
   if (status != AMBIT_OK) ambit_lua_raise(L, &f);
   push_result(L, &to, &result);
   ambit_lua_push_report(L, &report);
@@ -154,19 +113,16 @@ static int sample_system(lua_State *L) {
   size_t draws = (size_t)luaL_checkinteger(L, 8);
   uint64_t seed = (uint64_t)luaL_checkinteger(L, 9);
   ambit_simulate_request q = simulate_request(L);
-  receiver to = { .sink = { sizeof(ambit_sink), NULL, progress } };
+  ambit_receiver to = ambit_receiver_silent();
   q.sink = &to.sink;
   size_t n = q.ntime * q.system->nx;
   ambit_interval *out = lua_newuserdatauv(L, (n + 1) * sizeof *out, 0);
   ambit_sample_result result = { 0 };
   ambit_report report = { 0 };
   ambit_failure f = { 0 };
-  ambit_interrupt interrupt;
-  ambit_progress_begin(&to.progress, AMBIT_LUA(L)->progress);
-  ambit_interrupt_begin(&interrupt);
+  ambit_receiver_begin(L, &to);
   ambit_status status = ambit_sample_system(&q, draws, seed, out, &result, &report, &f);
-  ambit_interrupt_end(&interrupt);
-  ambit_progress_end(&to.progress);
+  ambit_receiver_end(&to);
   if (status != AMBIT_OK) ambit_lua_raise(L, &f);
   push_enclosures(L, n, out, 0);
   lua_createtable(L, 0, 5);

@@ -1,6 +1,7 @@
 /* constraints.c -- residual rows, sorted by what they do, and their derivatives. */
 #include "model/constraints.h"
 #include <stdio.h>
+#include <string.h>
 
 #define SIMPLIFY_TERMS 64u
 
@@ -68,6 +69,11 @@ static ambit_status add_row(rows *s, uint32_t part, uint32_t index, uint32_t of,
     snprintf(text, sizeof text, "%.120s.%u", loop, index + 1);
   else
     snprintf(text, sizeof text, "%.120s", loop);
+  for (size_t k = 0; k < s->count; k++) /* a dot in the name of an element makes that of a row */
+    if (strcmp(s->row[k].name, text) == 0)
+      return ambit_fail(s->f, AMBIT_INVALID,
+          "the constraint `%s` of `%s` has the name of one of `%s`: call one of them otherwise", text, loop,
+          s->row[k].loop);
   ambit_constraint *row = &s->row[s->count++];
   *row = (ambit_constraint) { ambit_arena_text(s->arena, loop), ambit_arena_text(s->arena, text), part, index, g };
   return row->loop && row->name ? AMBIT_OK : no_memory(s->f);

@@ -20,7 +20,7 @@ static void empty(ambit_cell *cell) {
 }
 
 ambit_cut *ambit_cut_open(ambit_mechanism *m) {
-  size_t n = 0;
+  size_t n = 1;
   for (size_t i = 0; i < m->count; i++) n += cells_of(&m->part[i]);
   ambit_cut *cut = malloc(sizeof *cut);
   ambit_cell *cell = malloc(n * sizeof *cell);

@@ -9,7 +9,7 @@
 
 static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
 
-/* tau_beta1 */
+/* tau_beta1; symbols are found by name, so no joint may be called that */
 static ambit_status make_forces(
     ambit_graph *g, const ambit_variables *v, ambit_arena *arena, const ambit_expr **force, ambit_failure *f) {
   ambit_expr *list = ambit_expressions(arena, v->n);
@@ -18,6 +18,10 @@ static ambit_status make_forces(
     char name[160];
     const char *prime = strchr(v->speed[i].name, '\''), *unit = v->speed[i].unit;
     snprintf(name, sizeof name, "tau_%.*s%s", AMBIT_JOINT_NAME(&v->speed[i]), prime ? prime + 1 : "");
+    for (size_t j = 0; j < v->ncoordinate; j++)
+      if (strcmp(v->coordinate[j].name, name) == 0)
+        return ambit_fail(f, AMBIT_INVALID, "joint `%s` has the name of the force along `%.*s`: call it otherwise",
+            name, AMBIT_JOINT_NAME(&v->speed[i]));
     list[i] = ambit_graph_symbol(g, name, strncmp(unit, "rad", 3) == 0 ? "N m" : "N");
     if (list[i] == AMBIT_NO_EXPR) return no_memory(f);
   }

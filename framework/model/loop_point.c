@@ -43,16 +43,18 @@ ambit_status ambit_loop_point_open(
     const ambit_constraints *c, ambit_arena *arena, ambit_loop_point *p, ambit_failure *f) {
   size_t rows = c->n + c->npure, ng = rows, ns = rows * c->nq, nv = c->n * c->nu;
   *p = (ambit_loop_point) { .c = c };
-  ambit_expr *out = ambit_arena_alloc(arena, (ng + ns + nv + 1) * sizeof *out);
-  p->g = ambit_arena_alloc(arena, (ng + ns + nv + 1) * sizeof *p->g);
+  ambit_expr *out = ambit_arena_alloc(arena, (ng + ns + nv + c->n + 1) * sizeof *out);
+  p->g = ambit_arena_alloc(arena, (ng + ns + nv + c->n + 1) * sizeof *p->g);
   p->scratch = ambit_arena_alloc(arena, (rows * rows + 2 * rows + c->nq + 1) * sizeof *p->scratch);
   if (!out || !p->g || !p->scratch) return no_memory(f);
   p->slope = p->g + ng;
   p->velocity = p->slope + ns;
+  p->drive = p->velocity + nv;
   for (size_t k = 0; k < ng; k++) out[k] = c->row[k].g;
   memcpy(out + ng, c->slope, ns * sizeof *out);
   memcpy(out + ng + ns, c->velocity, nv * sizeof *out);
-  return seal(p, arena, ng + ns + nv, out, f);
+  memcpy(out + ng + ns + nv, c->drive, c->n * sizeof *out);
+  return seal(p, arena, ng + ns + nv + c->n, out, f);
 }
 
 bool ambit_loop_point_evaluate(ambit_loop_point *p, const double *q, double t) {

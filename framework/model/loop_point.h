@@ -14,6 +14,7 @@ typedef struct ambit_loop_point {
   double *g;        /* [n + npure] after evaluate */
   double *slope;    /* [(n + npure) * nq] */
   double *velocity; /* [n * nu] */
+  double *drive;    /* [n] */
   double *scratch;
 } ambit_loop_point;
 

@@ -190,6 +190,25 @@ static ambit_status check_singular(search *s, const ambit_partition *p, ambit_st
       s->c->row[p->redundant[0]].loop);
 }
 
+/* G u + c = 0 must have solutions: a redundant row may not ask for another speed than those that imply it. Like the
+** rank itself this is told at the reference only, in doubles; a validated run whose rows disagree later ends there.
+*/
+static ambit_status check_drives(search *s, const ambit_partition *p) {
+  size_t n = s->c->n, nu = s->c->nu;
+  double *a = ambit_arena_alloc(s->arena, (n * (nu + 1) + 1) * sizeof *a);
+  if (!a) return no_memory(s->f);
+  for (size_t k = 0; k < n; k++) {
+    memcpy(a + k * (nu + 1), s->point.velocity + k * nu, nu * sizeof *a);
+    a[k * (nu + 1) + nu] = s->point.drive[k];
+  }
+  if (p->rank == n || ambit_partition_rank(s->arena, n, nu + 1, a, s->f) <= p->rank) return s->f->status;
+  return ambit_fail(s->f, AMBIT_INVALID,
+      "the given motions pull the loop of `%s` apart: at the reference configuration, t = %g s, no speeds of the "
+      "joints "
+      "keep its row `%s` at 0",
+      s->c->row[p->redundant[0]].loop, s->t, s->c->row[p->redundant[0]].name);
+}
+
 static ambit_status check_freedom(search *s, const ambit_partition *p) {
   bool driven = p->rank < s->c->nu;
   for (size_t k = 0; k < s->c->n; k++) driven = driven || s->c->drive[k] != 0;
@@ -213,6 +232,7 @@ ambit_status ambit_loops_build(ambit_mechanism *m, ambit_arena *arena, ambit_loo
   ambit_status singular = status == AMBIT_OK && c->n ? leave_singularity(&s) : AMBIT_OK;
   if (status == AMBIT_OK) status = choose(&s, &loops->partition);
   if (status == AMBIT_OK) status = check_singular(&s, &loops->partition, singular);
+  if (status == AMBIT_OK && c->n) status = check_drives(&s, &loops->partition);
   if (status == AMBIT_OK && c->n) status = check_freedom(&s, &loops->partition);
   loops->reference = s.q;
   loops->nfree = c->nu - loops->partition.rank;

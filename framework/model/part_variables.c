@@ -29,8 +29,8 @@ static ambit_expr symbol(ambit_mechanism *m, const char *unit, const char *per, 
   return ambit_graph_symbol(m->graph, full, text);
 }
 
-/* Parts have different names, but a dot may make the name of a coordinate that of another one, and a multiplier's begins
-** like no part's has to.
+/* Parts have different names, but a dot may make the name of a coordinate that of another one, and a part may be called
+** like a multiplier.
 */
 static ambit_status check_free(
     const ambit_mechanism *m, const ambit_part *p, const char *what, const char *name, ambit_failure *f) {

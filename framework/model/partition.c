@@ -173,7 +173,7 @@ static ambit_status order_blocks(ambit_arena *arena, const bool *nonzero, ambit_
 ambit_status ambit_partition_choose(ambit_arena *arena, size_t n, size_t nu, const double *value, const bool *nonzero,
     const bool *keep, ambit_partition *p, ambit_failure *f) {
   elimination e;
-  size_t i, j, independent = 0, redundant = 0;
+  size_t i = 0, j = 0, independent = 0, redundant = 0;
   *p = (ambit_partition) { .n = n,
     .nu = nu,
     .row = numbers(arena, n),

@@ -317,7 +317,8 @@ ambit_status ambit_rank_certify(const ambit_rank_request *q, ambit_arena *arena,
   if (status == AMBIT_OK) status = open_contractor(&s, lease);
   if (status == AMBIT_OK) status = certify(&s, &r->loops.partition, r);
   ambit_partition other;
-  if (status == AMBIT_OK && r->outcome == AMBIT_RANK_UNDECIDED && choose_here(&s, q, &r->loops, &other)) {
+  bool proved = r->outcome == AMBIT_RANK_PROVED || r->outcome == AMBIT_RANK_EMPTY;
+  if (status == AMBIT_OK && !proved && choose_here(&s, q, &r->loops, &other)) {
     ambit_rank own = *r;
     size_t spent = s.boxes;
     s.boxes = 0;

@@ -212,7 +212,16 @@ static ambit_interval ordered(double a, double b) {
 }
 
 /* step: "t" is the instant of "x", "span" the time of "tube"; event: "t" encloses its instant. */
-ambit_status ambit_records_step(ambit_records *r, const ambit_record *step, const char *const *name, ambit_failure *f) {
+static ambit_status put_root(ambit_records *r, const ambit_record *root, const char *const *name, ambit_failure *f) {
+  ambit_records_begin(r, "root");
+  ambit_records_text(r, "proved", root->event == AMBIT_ROOT_UNIQUE ? "unique" : "undecided");
+  put_states(r, "x", root, root->lo, root->hi, name);
+  return ambit_records_end(r, f);
+}
+
+ambit_status ambit_records_solver(
+    ambit_records *r, const ambit_record *step, const char *const *name, ambit_failure *f) {
+  if (step->kind == AMBIT_REC_ROOT) return put_root(r, step, name, f);
   bool event = step->kind == AMBIT_REC_EVENT;
   ambit_records_begin(r, event ? "event" : "step");
   if (event) {

@@ -26,6 +26,7 @@ void ambit_records_interval(ambit_records *r, const char *key, ambit_interval va
 void ambit_records_open_object(ambit_records *r, const char *key);
 void ambit_records_close_object(ambit_records *r);
 ambit_status ambit_records_end(ambit_records *r, ambit_failure *f);
-/* a solver's step or event */
-ambit_status ambit_records_step(ambit_records *r, const ambit_record *step, const char *const *name, ambit_failure *f);
+/* what a solver emits: a step, an event or a root; name [nx] */
+ambit_status ambit_records_solver(
+    ambit_records *r, const ambit_record *record, const char *const *name, ambit_failure *f);
 #endif

@@ -1,8 +1,7 @@
 /* report.h -- what a verb loaded, built and left out, in numbers; collected always, printed by `ambit explain`. */
 #ifndef AMBIT_REPORT_H
 #define AMBIT_REPORT_H
-#include <stddef.h>
-#include <stdint.h>
+#include <ambit/tape.h>
 
 typedef struct ambit_report {
   char arithmetic[32], solver[32];
@@ -14,4 +13,14 @@ typedef struct ambit_report {
   uint32_t steps;
   double seconds_build, seconds_run; /* CPU */
 } ambit_report;
+
+/* Adds what a tape holds; NULL: nothing. */
+static inline void ambit_report_count(ambit_report *report, const ambit_tape *t) {
+  if (!t) return;
+  report->tape_slots += t->nslot;
+  report->tape_constants += t->nconst;
+  report->tape_instructions += t->ninstr;
+  report->tape_runs += t->nrun;
+  for (uint32_t i = 0; i < t->nslot; i++) report->constant_slots += t->degree[i] == 0;
+}
 #endif

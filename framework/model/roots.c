@@ -262,24 +262,16 @@ static ambit_status run(job *j, ambit_roots_result *result, ambit_failure *f) {
   return AMBIT_OK;
 }
 
-static void count_tape(const ambit_tape *t, ambit_report *report) {
-  if (!t) return;
-  report->tape_slots += t->nslot;
-  report->tape_constants += t->nconst;
-  report->tape_instructions += t->ninstr;
-  report->tape_runs += t->nrun;
-}
-
 static void fill_report(const job *j, double built, const ambit_roots_result *result, ambit_report *report) {
   const ambit_problem *p = &j->problem;
   *report = (ambit_report) { .expressions = (uint32_t)j->q->equations->ne, .seconds_build = built };
   snprintf(report->arithmetic, sizeof report->arithmetic, "%.31s", j->arithmetic);
   snprintf(report->solver, sizeof report->solver, "%.31s", j->q->solver);
   report->graph_nodes = ambit_graph_count(j->q->equations->graph);
-  count_tape(p->rhs, report);
-  count_tape(p->jacobian, report);
-  count_tape(p->slope, report);
-  count_tape(p->invariant, report);
+  ambit_report_count(report, p->rhs);
+  ambit_report_count(report, p->jacobian);
+  ambit_report_count(report, p->slope);
+  ambit_report_count(report, p->invariant);
   report->states = p->nx;
   report->parameters = report->unknowns = p->np;
   report->steps = result->boxes;

@@ -185,24 +185,15 @@ static ambit_status run(job *j, ambit_simulate_result *result, ambit_failure *f)
 
 /* -- the report */
 
-static void count_tape(const ambit_tape *t, ambit_report *report) {
-  if (!t) return;
-  report->tape_slots += t->nslot;
-  report->tape_constants += t->nconst;
-  report->tape_instructions += t->ninstr;
-  report->tape_runs += t->nrun;
-  for (uint32_t i = 0; i < t->nslot; i++) report->constant_slots += t->degree[i] == 0;
-}
-
 static void fill_report(const job *j, double built, const ambit_simulate_result *result, ambit_report *report) {
   *report = (ambit_report) { .expressions = (uint32_t)j->q->system->nx, .seconds_build = built };
   snprintf(report->arithmetic, sizeof report->arithmetic, "%.31s", j->arithmetic);
   snprintf(report->solver, sizeof report->solver, "%.31s", j->q->solver);
   report->graph_nodes = ambit_graph_count(j->q->system->graph);
-  count_tape(j->problem.rhs, report);
-  count_tape(j->problem.jacobian, report);
-  count_tape(j->problem.invariant, report);
-  count_tape(j->problem.invariant_jacobian, report);
+  ambit_report_count(report, j->problem.rhs);
+  ambit_report_count(report, j->problem.jacobian);
+  ambit_report_count(report, j->problem.invariant);
+  ambit_report_count(report, j->problem.invariant_jacobian);
   report->states = j->problem.nx;
   report->parameters = j->problem.np;
   report->unknowns = j->problem.nu;

@@ -162,7 +162,7 @@ static void divide(const ambit_factor *a, ambit_expr *x) {
 static ambit_status solve(ambit_tree *t, joint *j) {
   ambit_stage *s = j->s;
   size_t d = s->d;
-  ambit_expr mass[AMBIT_STAGE_DOF * AMBIT_STAGE_DOF], x[AMBIT_STAGE_DOF];
+  ambit_expr mass[AMBIT_STAGE_DOF * AMBIT_STAGE_DOF], x[AMBIT_STAGE_DOF] = { 0 };
   write_mass(j, mass);
   const ambit_factor a = { t->g, d, mass, 0 };
   ambit_status status = ambit_factorise(&a, note_pivot, &(pivots) { t, j });

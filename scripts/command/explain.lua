@@ -98,9 +98,12 @@ local function write_json(facts)
   core.records_close()
 end
 
+local known = { json = false }
+
 function command.run(list)
-  local options, file, words = scene.arguments(list, { json = false })
+  local options, file, words = scene.arguments(list, known)
   if not options then return 2, file end
+  scene.note_strays(words, known)
   session.keep()
   local restore = discard_output()
   os.exit = function() error(scene.leave, 0) end -- what the scene loaded is still to be told

@@ -45,7 +45,8 @@ local function part_of(m, number)
   local declared = m.declared[number]
   local part = { part = number, name = core.part_name(m.handle, number), type = declared.name,
     on = connections(m, number), coordinates = {}, attached = {},
-    carries = has_port(declared, "frame", "out"), closes = has_port(declared, "constraint", "out") }
+    carries = has_port(declared, "frame", "out"), closes = has_port(declared, "constraint", "out"),
+    is_joint = has_port(declared, "joint", "out") }
   local mass = value_of(m, number, "mass")
   part.mass = mass and range_of(mass[1]) or nil
   part.pulled = core.part_pulled(m.handle, number)
@@ -83,7 +84,11 @@ local function remarks(tree, part)
   for i, link in ipairs(part.on) do
     list[#list + 1] = (i == 1 and "on " or "and ") .. tree[link.part].name
   end
-  if #part.coordinates > 0 then list[#list + 1] = "coordinate " .. table.concat(part.coordinates, ", ") end
+  if #part.coordinates > 0 then
+    list[#list + 1] = "coordinate " .. table.concat(part.coordinates, ", ")
+  elseif part.is_joint then
+    list[#list + 1] = "motion given"
+  end
   if part.mass then list[#list + 1] = text_of_mass(part.mass) end
   return table.concat(list, "; ")
 end
@@ -131,7 +136,7 @@ local function write_idle(write, tree)
     if tree[number].pulled == 0 then idle[#idle + 1] = tree[number].name end
   end
   if #idle == 0 then return end
-  write(" not built: nothing was asked of %d parts\n", #idle)
+  write(" not built: nothing was asked of %d part%s\n", #idle, #idle == 1 and "" or "s")
   local line = " "
   for _, name in ipairs(idle) do
     if #line + #name > 100 then
@@ -147,8 +152,9 @@ end
 function explain.write(write, m)
   local pulled, available = core.pulled(m.handle) -- before the tree is made: that asks for all coordinates
   local tree = explain.tree(m)
-  write("\nmechanism \"%s\": %d parts, %d of %d quantities built, %d not; %d coordinates%s\n", m.name, tree.count,
-    pulled, available, available - pulled, tree.coordinates, tree.mass and "; " .. text_of_mass(tree.mass) or "")
+  write("\nmechanism \"%s\": %d parts, %d of %d quantities built, %d not; %d coordinate%s%s\n", m.name, tree.count,
+    pulled, available, available - pulled, tree.coordinates, tree.coordinates == 1 and "" or "s",
+    tree.mass and "; " .. text_of_mass(tree.mass) or "")
   write_parts(write, tree)
   local nodes = m:tree().parts
   if has_chains(nodes) then

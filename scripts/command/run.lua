@@ -22,11 +22,14 @@ local function close_records()
   return good
 end
 
+local known = { json = true, quiet = false }
+
 function command.run(list)
-  local options, file, words = scene.arguments(list, { json = true, quiet = false })
+  local options, file, words = scene.arguments(list, known)
   if not options then return 2, file end
   core.progress(not options.quiet)
   core.notes(not options.quiet)
+  if not options.quiet then scene.note_strays(words, known) end
   if options.json then
     local good, problem = pcall(core.records_open, options.json)
     if not good then return complain(problem) or 1 end

@@ -89,4 +89,15 @@ function scene.arguments(list, known, anywhere)
   return options, words[1], table.move(words, 2, #words, 1, {})
 end
 
+-- A word of the scene that looks like an option of the command was hardly meant for the scene.
+function scene.note_strays(words, known)
+  for _, word in ipairs(words) do
+    local name = word:match "^%-%-([%w-]+)"
+    if name and known[name] ~= nil then
+      io.stderr:write(("note: `--%s` stands behind the scene and is a word for it; options of ambit go before\n")
+        :format(name))
+    end
+  end
+end
+
 return scene

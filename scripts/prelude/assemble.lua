@@ -181,10 +181,15 @@ local function complete(point, given)
   return setmetatable(whole, getmetatable(point))
 end
 
--- A configuration near the centre, if nothing is proved in the whole box.
+-- A configuration near the centre, if nothing is proved in the whole box; the iteration may have left the box.
 local function prove_near(q, centre)
   local near = setmetatable({ ranges = {} }, { __index = q })
-  for i, x in ipairs(centre) do near.ranges[i] = around(x, NEAR * math.max(1, math.abs(x))) end
+  for i, x in ipairs(centre) do
+    local r = around(x, NEAR * math.max(1, math.abs(x)))
+    local lo, hi = math.max(r.lo, q.ranges[i].lo), math.min(r.hi, q.ranges[i].hi)
+    if lo > hi then return nil end
+    near.ranges[i] = core.interval(lo, hi)
+  end
   local found = roots.run(near)
   return found.status == "complete" and #found.proved == 1 and found.proved[1] or nil
 end
@@ -195,8 +200,19 @@ local function classify(found)
   return #found.proved == 1 and "unique" or "several"
 end
 
+-- What is proved about configurations whose enclosures reach out of the box; else what the solver said.
+local function explain_edge(found)
+  for _, point in ipairs(found.proved) do
+    if found.status == "complete" and not point.inside then
+      return "a configuration is proved, but not that it lies in the box for every value of the data: its enclosure "
+        .. "reaches out of the box"
+    end
+  end
+  return found.reason
+end
+
 local function describe(self, q, rows, given, found, start)
-  local result = { status = classify(found), reason = found.reason, boxes = found.boxes,
+  local result = { status = classify(found), reason = explain_edge(found), boxes = found.boxes,
     cpu_seconds = found.cpu_seconds, box = {}, configurations = {}, undecided = {}, report = found.report }
   for i, name in ipairs(q.names) do result.box[name] = q.ranges[i] end
   for i, point in ipairs(found.proved) do result.configurations[i] = complete(point, given) end
@@ -207,7 +223,8 @@ local function describe(self, q, rows, given, found, start)
     local candidate = found.further > 0 and #found.undecided == 1 and found.undecided[1]
     local near = not candidate and start.converged and prove_near(q, start.centre)
     if near then
-      result.reason = result.reason .. ("; in a box of +-%g about it one configuration is proved"):format(NEAR)
+      result.reason = result.reason
+        .. ("; within %g (relative above 1) of where an iteration ends one configuration is proved"):format(NEAR)
     end
     if candidate or near then result.configuration = complete(candidate or near, given) end
   end

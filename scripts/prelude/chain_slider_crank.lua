@@ -15,6 +15,7 @@ local function say(e) return tostring(linkage.enclose(e)) end
 
 local function check_lengths(p)
   linkage.check_positive("slider_crank", { crank = p.crank, rod = p.rod })
+  linkage.check_fixed("slider_crank", "offset", p.offset)
   local size = core.abs(p.offset)
   local _, never = linkage.is_positive(p.rod + p.crank - size)
   if never then

@@ -24,10 +24,17 @@ end
 -- The enclosure of an expression, whatever its unknowns are.
 function linkage.enclose(e) return (core.evaluate("interval", {}, { e }, {}, {}))[1] end
 
+-- The enclosure of a length; refuses one that moves.
+function linkage.check_fixed(what, name, length)
+  local fixed, x = pcall(linkage.enclose, length)
+  if fixed then return x end
+  check.fail("%s: %s must be fixed, but it depends on %s", what, name, tostring(x):match "`.-`" or tostring(x))
+end
+
 -- Refuses lengths that are not certainly positive: lengths { crank = p.crank, ... }.
 function linkage.check_positive(what, lengths)
   for _, name in ipairs(check.sorted(lengths)) do
-    local x = linkage.enclose(lengths[name])
+    local x = linkage.check_fixed(what, name, lengths[name])
     if not (x.lo > 0) then check.fail("%s: %s must be positive, got %s m", what, name, tostring(x)) end
   end
 end

@@ -72,9 +72,21 @@ local function remember_limits(m, self, prefix)
   end
 end
 
+-- Two robots in one mechanism need names of their own.
+local function check_names(m, self, prefix)
+  for _, link in ipairs(self.links) do
+    local name = prefix .. link.name
+    if rawget(m.links, name) then
+      check.fail("load: %s: the mechanism has a link `%s` already: say with `name` which robot is which", self.file,
+        name)
+    end
+  end
+end
+
 local function place(m, self, base, t)
   collections(m)
   local prefix = tree.scope(m).path
+  check_names(m, self, prefix)
   local set = tolerance.new(rawget(m, "patterns") or {}, t.tolerances or {})
   local frames, joints = parts.add(self, m, base, set, prefix, { damping = t.damping, friction = t.friction })
   local links = named_table "link"

@@ -31,9 +31,9 @@ local function element_constructor(key)
   return function(self, t)
     check_self(self, key)
     t = mimic.resolve(self, key, tree.named(self, key, t))
-    structure.check(self, key, t)
-    self.places[core.part_count(self.handle)] = core.where():gsub(": $", "")
-    return element.add(self, key, t)
+    local closure, part = structure.check(self, key, t), core.part_count(self.handle)
+    self.places[part] = core.where():gsub(": $", "")
+    return structure.enter(self, closure, part, element.add(self, key, t))
   end
 end
 

@@ -23,23 +23,27 @@ local function one(param, value, what)
   return core.expression(value, units[#units], what)
 end
 
--- { a, b, c }, { x =, y =, z = } or rows of rows, as one list of n expressions
+local DEEPEST = 2 -- rows of numbers
+
+-- { a, b, c }, { x =, y =, z = } or rows, as one list of n expressions
 local function many(param, value, n, what)
   local list = {}
-  local function walk(node, path)
+  local function walk(node, path, depth)
     if type(node) ~= "table" then
       list[#list + 1] = one(param, node, path)
+    elseif depth > DEEPEST then
+      check.fail("%s: expected a list of %d numbers, got lists within lists", what, n)
     elseif node.x ~= nil and node.y ~= nil and node.z ~= nil then
-      for _, key in ipairs { "x", "y", "z" } do walk(node[key], path .. "." .. key) end
+      for _, key in ipairs { "x", "y", "z" } do walk(node[key], path .. "." .. key, depth + 1) end
     else
       local count = 0
       for _ in pairs(node) do count = count + 1 end
       if count ~= #node then check.fail("%s: expected a list of %d numbers, got a table with other keys", what, n) end
-      for i, child in ipairs(node) do walk(child, ("%s[%d]"):format(path, i)) end
+      for i, child in ipairs(node) do walk(child, ("%s[%d]"):format(path, i), depth + 1) end
     end
   end
   if type(value) ~= "table" then check.fail("%s: expected a list of %d numbers, got %s", what, n, check.kind(value)) end
-  walk(value, what)
+  walk(value, what, 1)
   if #list ~= n then check.fail("%s: expected %d numbers, got %d", what, n, #list) end
   return list
 end

@@ -192,7 +192,7 @@ function Build:add_body(link)
   local is_point = true
   for _, entry in ipairs(entries) do is_point = is_point and entry == zero end
   self:add(body.line, who, "rigid_body", { at = self.frame[link.name], mass = mass, centre = centre,
-    name = self.robot.joint[link.name] and link.name .. ".body" or link.name,
+    name = (self.robot.joint[link.name] or link.name == "world") and link.name .. ".body" or link.name,
     inertia = not is_point and turned(entries, rpy) or nil })
 end
 

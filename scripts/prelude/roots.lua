@@ -19,6 +19,15 @@ local function bound(value, side, unit, what)
   return core.interval(e)[side]
 end
 
+-- interval(...), whose messages are made to say what they are about
+local function interval(what, ...)
+  local good, result = pcall(core.interval, ...)
+  if good then return result end
+  local message, place = tostring(result), core.where()
+  if message:sub(1, #place) == place then message = message:sub(#place + 1) end
+  return check.fail("%s: %s", what, message)
+end
+
 -- { lo, hi }, an enclosure, or a text such as "[0, 1]" -> enclosure
 function verb.range(value, what, unit)
   local kind = check.kind(value)
@@ -29,12 +38,12 @@ function verb.range(value, what, unit)
     if lo > hi then
       check.fail("%s: the range is empty: %s is greater than %s", what, core.literal(lo), core.literal(hi))
     end
-    return core.interval(lo, hi)
+    return interval(what, lo, hi)
   end
   if kind == "function" or kind == "boolean" or kind == "nil" then
     check.fail("%s: expected { lo, hi }, an enclosure or a text, got %s", what, kind)
   end
-  return core.interval(value)
+  return interval(what, value)
 end
 
 -- The ranges of the unknowns by sorted name.

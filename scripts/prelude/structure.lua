@@ -20,10 +20,12 @@ local function ends(d)
   return closes and #list > 1 and list or nil
 end
 
-local function text_of(value)
-  if type(value) ~= "table" then return tostring(value) end
+local DEEPEST = 3 -- a parameter is a number, a list or a list of rows; what is deeper is refused as what it is
+
+local function text_of(value, depth)
+  if type(value) ~= "table" or depth == DEEPEST then return tostring(value) end
   local list = {}
-  for i, entry in ipairs(value) do list[i] = text_of(entry) end
+  for i, entry in ipairs(value) do list[i] = text_of(entry, depth + 1) end
   return table.concat(list, ",")
 end
 
@@ -31,11 +33,11 @@ end
 -- same frames may, when they compare different directions.
 local function signature(d, places, t, of_joints)
   local words = { d.name, table.concat(places, " ") }
-  for _, param in ipairs(of_joints and {} or d.parameters) do words[#words + 1] = text_of(t[param.name]) end
+  for _, param in ipairs(of_joints and {} or d.parameters) do words[#words + 1] = text_of(t[param.name], 1) end
   return table.concat(words, " ")
 end
 
--- Refuses what the table says about an element that is about to be added.
+-- Refuses what the table says about an element that is about to be added; returns what to enter once it has been.
 function structure.check(self, type, t)
   local d = element.declaration(type)
   local ports = ends(d)
@@ -59,7 +61,13 @@ function structure.check(self, type, t)
     check.fail("%s: it joins the same %ss as the %s `%s` (%s)", type, ports[1].kind, type,
       core.part_name(self.handle, other), self.places[other])
   end
-  self.closures[key] = core.part_count(self.handle)
+  return key
+end
+
+-- The part has been added; passes the rest on.
+function structure.enter(self, key, part, ...)
+  if key then self.closures[key] = part end
+  return ...
 end
 
 return structure

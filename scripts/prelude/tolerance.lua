@@ -53,19 +53,21 @@ local function glob(name)
   return "^" .. pattern .. "$"
 end
 
--- Checks the tolerance itself: a number in SI units or a text, with a unit that fits or in per cent. Is it relative?
-local function is_relative(value, datum, key)
+-- Checks the tolerance itself: a number in SI units or a text, with a unit that fits or in per cent. Is it relative, and
+-- how large, in SI units or per cent?
+local function size_of(value, datum, key)
   local what = "tolerances: " .. key
   local kind = check.kind(value)
   if kind ~= "number" and kind ~= "string" then
     check.fail('%s: expected a tolerance such as "2%%" or "1 %s", got %s', what, tolerance.data[datum].unit, kind)
   end
   local percent = kind == "string" and value:match "^(.*)%%%s*$"
-  local size = core.interval(core.expression(percent or value, not percent and tolerance.data[datum].unit or nil, what))
+  local unit = not percent and tolerance.data[datum].unit or nil
+  local size = core.interval(core.expression(percent or value, unit, what))
   if size.lo < 0 or not size:is_bounded() then
     check.fail("%s: a tolerance is finite and not negative, got %s", what, tostring(value))
   end
-  return percent and true or false
+  return percent and true or false, size.hi
 end
 
 local function parse(key, value)
@@ -74,9 +76,10 @@ local function parse(key, value)
   end
   local name, datum, component = split(key)
   local literal = name:gsub("[*?]", "")
+  local is_relative, size = size_of(value, datum, key)
   return { key = key, value = value, datum = datum, component = component, name = name,
     match = glob(name == "" and "*" or name), is_exact = name ~= "" and literal == name, length = #literal,
-    is_relative = is_relative(value, datum, key) }
+    is_relative = is_relative, size = size }
 end
 
 local Set = {}
@@ -128,11 +131,27 @@ local function remember(set, names, datum, component, pattern, expression)
   return expression
 end
 
+-- The number with the tolerance of the pattern, which must leave it above zero where there is nothing below.
+local function around(names, pattern, number, is_positive)
+  local most = pattern.is_relative and 100 or core.interval(number).lo
+  if is_positive and pattern.size >= most then
+    check.fail("tolerances: `%s`: within %s the %s of `%s` can be zero or less", pattern.key, tostring(pattern.value),
+      pattern.datum, names[1])
+  end
+  return core.around(number, pattern.value)
+end
+
+-- Does the pattern leave the number as it is? A tolerance of 0 has then done what it was given for.
+local function is_idle(pattern, number)
+  if pattern.size == 0 then pattern.has_laid = true end
+  return pattern.size == 0 or pattern.is_relative and number == core.expression(0)
+end
+
 -- The number, an expression, with its tolerance.
 function Set:lay(names, datum, component, number)
   local pattern = self:find(names, datum, component)
-  if not pattern or pattern.is_relative and number == core.expression(0) then return number end
-  return remember(self, names, datum, component, pattern, core.around(number, pattern.value))
+  if not pattern or is_idle(pattern, number) then return number end
+  return remember(self, names, datum, component, pattern, around(names, pattern, number, datum == "mass"))
 end
 
 -- The upper triangle of an inertia.
@@ -140,9 +159,9 @@ function Set:lay_inertia(names, entries)
   local factors, laid = {}, {}
   for i, entry in ipairs(entries) do
     local pattern = self:find(names, "inertia", i)
-    if pattern and pattern.is_relative and not pattern.component then
+    if pattern and pattern.is_relative and not pattern.component and pattern.size > 0 then
       factors[pattern] = factors[pattern]
-        or remember(self, names, "inertia", nil, pattern, core.around(1, pattern.value))
+        or remember(self, names, "inertia", nil, pattern, around(names, pattern, core.expression(1), true))
       laid[i] = factors[pattern] * entry
     else
       laid[i] = self:lay(names, "inertia", i, entry)

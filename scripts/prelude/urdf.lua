@@ -155,6 +155,8 @@ function urdf.read(text, file)
       robot.links[#robot.links + 1] = read_link(file, node)
     elseif node.tag == "joint" then
       robot.joints[#robot.joints + 1] = read_joint(file, node)
+    elseif node.tag:find "^xacro:" then
+      check.fail("%s:%d: <%s> is a command of xacro: expand the file with xacro first", file, node.line, node.tag)
     elseif refused[node.tag] then
       check.fail("%s:%d: <%s> is %s that Ambit cannot read from files: take it out and add it in the scene", file,
         node.line, node.tag, refused[node.tag])

@@ -57,12 +57,72 @@ describe("connections", function()
     fails(function() m:close_point { a = b, b = a } end, "the same frames as the close_point `pin`")
   end)
 
+  it("of a loop that was refused may be made again", function()
+    local m = ambit.mechanism "m"
+    local a, b = m:revolute { from = m.world, name = "a" }, m:revolute { from = m.world, name = "b" }
+    fails(function() m:close_distance { a = a, b = b, length = -1 } end, "must be positive")
+    fails(function() m:close_distance { a = a, b = b, length = -1 } end, "must be positive")
+    fails(function() m:close_point { a = a, b = b, nonsense = 1 } end, "unknown key `nonsense`")
+    m:close_point { a = a, b = b }
+  end)
+
+  it("with a list that contains itself", function()
+    local m = ambit.mechanism "m"
+    local a, b, list = m:revolute { from = m.world, name = "a" }, m:revolute { from = m.world, name = "b" }, { 1, 2 }
+    list[3] = list
+    fails(function() m:close_revolute { a = a, b = b, axis = list } end, "close_revolute: axis", "lists within lists")
+    fails(function() m:rigid_link { from = a, offset = list } end, "rigid_link: offset", "lists within lists")
+  end)
+
   it("of a joint with several coordinates to what drives one", function()
     local m = ambit.mechanism "m"
     local ball = m:spherical { from = m.world, name = "ball" }
     local a = m:revolute { from = m.world, name = "a" }
     fails(function() m:gear { driver = a, driven = ball, ratio = 2 } end, "gear", "1 degree", "`ball` has 3")
     fails(function() m:gear { driver = a, driven = m.world, ratio = 2 } end, "driven", "joint")
+  end)
+end)
+
+-- Variables are symbols that are found by name: two with one name would be one and the same.
+describe("names of variables", function()
+  local function two(name)
+    local m = ambit.mechanism "m"
+    local a, drive = m:revolute { from = m.world, name = "a" }
+    local b, driven = m:revolute { from = m:rigid_link { from = a, offset = { 1, 0, 0 } }, name = name }
+    m:point_mass { at = m:rigid_link { from = a, offset = { 1, 0, 0 } }, mass = 1 }
+    m:point_mass { at = m:rigid_link { from = b, offset = { 1, 0, 0 } }, mass = 1 }
+    return m, drive, driven, b
+  end
+
+  it("of a joint and a multiplier", function()
+    local m, drive, driven = two "lambda_mesh"
+    m:gear { driver = drive, driven = driven, ratio = 2, name = "mesh" }
+    fails(function() m:dynamics() end, "gear `mesh`", "its multiplier `lambda_mesh`", "the name of another variable")
+  end)
+
+  it("of a joint and a force", function()
+    local m = two "tau_a"
+    fails(function() m:forward_dynamics() end, "joint `tau_a`", "the force along `a`")
+    m:dynamics()
+  end)
+
+  it("of a joint and a speed", function()
+    local m = ambit.mechanism "m"
+    local ball = m:spherical_quaternion { from = m.world, name = "ball" }
+    fails(function() m:revolute { from = ball, name = "ball'.1" } end, "revolute `ball'.1`", "before a dot")
+    fails(function() m:revolute { from = ball, name = "ball''.2" } end, "before a dot")
+    m:revolute { from = ball, name = "ball.1" }
+    fails(function() m:dynamics() end, "its coordinate `ball.1` has the name of another variable")
+  end)
+
+  it("of rows of two loops", function()
+    local m, drive, _, frame = two "b"
+    local pin = m:rigid_link { from = frame, offset = { 1, 0, 0 } }
+    local rocker, joint = m:revolute { from = m:rigid_link { from = m.world, offset = { 1, 0, 0 } }, name = "c" }
+    m:close_pin { a = pin, b = m:rigid_link { from = rocker, offset = { "1.2", 0, 0 } }, name = "loop" }
+    m:gear { driver = drive, driven = joint, ratio = 2, name = "loop.2" }
+    fails(function() m:constraints() end, "the constraint `loop.2`", "one of `loop`")
+    fails(function() m:dynamics() end, "the constraint `loop.2`")
   end)
 end)
 

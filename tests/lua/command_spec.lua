@@ -76,6 +76,18 @@ describe("ambit run", function()
     assert.equal("--help\n", stdout)
   end)
 
+  it("says so where an option of its own went to the scene", function()
+    local code, stdout, stderr = scene("print(arg[1], arg[2])", "", "--json -")
+    assert.equal(0, code)
+    assert.equal("--json\t-\n", stdout)
+    has(stderr, "note: `--json` stands behind the scene")
+    for _, options in ipairs { "--quiet", "" } do
+      code, _, stderr = scene("", options, options == "" and "--other" or "--json -")
+      assert.equal(0, code)
+      assert.equal("", stderr)
+    end
+  end)
+
   it("ends with 1, a message and a traceback on errors", function()
     local text = "local ambit = require 'ambit'\nlocal function f() ambit.interval(2, 1) end\nf()"
     local code, _, stderr, file = scene(text)

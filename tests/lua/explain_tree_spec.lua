@@ -52,6 +52,17 @@ describe("ambit explain", function()
       part .. '"name":"elbow","type":"revolute","on":"upper","pulled":%d+,"coordinates":"elbow"}')
   end)
 
+  it("says which joints have no coordinate of their own", function()
+    local output = explain [[
+local m = ambit.mechanism "gripper"
+local left, drive = m:prismatic { from = m.world, axis = "x", name = "drive" }
+m:prismatic { from = m.world, axis = "x", name = "right", mimic = drive }
+m:rigid_link { from = left, offset = { 1, 0, 0 }, name = "pad" }
+]]
+    lines_say(output, "  drive +prismatic +on world; coordinate drive", "  right +prismatic +on world; motion given",
+      "  pad +rigid_link +on drive")
+  end)
+
   it("shows closed loops and chains", function()
     local output = explain [[
 ambit.chain { "leg", ports = { from = "frame" }, build = function(m, p)

@@ -216,6 +216,18 @@ describe("bad linkages", function()
     fails(function() m:slider_crank { from = m.world, crank = 2, rod = 1, offset = -4, full_turn = false } end,
       "do not reach over the offset")
   end)
+  it("with lengths that move", function()
+    local m = ambit.mechanism "m"
+    local q = m:coordinate(m:revolute { from = m.world, name = "q" })
+    local function message(f) return select(2, pcall(f)) end
+    assert.truthy(message(function()
+      m:four_bar { from = m.world, ground = 3, crank = 1, coupler = 3, rocker = 2 + q }
+    end):find "four_bar: rocker must be fixed, but it depends on `q`")
+    assert.truthy(message(function()
+      m:slider_crank { from = m.world, crank = 1, rod = 3, offset = ambit.time }
+    end):find "slider_crank: offset must be fixed, but it depends on `t`")
+  end)
+
   it("with lengths that are none", function()
     fails(bar(4, -1, 3, 3), "crank must be positive", "-1")
     fails(bar(4, ambit.between(0, 1), 3, 3), "crank must be positive")

@@ -60,6 +60,8 @@ describe("ambit.load", function()
     local at = host:rigid_link { from = host.world, offset = { 0, 0, 2 } }
     assert.equal(host, ambit.load { name, base = at, name = "guest" })
     assert.equal(2, ambit.evaluate({ host:position(host.links["guest.b"]).z }).lo)
+    host:load { name, from = at }
+    fails({ name, base = at }, "the mechanism has a link `", "` already: say with `name` which robot is which")
     fails({ name, base = 3 }, "base: expected a frame or a mechanism, got number")
     fails({ name, base = at, gravity = { 0, 0, 1 } }, "gravity: say it with m:gravity")
     local _, problem = pcall(function() ambit.mechanism("x"):link "a" end)

@@ -401,6 +401,50 @@ it("a driven strut moves its crank, and its work is in the balance of power", fu
   holds(p, ("%.17g"):format(2 * 9.81 * math.cos(0.5)), 1e-10) -- lifting 2 kg at q' = 1
 end)
 
+-- -- a dead point of the chosen pivots is no singular position
+
+it("a rank is proved where other speeds are independent than those that were asked for", function()
+  local m = ambit.mechanism "dead point"
+  local crank = m:revolute { from = m.world, name = "crank" }
+  local coupler = m:revolute { from = m:rigid_link { from = crank, offset = { 0, 1, 0 } }, name = "coupler" }
+  local rocker = m:revolute { from = m:rigid_link { from = m.world, offset = { 2, 1, 0 } }, name = "rocker" }
+  m:point_mass { at = coupler, mass = 1 }
+  m:close_pin { a = m:rigid_link { from = rocker, offset = { -1, 0, 0 } },
+    b = m:rigid_link { from = coupler, offset = { 1, 0, 0 } } }
+  m:independent "crank"
+  m:reference { crank = "0.3", coupler = "0.5", rocker = "0.2" }
+  local r = m:rank { box = { crank = 0, coupler = 0, rocker = 0 } } -- coupler and rocker on one line, the crank across
+  assert.equal("proved", r.status)
+  table.sort(r.dependent)
+  assert.equal("crank", r.dependent[1])
+end)
+
+-- -- motions that contradict each other
+
+describe("a loop between given motions", function()
+  local function driven(second)
+    local m = ambit.mechanism "driven twice"
+    local a = m:revolute { from = m.world, angle = ambit.time }
+    local b = m:revolute { from = m.world, angle = second }
+    local free = m:revolute { from = m.world, name = "free" }
+    local function arm(at) return m:rigid_link { from = at, offset = { 1, 0, 0 } } end
+    m:point_mass { at = arm(free), mass = 1 }
+    m:close_point { a = arm(a), b = arm(b), name = "loop" }
+    return m
+  end
+
+  it("is refused where no speeds of the joints keep it closed", function()
+    local m = driven(2 * ambit.time)
+    assert.truthy(message_of(m.dynamics, m):find "the given motions pull the loop of `loop` apart")
+  end)
+
+  it("is redundant where they agree", function()
+    local m = driven(ambit.time * ambit.cos(0))
+    assert.same(3, #m:redundant())
+    m:dynamics()
+  end)
+end)
+
 -- -- messages
 
 describe("bad use of loops", function()

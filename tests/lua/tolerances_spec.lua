@@ -100,8 +100,17 @@ describe("a tolerance", function()
 
   it("leaves out what is zero in per cent, and what has tolerance 0", function()
     assert.same({ "elbow_joint.offset.x", "shoulder_joint.offset.z" }, names(loaded { offset = "1%" }))
-    local m = loaded { mass = "2%", ["forearm.mass"] = 0 }
-    assert.equal(0, laid(m)["forearm.mass"]:width())
+    assert.same({ "upper_arm.mass" }, names(loaded { mass = "2%", ["forearm.mass"] = 0 }))
+    assert.same({ "upper_arm.inertia" }, names(loaded { inertia = "2%", ["forearm.inertia"] = "0%" }))
+    assert.same({ "upper_arm.centre.x", "upper_arm.centre.z" },
+      names(loaded { ["upper_arm.centre"] = "1 mm", ["upper_arm.centre.y"] = "0 mm" }))
+  end)
+
+  it("leaves masses and inertias above zero", function()
+    says({ mass = "100%" }, "`mass`: within 100% the mass of `upper_arm` can be zero or less")
+    says({ ["forearm.mass"] = "3 kg" }, "`forearm.mass`: within 3 kg the mass of `forearm`")
+    says({ inertia = "120%" }, "the inertia of `upper_arm` can be zero or less")
+    loaded { mass = "99%", inertia = "99%", centre = "200%", offset = "100%" }
   end)
 
   it("scales an inertia as a whole, so that it stays one of a body", function()

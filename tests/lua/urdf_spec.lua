@@ -185,6 +185,15 @@ describe("a URDF", function()
     near(value(m:mass_matrix()[1][1], { q = 1 }), 1)
   end)
 
+  it("may have a link called world that weighs something", function()
+    local m = loaded(robot(link("world", inertial(2, { 1, 1, 1 })) .. joint("q", "revolute", "world", "a")
+      .. link("a", inertial(1, { 1, 1, 1 }))))
+    assert.equal(m.world, m.links.world)
+    near(value(m:mass_matrix()[1][1], { q = 1 }), 1)
+    m = loaded(robot(link "base" .. joint("q", "revolute", "base", "world") .. link("world", inertial(1, { 3, 1, 3 }))))
+    near(value(m:mass_matrix()[1][1], { q = 1 }), 3)
+  end)
+
   it("goes into a mechanism twice", function()
     local m = ambit.mechanism { "two", gravity = { 0, 0, "-9.81" } }
     local column = m:rigid_link { from = m.world, offset = { 0, 0, 10 } }
@@ -318,6 +327,7 @@ describe("a bad URDF", function()
   it("does not hide what would change the motion", function()
     says(robot(one .. '<loop_joint name="l"/>'), "FILE:3: <loop_joint> is a joint that closes a loop")
     says(robot(one .. '<drake:joint name="l" type="ball"/>'), "<drake:joint> is a joint")
+    says(robot(one .. '<xacro:arm parent="a"/>'), "FILE:3: <xacro:arm> is a command of xacro: expand the file")
   end)
 
   it("has names that can be names", function()

@@ -140,13 +140,13 @@ static void writes_steps(void **state) {
     .tube_hi = hi,
     .order = 12,
     .rigorous = 1 };
-  assert_int_equal(ambit_records_step(x->records, &step, name, NULL), AMBIT_OK);
+  assert_int_equal(ambit_records_solver(x->records, &step, name, NULL), AMBIT_OK);
   assert_string_equal(content(x),
       "{\"record\":\"step\",\"t\":[0.25,0.25],\"span\":[0.25,0.5],"
       "\"x\":{\"beta1\":[1,1.5],\"beta1'\":[-2,-1]},\"tube\":{\"beta1\":[1,1.5],\"beta1'\":[-2,-1]},"
       "\"order\":12,\"rigorous\":true}\n");
   step = (ambit_record) { .size = sizeof step, .kind = AMBIT_REC_EVENT, .t_from = 1, .t_to = 2, .event = 3 };
-  assert_int_equal(ambit_records_step(x->records, &step, name, NULL), AMBIT_OK);
+  assert_int_equal(ambit_records_solver(x->records, &step, name, NULL), AMBIT_OK);
   assert_string_equal(
       strchr(content(x), '\n') + 1, "{\"record\":\"event\",\"t\":[1,2],\"event\":3,\"rigorous\":false}\n");
 }

@@ -43,7 +43,8 @@ typedef struct ambit_problem {
   const ambit_tape *slope;                          /* [nx x np], or NULL if rhs has no derivative by p */
 } ambit_problem;
 
-/* Result record: header first, so that readers skip kinds they do not know. Enclosures hold for every solution. */
+/* Result record: header first, so that readers skip kinds they do not know. Enclosures hold for every solution on which
+** the invariants (if any) vanish. */
 #define AMBIT_REC_STEP 1u  /* a step from t_from to t_to */
 #define AMBIT_REC_EVENT 2u /* event number `event` happens within [t_from, t_to], ordered in time */
 /* a box [lo, hi] of the searched one; boxes without a root are not reported. `event`: AMBIT_ROOT_* */

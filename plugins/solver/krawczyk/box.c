@@ -73,6 +73,7 @@ double box_point(span x) {
 }
 
 double box_extent(span x) {
+  if (!(x.hi - x.lo < INFINITY)) return DBL_MAX / fmax(1, fmax(x.lo, -x.hi)); /* nearer ends first, the line at once */
   double size = fmax(1, fmin(fabs(x.lo), fabs(x.hi)));
   return (x.hi - x.lo) / size;
 }

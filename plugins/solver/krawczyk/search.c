@@ -156,6 +156,12 @@ static uint32_t emit_undecided(krawczyk *k, ambit_sink *sink) {
   return count;
 }
 
+static int has_unbounded(const krawczyk *k) {
+  for (uint32_t i = 0; i < k->undecided.count; i++)
+    if (!box_is_bounded(k->n, boxes_at(&k->undecided, k->n, i))) return 1;
+  return 0;
+}
+
 static ambit_status explain(const krawczyk *k, enum why why, uint32_t undecided) {
   const ambit_host *h = k->host;
   const char *s = undecided == 1 ? "" : "es";
@@ -177,6 +183,11 @@ static ambit_status explain(const krawczyk *k, enum why why, uint32_t undecided)
       return h->fail(h, AMBIT_UNABLE,
           "%u box%s cannot be told: there are more equations than unknowns, and that those left over hold exactly "
           "where the others do cannot be proved by enclosures",
+          undecided, s);
+    if (has_unbounded(k))
+      return h->fail(h, AMBIT_UNABLE,
+          "%u box%s could be neither proved nor excluded, and cut no further: they reach out to infinity, beyond the "
+          "largest double; search a bounded box",
           undecided, s);
     return h->fail(h, AMBIT_UNABLE,
         "%u box%s of at most `tolerance` = %g could be neither proved nor excluded: a multiple root, a singular "

@@ -4,7 +4,8 @@
 **   g(x, p, t) = g(m, p_c, t) + S v,   S in slope_mid +- slope_rad,
 ** with slopes about the midpoint as those of the flow (series.c), of order zero. Columns are formed inside the slopes,
 ** so what an invariant does not see of an uncertain datum cancels there, and a datum that it depends on itself (a
-** length in a closed loop) is seen. Slopes need no derivative: |x| has some.
+** length in a closed loop) is seen. The series say nothing where some invariant is undefined or has a kink in the set
+** (|x| around 0); then none is used.
 */
 #include "lohner.h"
 

@@ -250,12 +250,12 @@ enum why lohner_start(lohner *s) {
   history_push(&s->history, s->start_rest);
   s->t = s->t_next = p->time[0];
   lohner_hull(s);
+  /* of the set as given: the hull of a cut set may be far smaller than the set that is kept (meet_hull) */
+  for (uint32_t i = 0; i < s->nx; i++)
+    s->limit[i] = s->options.width_max * larger(1, larger(fabs(s->lo[i]), fabs(s->hi[i])));
   if (lohner_contract(s, s->t, 1) != WHY_NOTHING) return WHY_APART;
   lohner_note_rank(s);
-  for (uint32_t i = 0; i < s->nx; i++) {
-    s->size[i] = larger(fabs(s->lo[i]), fabs(s->hi[i]));
-    s->limit[i] = s->options.width_max * larger(1, s->size[i]);
-  }
+  for (uint32_t i = 0; i < s->nx; i++) s->size[i] = larger(fabs(s->lo[i]), fabs(s->hi[i]));
   s->next = 1;
   s->guess = smaller(fabs(p->time[1] - p->time[0]), s->options.step_max);
   if (s->options.step_min == 0) s->options.step_min = RESOLUTION * fabs(p->time[p->ntime - 1] - p->time[0]);

@@ -1,0 +1,48 @@
+/* receiver.c -- records on their way from a solver to Lua and to JSON lines. */
+#include "lua/receiver.h"
+
+static int32_t emit(ambit_sink *s, const ambit_record *record) {
+  ambit_receiver *r = (ambit_receiver *)(void *)s;
+  if (!ambit_track_append(r->track, record)) {
+    ambit_fail(&r->failure, AMBIT_NOMEM, "out of memory for the records of this run");
+    return 1;
+  }
+  if (r->records && ambit_records_solver(r->records, record, r->name, &r->failure) != AMBIT_OK) return 1;
+  return ambit_interrupt_pending();
+}
+
+static int32_t progress(ambit_sink *s, double done, const char *message) {
+  ambit_receiver *r = (ambit_receiver *)(void *)s;
+  ambit_progress_draw(&r->progress, done, message);
+  return ambit_interrupt_pending();
+}
+
+ambit_receiver ambit_receiver_push(lua_State *L, size_t nx, const char *const *name) {
+  return (ambit_receiver) { .sink = { sizeof(ambit_sink), emit, progress },
+    .track = ambit_track_push(L, nx),
+    .records = AMBIT_LUA(L)->records,
+    .name = name };
+}
+
+ambit_receiver ambit_receiver_silent(void) {
+  return (ambit_receiver) { .sink = { sizeof(ambit_sink), NULL, progress } };
+}
+
+void ambit_receiver_begin(lua_State *L, ambit_receiver *r) {
+  ambit_progress_begin(&r->progress, AMBIT_LUA(L)->progress);
+  ambit_interrupt_begin(&r->interrupt);
+}
+
+void ambit_receiver_end(ambit_receiver *r) {
+  ambit_interrupt_end(&r->interrupt);
+  ambit_progress_end(&r->progress);
+}
+
+const char *ambit_receiver_status(const ambit_receiver *r, ambit_status status) {
+  if (r->failure.status != AMBIT_OK || status == AMBIT_STOPPED) return "stopped";
+  return status == AMBIT_OK ? "complete" : "unable";
+}
+
+const char *ambit_receiver_reason(const ambit_receiver *r, const char *reason) {
+  return r->failure.status != AMBIT_OK ? r->failure.message : reason;
+}

@@ -1,0 +1,30 @@
+/* receiver.h -- where a solver's records go while a verb runs: into the track that Lua reads afterwards, and to the
+** JSON lines of `ambit run --json`; with progress and Ctrl-C.
+*/
+#ifndef AMBIT_LUA_RECEIVER_H
+#define AMBIT_LUA_RECEIVER_H
+#include "lua/interrupt.h"
+#include "lua/progress.h"
+#include "lua/track.h"
+
+typedef struct ambit_receiver {
+  ambit_sink sink;    /* first: what the solver sees */
+  ambit_track *track; /* NULL: records are not kept */
+  ambit_records *records;
+  const char *const *name; /* [nx] */
+  ambit_progress progress;
+  ambit_interrupt interrupt;
+  ambit_failure failure; /* why the receiver stopped the run: memory, a full disk */
+} ambit_receiver;
+
+/* A receiver of records of nx values with these names; pushes its track. */
+ambit_receiver ambit_receiver_push(lua_State *L, size_t nx, const char *const *name);
+/* One that only draws progress. */
+ambit_receiver ambit_receiver_silent(void);
+/* Around the run: progress and interrupt. Nothing between them may raise. */
+void ambit_receiver_begin(lua_State *L, ambit_receiver *r);
+void ambit_receiver_end(ambit_receiver *r);
+/* "complete", "stopped" or "unable"; and the reason, which is the receiver's own if it stopped the run. */
+const char *ambit_receiver_status(const ambit_receiver *r, ambit_status status);
+const char *ambit_receiver_reason(const ambit_receiver *r, const char *reason);
+#endif
