@@ -4,7 +4,7 @@
 #include "../tests/kit/robot_models.h"
 #include "graph/batch.h"
 #include "graph/tape.h"
-#include "model/forward.h"
+#include "mechanism/forward.h"
 #include "plugin.h"
 
 #define JOINTS_MAX 300

@@ -18,7 +18,7 @@ install(TARGETS ambit RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS ambit_module LIBRARY DESTINATION ${AMBIT_LUA_DIR})
 
 install(DIRECTORY framework/abi/ambit DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
-foreach(layer base num graph host model)
+foreach(layer base num graph host mechanism model)
   install(DIRECTORY framework/${layer} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/ambit-kernel FILES_MATCHING PATTERN "*.h")
 endforeach()
 

@@ -1,6 +1,6 @@
-# libambit: the layers base, num, graph, host, model; no Lua inside.
+# libambit: the layers base, num, graph, host, mechanism, model; no Lua inside.
 set(kernel_sources "")
-foreach(layer base num graph host model)
+foreach(layer base num graph host mechanism model)
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/framework/${layer}/*.c)
   list(APPEND kernel_sources ${sources})
 endforeach()

@@ -84,3 +84,4 @@ for _, name in ipairs(m:coordinate_names()) do
   print(columns:format(name, final[name], now[1], now[2]))
 end
 print(("%.3f s of CPU time"):format(run.cpu_seconds))
+ambit.view { m, run = run, points = { loop = e } }

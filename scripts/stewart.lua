@@ -57,3 +57,4 @@ for _, t in ipairs { 0.1, 0.2 } do
   end
 end
 print(run)
+ambit.view { m, run = run, points = { plate = plate } }

@@ -57,6 +57,7 @@ local held, motors = { torque[2], torque[3], torque[4] }, { "shoulder", "elbow",
 local set = posture(function(q) return around(q, "0.5 deg") end)
 local box = compare("width of the box of the tool, m: lengths +-0.2 %, angles +-0.5 degrees", xyz, tool, set)
 print("  the tool is in", box[1], box[2], box[3])
+ambit.view { arm, at = set, points = { tool = arm.links.tool0, elbow = arm.links.forearm_link } }
 
 -- the same lengths, six masses
 local moments = compare("\nwidth of the torques that hold the pose, N m: lengths +-0.2 %, masses +-2 %", motors, held,

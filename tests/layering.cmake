@@ -2,7 +2,7 @@
 # A file of framework/<layer> includes its own layer and lower ones; only the layer lua (and main.c) sees lua.h, only lua sees ffi.h; a plugin sees
 # <ambit/...> and files of its own folder; headers of the ABI see the ABI only.
 cmake_minimum_required(VERSION 3.22)
-set(layers abi base num graph host model lua main)
+set(layers abi base num graph host mechanism model lua main)
 set(errors 0)
 set(checked 0)
 

@@ -2,9 +2,9 @@
 #include "lua/core.h"
 #include "lua/mechanism.h"
 #include "lua/system.h"
-#include "model/constrained.h"
-#include "model/forward.h"
-#include "model/inverse.h"
+#include "mechanism/constrained.h"
+#include "mechanism/forward.h"
+#include "mechanism/inverse.h"
 
 /* Scratch memory that Lua frees. */
 static ambit_arena *scratch(lua_State *L) { return ambit_lua_push_system(L)->arena; }

@@ -3,8 +3,8 @@
 #include "lua/mechanism.h"
 #include "lua/request.h"
 #include "lua/system.h"
-#include "model/constrained.h"
-#include "model/rank.h"
+#include "mechanism/constrained.h"
+#include "mechanism/rank.h"
 
 /* Scratch memory that Lua frees. */
 static ambit_arena *scratch(lua_State *L) { return ambit_lua_push_system(L)->arena; }

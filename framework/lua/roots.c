@@ -94,15 +94,7 @@ static int approach(lua_State *L) {
   return 3;
 }
 
-/* system_invariants(system) -> {expression} that vanish along every solution */
-static int system_invariants(lua_State *L) {
-  const ambit_system *s = &ambit_lua_check_system(L, 1)->system;
-  ambit_lua_push_expressions(L, s->ninvariant, s->invariant);
-  return 1;
-}
-
 void ambit_lua_open_roots(lua_State *L, ambit_lua *core) {
-  static const luaL_Reg functions[] = { { "roots", roots }, { "approach", approach },
-    { "system_invariants", system_invariants }, { NULL, NULL } };
+  static const luaL_Reg functions[] = { { "roots", roots }, { "approach", approach }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
 }

@@ -66,9 +66,22 @@ static int system_parts(lua_State *L) {
   return 4;
 }
 
+/* system_invariants(system) -> {expression} that vanish along every solution, {name} */
+static int system_invariants(lua_State *L) {
+  const ambit_system *s = &ambit_lua_check_system(L, 1)->system;
+  ambit_lua_push_expressions(L, s->ninvariant, s->invariant);
+  lua_createtable(L, (int)s->ninvariant, 0);
+  for (size_t i = 0; i < s->ninvariant; i++) {
+    lua_pushstring(L, s->invariant_name[i]);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  return 2;
+}
+
 void ambit_lua_open_system(lua_State *L, ambit_lua *core) {
   static const luaL_Reg meta[] = { { "__gc", close }, { NULL, NULL } };
-  static const luaL_Reg functions[] = { { "system", system_new }, { "system_parts", system_parts }, { NULL, NULL } };
+  static const luaL_Reg functions[] = { { "system", system_new }, { "system_parts", system_parts },
+    { "system_invariants", system_invariants }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
   ambit_lua_new_type(L, core, AMBIT_TYPE_SYSTEM, meta);
   lua_pop(L, 1);

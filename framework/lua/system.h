@@ -2,7 +2,7 @@
 #ifndef AMBIT_LUA_SYSTEM_H
 #define AMBIT_LUA_SYSTEM_H
 #include "lua/core.h"
-#include "model/system.h"
+#include "graph/system.h"
 
 typedef struct ambit_lua_system {
   ambit_arena *arena; /* holds what `system` points to */

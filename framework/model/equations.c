@@ -1,7 +1,7 @@
 /* equations.c -- from expressions to tapes over unknowns and uncertain data. */
 #include "model/equations.h"
 #include "graph/tape.h"
-#include "model/hull.h"
+#include "graph/hull.h"
 #include "model/unknowns.h"
 #include <stdio.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* problem.c -- which data are parameters, which are unknowns; the tapes over them; the hull of the initial set. */
 #include "model/problem.h"
 #include "graph/tape.h"
-#include "model/hull.h"
+#include "graph/hull.h"
 #include "model/unknowns.h"
 #include <math.h>
 #include <stdbool.h>

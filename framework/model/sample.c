@@ -4,7 +4,7 @@
 #include "graph/tape.h"
 #include "model/bound.h"
 #include "model/context.h"
-#include "model/random.h"
+#include "num/random.h"
 #include <math.h>
 #include <stdio.h>
 

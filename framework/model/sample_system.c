@@ -2,10 +2,10 @@
 ** only the data change. */
 #include "graph/tape.h"
 #include "model/context.h"
-#include "model/hull.h"
+#include "graph/hull.h"
 #include "model/pair.h"
 #include "model/problem.h"
-#include "model/random.h"
+#include "num/random.h"
 #include "model/sample.h"
 #include <math.h>
 #include <stdbool.h>

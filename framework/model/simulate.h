@@ -3,7 +3,7 @@
 #define AMBIT_SIMULATE_H
 #include "host/registry.h"
 #include "model/report.h"
-#include "model/system.h"
+#include "graph/system.h"
 #include <ambit/solver.h>
 
 typedef struct ambit_simulate_request {

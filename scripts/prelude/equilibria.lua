@@ -44,7 +44,8 @@ local function equations(system, speeds)
     for k, name in ipairs(system.states) do skipped = skipped or speeds[name] and rate == system.symbols[k] end
     if not skipped then list[#list + 1] = rate end
   end
-  for _, invariant in ipairs(core.system_invariants(system.system)) do list[#list + 1] = invariant end
+  local invariants = core.system_invariants(system.system)
+  table.move(invariants, 1, #invariants, #list + 1, list)
   return list, leaves, values
 end
 

@@ -73,8 +73,26 @@ local function initial_enclosures(q)
   end
 end
 
+local TORN = 1e-6 -- m, or what else a loop is measured in: more than any rounding, less than anybody wants
+
+-- A solver that proves nothing does not look at the constraints: it would carry a loop that is open at the start along.
+local function check_loops(q)
+  local invariants, names = core.system_invariants(q.system.system)
+  if #invariants == 0 or option.declaration("solver", q.solver).rigorous then return end
+  local leaves, values = { core.time() }, { core.expression(q.times[1]) }
+  table.move(q.system.symbols, 1, #q.system.symbols, 2, leaves)
+  table.move(q.initial, 1, #q.initial, 2, values)
+  for i, x in ipairs(core.evaluate("interval", {}, invariants, leaves, values)) do
+    if not (x:mig() <= TORN) then
+      check.fail("simulate: initial: the constraint `%s` is off by %s at the start; m:assemble finds values that fit",
+        names[i], x)
+    end
+  end
+end
+
 -- A request -> its run.
 function verb.solve(q)
+  check_loops(q)
   local track, facts, report = core.simulate(q.system.system, q.solver, q.arithmetic, q.options, q.arithmetic_options,
     q.initial,
     q.times)

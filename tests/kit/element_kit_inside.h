@@ -4,8 +4,8 @@
 #include "graph/graph.h"
 #include "kit/element_kit.h"
 #include "kit/element_stage.h"
-#include "model/mechanism.h"
-#include "model/random.h"
+#include "mechanism/mechanism.h"
+#include "num/random.h"
 
 #define ELEMENT_KIT_PORTS 8u
 #define ELEMENT_KIT_PARAMS 16u

@@ -3,7 +3,7 @@
 */
 #include "graph/tape.h"
 #include "kit/element_kit_inside.h"
-#include "model/hull.h"
+#include "graph/hull.h"
 #include <math.h>
 #include <stdlib.h>
 

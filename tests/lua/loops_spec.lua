@@ -483,3 +483,25 @@ describe("bad use of loops", function()
     assert.equal(1, #m:independent())
   end)
 end)
+
+describe("a solver that proves nothing", function()
+  it("does not start from an open loop", function()
+    local m = ambit.mechanism "rod"
+    local tip = m:rigid_link { from = m:revolute { from = m.world, axis = "z", name = "a" }, offset = { 1, 0, 0 } }
+    local slider = m:prismatic { from = m.world, axis = "x", name = "s" }
+    local pin = m:rigid_link { from = m:revolute { from = slider, axis = "z", name = "b" }, offset = { -2, 0, 0 } }
+    m:point_mass { at = tip, mass = 1 }
+    m:point_mass { at = slider, mass = 1 }
+    m:close_pin { a = tip, b = pin, name = "close" }
+    m:independent { "a" }
+    local start = m:assemble { a = 1, guess = { s = 2.3, b = -0.4 }, within = 0.5 }
+    assert.equal("unique", start.status)
+    local at = start.configuration
+    at["a'"] = 1
+    assert.equal("complete", ambit.simulate({ m:dynamics(), initial = at, t = { 0, 0.1 }, solver = "gsl" }).status)
+    at.s = 2
+    local good, message = pcall(ambit.simulate, { m:dynamics(), initial = at, t = { 0, 0.1 }, solver = "gsl" })
+    assert.is_false(good)
+    assert.matches("simulate: initial: the constraint `close", message, 1, true)
+  end)
+end)

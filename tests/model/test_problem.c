@@ -1,7 +1,7 @@
 /* Problems: what becomes a parameter, which tapes are built, and what is refused, with invariants and without. */
 #include "model/problem.h"
 #include "graph/tape.h"
-#include "model/hull.h"
+#include "graph/hull.h"
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,7 +1,7 @@
 /* test_sample.c -- Monte Carlo hulls lie inside the true range, come close to it, and are the same for the same
 ** seed. */
 #include "model/sample.h"
-#include "model/random.h"
+#include "num/random.h"
 #include "model/scene.h"
 #include <math.h>
 #include <setjmp.h>

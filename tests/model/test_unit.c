@@ -1,6 +1,6 @@
 /* Units: exact factors against their definitions (MPFR), grammar, dimensions, messages. */
 #include "graph/tape.h"
-#include "model/hull.h"
+#include "graph/hull.h"
 #include "model/unit.h"
 #include "num/decimal.h"
 #include <mpfr.h>

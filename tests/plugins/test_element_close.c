@@ -1,12 +1,12 @@
 /* Elements that close loops: the virtual power of their wrenches is that of their rows, the rows vanish where the joint
 ** that they are named after could be, and say everything it says there.
 */
-#include "model/balance.h"
-#include "model/constraints.h"
-#include "model/loop_point.h"
-#include "model/machine.h"
-#include "model/partition.h"
-#include "model/random.h"
+#include "mechanism/balance.h"
+#include "mechanism/constraints.h"
+#include "mechanism/loop_point.h"
+#include "mechanism/machine.h"
+#include "mechanism/partition.h"
+#include "num/random.h"
 #include <math.h>
 
 typedef struct kind {
