@@ -95,6 +95,7 @@ static inline ambit_status inertia_check(ambit_build *b, const ambit_expr *e) {
   ambit_status status = inertia_check_symmetry(b, x, INERTIA_SLACK * trace);
   if (status != AMBIT_OK || !inertia_is_impossible(x, trace)) return status;
   return b->fail(b, AMBIT_INVALID,
-      "no body has this inertia: of its principal moments one is negative, or larger than the sum of the other two");
+      "no body has this inertia: of its principal moments one is negative, or larger than the sum of the other two; "
+      "`physical = false` takes it as it is");
 }
 #endif

@@ -37,14 +37,14 @@ end
 local readers = { urdf = urdf.read, xml = urdf.read, lua = rbdl.read }
 
 -- A robot, checked.
-local function read(path)
+local function read(path, physical)
   local text = read_file(path)
   local suffix = (path:match "%.(%w+)$" or ""):lower()
   local reader = readers[suffix] or text:find "^[%s\xEF\xBB\xBF]*<" and urdf.read
   if not reader then
     check.fail("load: %s: expected a URDF file (.urdf, .xml) or a Lua table of RBDL (.lua)", path)
   end
-  return robot.check(reader(text, path))
+  return robot.check(reader(text, path), physical ~= false)
 end
 
 -- -- the mechanism
@@ -88,7 +88,7 @@ local function place(m, self, base, t)
   local prefix = tree.scope(m).path
   check_names(m, self, prefix)
   local set = tolerance.new(rawget(m, "patterns") or {}, t.tolerances or {})
-  local frames, joints = parts.add(self, m, base, set, prefix, { damping = t.damping, friction = t.friction })
+  local frames, joints = parts.add(self, m, base, set, prefix, t)
   local links = named_table "link"
   for name, at in pairs(frames) do links[name], m.links[prefix .. name] = at, at end
   for name, joint in pairs(joints) do m.joints[prefix .. name] = joint end
@@ -97,14 +97,15 @@ local function place(m, self, base, t)
   return links
 end
 
-local keys = { "tolerances", "gravity", "base", "name", "damping", "friction" }
+local flags = { "damping", "friction", "physical" }
+local keys = { "tolerances", "gravity", "base", "name", table.unpack(flags) }
 
 local function request(t, known)
   if type(t) == "string" then t = { t } end
   check.table(t, "load")
   check.keys(t, known, "load", 1)
   check.text(t[1], "load: the file")
-  for _, key in ipairs { "damping", "friction" } do
+  for _, key in ipairs(flags) do
     if t[key] ~= nil and type(t[key]) ~= "boolean" then
       check.fail("load: %s: expected true or false, got %s", key, check.kind(t[key]))
     end
@@ -118,7 +119,7 @@ local function base_name(path) return (path:match "([^/]+)$" or path):gsub("%.%w
 function load.load(t)
   t = request(t, keys)
   local mechanism = require "ambit.mechanism"
-  local self = read(t[1])
+  local self = read(t[1], t.physical)
   local m, base
   if mechanism.is(t.base) then
     m, base = t.base, t.base.world
@@ -129,7 +130,8 @@ function load.load(t)
   end
   if m then
     if t.gravity ~= nil then check.fail("load: gravity: say it with m:gravity: the mechanism is there already") end
-    m:load { t[1], from = base, tolerances = t.tolerances, name = t.name, damping = t.damping, friction = t.friction }
+    m:load { t[1], from = base, tolerances = t.tolerances, name = t.name, damping = t.damping, friction = t.friction,
+      physical = t.physical }
     return m
   end
   m = mechanism.new { t.name or self.name or base_name(t[1]), gravity = t.gravity or self.gravity }
@@ -141,10 +143,10 @@ local methods = {}
 
 -- m:load { "arm.urdf", from = frame, name = "left" } -> its frames by name of link
 function methods:load(t)
-  t = request(t, { "from", "tolerances", "name", "damping", "friction" })
+  t = request(t, { "from", "tolerances", "name", table.unpack(flags) })
   local base = t.from == nil and self.world or t.from
   frame.place(self, base, "frame", "load: from")
-  local model = read(t[1])
+  local model = read(t[1], t.physical)
   if t.name == nil then return place(self, model, base, t) end
   local scope <close> = tree.enter(self, "robot", t.name, t[1])
   return place(self, model, base, t)

@@ -107,7 +107,7 @@ local function is_physical(inertia)
     and determinant >= -slack * half * half
 end
 
-local function check_body(self, link)
+local function check_body(self, link, physical)
   local body, who = link.body, of_link(link)
   if not body then return end
   local mass = tonumber(body.mass)
@@ -115,9 +115,9 @@ local function check_body(self, link)
   if mass == 0 and not is_zero(body.inertia) then
     robot.fail(self, body.line, who, "has moments of inertia but no mass: its mass is zero")
   end
-  if not is_physical(body.inertia) then
-    robot.fail(self, body.line, who,
-      "no body has this inertia: of its principal moments one is negative, or larger than the sum of the other two")
+  if physical and not is_physical(body.inertia) then
+    robot.fail(self, body.line, who, "no body has this inertia: of its principal moments one is negative, or larger "
+      .. "than the sum of the other two; `physical = false` takes it as it is")
   end
   if mass == 0 then body.massless = true end
 end
@@ -203,12 +203,13 @@ local function in_order(self, root)
   return order
 end
 
--- Raises what is wrong with it; sets .root (a link) and .order (its joints), .link and .joint (by name).
-function robot.check(self)
+-- Raises what is wrong with it; sets .root (a link) and .order (its joints), .link and .joint (by name). physical: must
+-- there be bodies that have these inertias?
+function robot.check(self, physical)
   if #self.links == 0 then check.fail("%s:%d: there is no link in the file", self.file, self.line) end
   self.link = by_name(self, self.links, of_link)
   self.joint = by_name(self, self.joints, of_joint)
-  for _, link in ipairs(self.links) do check_body(self, link) end
+  for _, link in ipairs(self.links) do check_body(self, link, physical) end
   local above = joints_above(self, self.link)
   self.root = find_root(self, above)
   for _, joint in ipairs(self.joints) do

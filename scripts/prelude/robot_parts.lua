@@ -193,7 +193,7 @@ function Build:add_body(link)
   for _, entry in ipairs(entries) do is_point = is_point and entry == zero end
   self:add(body.line, who, "rigid_body", { at = self.frame[link.name], mass = mass, centre = centre,
     name = (self.robot.joint[link.name] or link.name == "world") and link.name .. ".body" or link.name,
-    inertia = not is_point and turned(entries, rpy) or nil })
+    inertia = not is_point and turned(entries, rpy) or nil, physical = self.options.physical })
 end
 
 -- Tolerances can be laid on what there is: all joints, and the links that have a body.

@@ -51,3 +51,4 @@ ambit_scene(n_four_bar 0 "complete at t = 1 .*flat: singular\n.*-1\\.76707447631
 ambit_scene(bricard 0 "follows from the others: ring\\.[1-5]\n.*1\\.95808383233532[0-9., ]+1\\.958083832335.*complete at t = 1 ")
 ambit_scene(slider_crank_loop 0 "rank over a turn: proved\n.*complete at t = 0\\.6 ")
 ambit_scene(stewart 0 "rank in the workspace: proved\n.*complete at t = 0\\.2 ")
+ambit_scene(ur5 0 "taylor_model is at most [0-4]\\.[0-9] %")

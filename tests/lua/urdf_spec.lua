@@ -310,6 +310,12 @@ describe("a bad URDF", function()
       "FILE:4: link `b`: the mass is zero, and joint `j` (line 3) moves nothing else")
   end)
 
+  it("takes inertias of no body on request", function()
+    local text = robot(link("a", inertial("1", { 0.0333, 0.0333, 0.0667 })))
+    says(text, "`physical = false` takes it as it is")
+    loaded(text, { physical = false })
+  end)
+
   it("mimics what can be mimicked", function()
     local function follower(of, more)
       return robot(one .. link "b" .. link "c" .. joint("j", "revolute", "a", "b", '<mimic joint="' .. of .. '"/>')
