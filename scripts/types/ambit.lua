@@ -282,7 +282,7 @@ function mechanism:assemble(t) end
 
 -- files
 
----@param t string|{ [1]: string, from: ambit.frame?, tolerances: table<string, string>?, name: string?, damping: boolean?, friction: boolean? }
+---@param t string|{ [1]: string, from: ambit.frame?, tolerances: table<string, string>?, name: string?, damping: boolean?, friction: boolean?, physical: boolean? }
 ---@return table<string, ambit.frame> # by name of link
 function mechanism:load(t) end
 ---@param name string
@@ -294,7 +294,7 @@ function mechanism:limits() end
 ---@return table?
 function mechanism:tolerances(t) end
 ---A robot from URDF or from an RBDL model table.
----@param t string|{ [1]: string, gravity: ambit.vector?, tolerances: table<string, string>?, name: string?, damping: boolean?, friction: boolean? }
+---@param t string|{ [1]: string, gravity: ambit.vector?, tolerances: table<string, string>?, name: string?, damping: boolean?, friction: boolean?, physical: boolean? }
 ---@return ambit.mechanism
 function ambit.load(t) end
 
