@@ -4,6 +4,7 @@
 --   frames in, frames out    a line from the frame it starts at to each that it makes
 --   two frames in, none out  a closure (with a constraint port, dashed) or a force element
 --   one frame in, and a mass a body, at its centre
+local check = require "ambit.check"
 local core = require "ambit.core"
 local element = require "ambit.element"
 
@@ -117,12 +118,21 @@ local function tips(self)
   return list
 end
 
+-- Frames of a robot that was loaded are called after their links, not after the joints that move them.
+local function name_links(self, links)
+  for _, name in ipairs(check.sorted(links)) do
+    local place = self:place(links[name])
+    if place > 1 then self.frames[place].name = name end
+  end
+end
+
 function model.of(m)
   local self = setmetatable({ mechanism = m, frames = {}, lines = {}, axes = {}, bodies = {}, index = {} }, Model)
   self:frame(0, 0, "world", "world")
   for part = 1, core.part_count(m.handle) - 1 do
     self:add(m.declared[part], element.made(m, part), part, core.part_name(m.handle, part))
   end
+  name_links(self, rawget(m, "links") or {})
   self.tips = tips(self)
   return self
 end

@@ -226,6 +226,18 @@ describe("what a page claims", function()
     has(table.concat(view.notes, "\n"), "lift at rest")
   end)
 
+  it("calls the frames of a loaded robot after its links", function()
+    local file = write('<robot name="r"><link name="base"/><link name="hand"><inertial><mass value="1"/><inertia ixx="1" iyy="1"'
+      .. ' izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link><joint name="wrist" type="revolute"><parent link="base"/>'
+      .. '<child link="hand"/><axis xyz="0 0 1"/></joint></robot>')
+    local page, code = page_of(('local m = require("ambit").load "%s"\n'):format(file))
+    os.remove(file)
+    assert.equal(0, code)
+    local names = {}
+    for _, frame in ipairs(page.views[1].frames) do names[frame.name] = true end
+    assert.is_true(names.hand and not names.wrist)
+  end)
+
   it("shows every mechanism with its own last run, unless the scene says otherwise", function()
     local data, code = page_of [[
       local ambit = require "ambit"
