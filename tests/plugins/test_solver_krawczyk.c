@@ -83,9 +83,11 @@ static void planted_roots_are_never_lost(void **state) {
     for (uint32_t i = 0; i < n; i++) root[i] = floor(between(-16, 16)) / 8;
     for (uint32_t i = 0; i < n; i++) {
       f[i] = number(c, 0);
-      for (uint32_t j = 0; j < n; j++)
-        if (j == i || choose(2))
-          f[i] = add(c, f[i], multiply(c, number(c, floor(between(-8, 8))), vanishing(c, c->x[j], root[j])));
+      for (uint32_t j = 0; j < n; j++) {
+        double factor = floor(between(1, 9)) * (j == i || choose(2) ? 1 : -1); /* terms in x_i never cancel to 0 */
+        ambit_expr term = vanishing(c, c->x[j], root[j]);
+        if (j == i || choose(2)) f[i] = add(c, f[i], multiply(c, number(c, factor), term));
+      }
       f[i] = add(c, f[i], vanishing(c, c->x[i], root[i]));
       double l = choose(4) ? between(0, 2) : 0, r = choose(4) ? between(0, 2) : 0; /* sometimes on the edge */
       box[i] = (ambit_interval) { root[i] - l, root[i] + r };
