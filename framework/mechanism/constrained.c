@@ -1,6 +1,7 @@
 /* constrained.c -- projection on the null space, the reduced system, multipliers. */
 #include "mechanism/constrained.h"
 #include "mechanism/forward.h"
+#include "mechanism/loop_motion.h"
 #include <string.h>
 
 typedef struct reduction {

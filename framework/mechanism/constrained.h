@@ -1,6 +1,6 @@
 /* constrained.h -- equations of motion of a mechanism with constraints, without multipliers among the states.
 **
-** M(q) u' = h(q, u, t) + G^T lambda with g = 0. With u = N u_i + b, u' = N u_i' + a (loops.h) and N^T G^T = 0:
+** M(q) u' = h(q, u, t) + G^T lambda with g = 0. With u = N u_i + b, u' = N u_i' + a (loop_motion.h) and N^T G^T = 0:
 **   (N^T M N) u_i' = N^T (h - M a)
 ** States are all coordinates and the independent speeds, q' = rate(q, N u_i + b): position is integrated as a whole, so
 ** g stays 0 along every solution that starts there, and g is handed on as invariants. Afterwards

@@ -1,10 +1,11 @@
 /* rank.c -- subdivision, and the test of one box. */
 #include "mechanism/rank.h"
 #include "graph/contract.h"
+#include "graph/hull.h"
 #include "graph/tape.h"
 #include "host/services.h"
-#include "graph/hull.h"
 #include "mechanism/loop_point.h"
+#include "num/regular.h"
 #include <string.h>
 
 #define ROOM 64   /* boxes waiting at a time: bisection depth */
@@ -23,7 +24,8 @@ typedef struct certificate {
   ambit_contractor *contractor;
   ambit_interval *slot, *stack; /* [nslot], [ROOM * nin] */
   double *lo, *hi;              /* [nin] */
-  double *inverse;              /* [largest block, twice] */
+  ambit_interval *entry;        /* [largest block] */
+  double *scratch;              /* [largest block, twice] */
   size_t boxes, budget;
   uint32_t failed; /* the block that was not proved */
   bool any;        /* some box may hold an assembled configuration */
@@ -109,8 +111,9 @@ static ambit_status seal_matrix(certificate *s) {
   s->slot = ambit_arena_alloc(s->arena, (s->matrix->nslot + 1) * sizeof *s->slot);
   s->stack = ambit_arena_alloc(s->arena, (ROOM * s->nin + 1) * sizeof *s->stack);
   s->lo = ambit_arena_alloc(s->arena, (2 * s->nin + 1) * sizeof *s->lo);
-  s->inverse = ambit_arena_alloc(s->arena, (2 * most * most + 1) * sizeof *s->inverse);
-  if (!s->slot || !s->stack || !s->lo || !s->inverse) return no_memory(s->f);
+  s->entry = ambit_arena_alloc(s->arena, (most * most + 1) * sizeof *s->entry);
+  s->scratch = ambit_arena_alloc(s->arena, (2 * most * most + 1) * sizeof *s->scratch);
+  if (!s->slot || !s->stack || !s->lo || !s->entry || !s->scratch) return no_memory(s->f);
   s->hi = s->lo + s->nin;
   return AMBIT_OK;
 }
@@ -132,61 +135,12 @@ static bool narrow(certificate *s, ambit_interval *box) {
   }
 }
 
-static ambit_interval entry(const certificate *s, size_t k, size_t l) {
-  return s->slot[s->matrix->out[k * s->p->rank + l]];
-}
-
-/* c := approximate inverse of the block's midpoint, by Gauss-Jordan; false: none found */
-static bool invert_middle(const certificate *s, size_t first, size_t n, double *c) {
-  double *a = c + n * n;
-  for (size_t i = 0; i < n; i++)
-    for (size_t j = 0; j < n; j++) {
-      a[i * n + j] = ambit_interval_mid(entry(s, first + i, first + j));
-      c[i * n + j] = i == j;
-    }
-  for (size_t k = 0; k < n; k++) {
-    size_t best = k;
-    for (size_t i = k; i < n; i++)
-      if (fabs(a[i * n + k]) > fabs(a[best * n + k])) best = i;
-    if (!(fabs(a[best * n + k]) > 0)) return false;
-    for (size_t j = 0; j < n; j++) {
-      double x = a[k * n + j], y = c[k * n + j];
-      a[k * n + j] = a[best * n + j], c[k * n + j] = c[best * n + j];
-      a[best * n + j] = x, c[best * n + j] = y;
-    }
-    double pivot = a[k * n + k];
-    for (size_t j = 0; j < n; j++) a[k * n + j] /= pivot, c[k * n + j] /= pivot;
-    for (size_t i = 0; i < n; i++) {
-      double factor = i == k ? 0 : a[i * n + k];
-      for (size_t j = 0; factor != 0 && j < n; j++) {
-        a[i * n + j] -= factor * a[k * n + j];
-        c[i * n + j] -= factor * c[k * n + j];
-      }
-    }
-  }
-  return true;
-}
-
-static ambit_interval point(double x) { return (ambit_interval) { x, x }; }
-
-/* Upper bound of ||1 - C B||_inf; infinite or NaN entries make it infinite. */
-static double distance_from_one(const certificate *s, size_t first, size_t n, const double *c) {
-  double norm = 0;
-  for (size_t i = 0; i < n; i++) {
-    ambit_interval sum = { 0, 0 };
-    for (size_t j = 0; j < n; j++) {
-      ambit_interval x = point(i == j);
-      for (size_t k = 0; k < n; k++) {
-        if (!(fabs(c[i * n + k]) < INFINITY)) return INFINITY;
-        ambit_interval b = entry(s, first + k, first + j);
-        if (ambit_interval_is_empty(b)) return INFINITY;
-        x = ambit_interval_sub(x, ambit_interval_mul(point(c[i * n + k]), b));
-      }
-      sum = ambit_interval_add(sum, point(ambit_interval_mag(x)));
-    }
-    norm = fmax(norm, sum.hi);
-  }
-  return norm;
+/* G's block number i at the box last evaluated -> s->entry; its size */
+static size_t read_block(const certificate *s, uint32_t i) {
+  size_t first = s->p->block[i], n = s->p->block[i + 1] - first;
+  for (size_t k = 0; k < n; k++)
+    for (size_t l = 0; l < n; l++) s->entry[k * n + l] = s->slot[s->matrix->out[(first + k) * s->p->rank + first + l]];
+  return n;
 }
 
 /* All blocks regular over the box? Else s->failed is one that was not proved. */
@@ -194,39 +148,20 @@ static bool regular(certificate *s, const ambit_interval *box) {
   s->failed = 0;
   if (ambit_hull(s->matrix, box, s->slot) & AMBIT_F_PARTIAL) return false; /* G is not defined all over the box */
   for (uint32_t i = 0; i < s->p->nblock; i++) {
-    size_t first = s->p->block[i], n = s->p->block[i + 1] - first;
-    if (invert_middle(s, first, n, s->inverse) && distance_from_one(s, first, n, s->inverse) < 1) continue;
+    size_t n = read_block(s, i);
+    if (ambit_is_regular(n, s->entry, s->scratch)) continue;
     s->failed = i;
     return false;
   }
   return true;
 }
 
-/* Determinant of the block's rows k.. over the columns in the set, by expansion; small blocks only. */
-static ambit_interval determinant(const certificate *s, size_t first, size_t n, size_t k, uint32_t columns) {
-  if (k == n) return point(1);
-  ambit_interval sum = { 0, 0 };
-  bool odd = false;
-  for (size_t j = 0; j < n; j++) {
-    if (!(columns >> j & 1)) continue;
-    ambit_interval e = entry(s, first + k, first + j);
-    if (e.lo != 0 || e.hi != 0) {
-      ambit_interval x = ambit_interval_mul(e, determinant(s, first, n, k + 1, columns & ~(1u << j)));
-      sum = odd ? ambit_interval_sub(sum, x) : ambit_interval_add(sum, x);
-    }
-    odd = !odd;
-  }
-  return sum;
-}
-
-/* Is a block singular at every point of the box? Then its determinant is exactly 0: a proof at single points only. */
+/* Is a block singular at every point of the box? A proof at single points only. */
 static bool singular(certificate *s, const ambit_interval *box) {
   if (ambit_hull(s->matrix, box, s->slot) & AMBIT_F_PARTIAL) return false;
   for (uint32_t i = 0; i < s->p->nblock; i++) {
-    size_t first = s->p->block[i], n = s->p->block[i + 1] - first;
-    if (n > 8) continue;
-    ambit_interval d = determinant(s, first, n, 0, (1u << n) - 1);
-    if (d.lo != 0 || d.hi != 0) continue;
+    size_t n = read_block(s, i);
+    if (!ambit_is_singular(n, s->entry)) continue;
     s->failed = i;
     return true;
   }

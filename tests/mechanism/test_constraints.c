@@ -1,5 +1,6 @@
 /* Coordinate partitioning: pivots, blocks, symbolic solutions, and what is refused. */
 #include "mechanism/constrained.h"
+#include "mechanism/loop_motion.h"
 #include "mechanism/loop_point.h"
 #include "mechanism/machine.h"
 #include "num/random.h"

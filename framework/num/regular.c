@@ -1,0 +1,82 @@
+/* regular.c -- Neumann's test with the midpoint's inverse, and determinants by expansion. */
+#include "num/regular.h"
+#include <math.h>
+#include <stdint.h>
+
+/* c := approximate inverse of the midpoint, by Gauss-Jordan; false: none found. c [n*n], then scratch [n*n] */
+static bool invert_middle(size_t n, const ambit_interval *b, double *c) {
+  double *a = c + n * n;
+  for (size_t i = 0; i < n; i++)
+    for (size_t j = 0; j < n; j++) {
+      a[i * n + j] = ambit_interval_mid(b[i * n + j]);
+      c[i * n + j] = i == j;
+    }
+  for (size_t k = 0; k < n; k++) {
+    size_t best = k;
+    for (size_t i = k; i < n; i++)
+      if (fabs(a[i * n + k]) > fabs(a[best * n + k])) best = i;
+    if (!(fabs(a[best * n + k]) > 0)) return false;
+    for (size_t j = 0; j < n; j++) {
+      double x = a[k * n + j], y = c[k * n + j];
+      a[k * n + j] = a[best * n + j], c[k * n + j] = c[best * n + j];
+      a[best * n + j] = x, c[best * n + j] = y;
+    }
+    double pivot = a[k * n + k];
+    for (size_t j = 0; j < n; j++) a[k * n + j] /= pivot, c[k * n + j] /= pivot;
+    for (size_t i = 0; i < n; i++) {
+      double factor = i == k ? 0 : a[i * n + k];
+      for (size_t j = 0; factor != 0 && j < n; j++) {
+        a[i * n + j] -= factor * a[k * n + j];
+        c[i * n + j] -= factor * c[k * n + j];
+      }
+    }
+  }
+  return true;
+}
+
+static ambit_interval point(double x) { return (ambit_interval) { x, x }; }
+
+/* Upper bound of ||1 - C B||_inf; infinite or NaN entries make it infinite. */
+static double distance_from_one(size_t n, const ambit_interval *b, const double *c) {
+  double norm = 0;
+  for (size_t i = 0; i < n; i++) {
+    ambit_interval sum = { 0, 0 };
+    for (size_t j = 0; j < n; j++) {
+      ambit_interval x = point(i == j);
+      for (size_t k = 0; k < n; k++) {
+        if (!(fabs(c[i * n + k]) < INFINITY) || ambit_interval_is_empty(b[k * n + j])) return INFINITY;
+        x = ambit_interval_sub(x, ambit_interval_mul(point(c[i * n + k]), b[k * n + j]));
+      }
+      sum = ambit_interval_add(sum, point(ambit_interval_mag(x)));
+    }
+    norm = fmax(norm, sum.hi);
+  }
+  return norm;
+}
+
+bool ambit_is_regular(size_t n, const ambit_interval *b, double *scratch) {
+  return invert_middle(n, b, scratch) && distance_from_one(n, b, scratch) < 1;
+}
+
+/* of the rows k.. over the columns in the set */
+static ambit_interval determinant(size_t n, const ambit_interval *b, size_t k, uint32_t columns) {
+  if (k == n) return point(1);
+  ambit_interval sum = { 0, 0 };
+  bool odd = false;
+  for (size_t j = 0; j < n; j++) {
+    if (!(columns >> j & 1)) continue;
+    ambit_interval e = b[k * n + j];
+    if (e.lo != 0 || e.hi != 0) {
+      ambit_interval x = ambit_interval_mul(e, determinant(n, b, k + 1, columns & ~(1u << j)));
+      sum = odd ? ambit_interval_sub(sum, x) : ambit_interval_add(sum, x);
+    }
+    odd = !odd;
+  }
+  return sum;
+}
+
+bool ambit_is_singular(size_t n, const ambit_interval *b) {
+  if (n > AMBIT_SINGULAR_MAX) return false;
+  ambit_interval d = determinant(n, b, 0, (1u << n) - 1);
+  return d.lo == 0 && d.hi == 0;
+}
