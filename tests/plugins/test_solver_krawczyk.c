@@ -293,7 +293,11 @@ static void stops_are_obeyed_and_runs_repeat(void **state) {
 
 static void every_rigorous_arithmetic_serves(void **state) {
   roots_case *c = *state;
-  static const char *const name[] = { "interval", "affine", "taylor_model", "gradient", "mpfr" };
+  static const char *const name[] = { "interval", "affine", "taylor_model", "gradient",
+#ifndef AMBIT_COUNT_ALLOCATIONS /* which ends every run that allocates; MPFR fills caches of its own while it runs */
+    "mpfr"
+#endif
+  };
   ambit_expr x = c->x[0], y = c->x[1];
   ambit_expr f[2] = { less(c, add(c, apply(c, AMBIT_OP_SQR, x), apply(c, AMBIT_OP_SQR, y)), 4),
     subtract(c, apply(c, AMBIT_OP_EXP, x), add(c, y, number(c, 2))) };
