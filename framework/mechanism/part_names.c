@@ -56,6 +56,7 @@ ambit_status ambit_part_check_name(const ambit_mechanism *m, const ambit_part *p
       return ambit_fail(f, AMBIT_INVALID, "%s: the name has a control character", who);
   if (p->name[n - 1] == '\'')
     return ambit_fail(f, AMBIT_INVALID, "%s: a name cannot end in `'`: that marks time derivatives", who);
+  if (strcmp(p->name, "t") == 0) return ambit_fail(f, AMBIT_INVALID, "%s: a name cannot be `t`: that is the time", who);
   if (strstr(p->name, "'."))
     return ambit_fail(f, AMBIT_INVALID, "%s: a name cannot have `'` before a dot: that marks speeds", who);
   const ambit_part *other = find_name(m, p->name);

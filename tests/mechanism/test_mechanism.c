@@ -39,6 +39,7 @@ static void names(void **state) {
       "the name is taken by the rigid_link `arm` (scene.lua:7)");
   expect_refusal(s, machine_try(s, link, "rigid_link", "", AMBIT_WORLD, NULL), "the name is empty");
   expect_refusal(s, machine_try(s, link, "rigid_link", "arm'", AMBIT_WORLD, NULL), "marks time derivatives");
+  expect_refusal(s, machine_try(s, link, "rigid_link", "t", AMBIT_WORLD, NULL), "that is the time");
   expect_refusal(s, machine_try(s, link, "rigid_link", "a\nb", AMBIT_WORLD, NULL), "control character");
   char longest[200];
   memset(longest, 'a', sizeof longest);
