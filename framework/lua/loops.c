@@ -1,5 +1,6 @@
 /* loops.c -- closed loops as Lua values: constraints, the choice of independent speeds, multipliers, rank. */
 #include "lua/core.h"
+#include "lua/interrupt.h"
 #include "lua/mechanism.h"
 #include "lua/request.h"
 #include "lua/system.h"
@@ -195,7 +196,14 @@ static int rank(lua_State *L) {
   q.time_lo = luaL_checknumber(L, 5);
   q.time_hi = luaL_checknumber(L, 6);
   q.budget = (size_t)luaL_checkinteger(L, 7);
-  if (ambit_rank_certify(&q, scratch(L), &result, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
+  ambit_arena *arena = scratch(L);
+  ambit_interrupt interrupt; /* many boxes take long: Ctrl-C in haste ends the process, once it raises at the end */
+  ambit_interrupt_begin(&interrupt);
+  ambit_status status = ambit_rank_certify(&q, arena, &result, &f);
+  bool stopped = ambit_interrupt_pending();
+  ambit_interrupt_end(&interrupt);
+  if (stopped) ambit_lua_error(L, "rank: interrupted");
+  if (status != AMBIT_OK) ambit_lua_raise(L, &f);
   push_rank(L, &result);
   return 1;
 }

@@ -18,23 +18,22 @@ static const ambit_param params[] = {
   { NULL, NULL, NULL, NULL, NULL },
 };
 
-static ambit_status find_inertia(ambit_build *b, ambit_expr *j) {
+static ambit_status check(ambit_build *b) {
   const ambit_expr *inertia = b->param(b, INERTIA), *mass = b->param(b, MASS);
+  const char *name = inertia ? "inertia" : "mass";
   double lo, hi;
   if (!inertia == !mass) return b->fail(b, AMBIT_INVALID, "expected either `inertia` (kg m^2) or `mass` (kg)");
-  *j = inertia ? *inertia : *mass;
-  b->range(b, *j, &lo, &hi);
-  if (hi < 0) return b->fail(b, AMBIT_INVALID, "the inertia is negative: %g", hi);
-  return ambit_check_fixed(b, j, 1, inertia ? "inertia" : "mass");
+  b->range(b, inertia ? *inertia : *mass, &lo, &hi);
+  if (hi < 0) return b->fail(b, AMBIT_INVALID, "the %s is negative: %g", name, hi);
+  return ambit_check_fixed(b, inertia ? inertia : mass, 1, name);
 }
 
 static ambit_status express(ambit_build *b, uint32_t port, uint32_t quantity, ambit_expr *out) {
   int effort = port == JOINT && quantity == AMBIT_EFFORT, energy = port == AMBIT_NO_PORT && quantity == AMBIT_ENERGY;
-  ambit_expr j = 0;
   if (!effort && !energy) return AMBIT_UNABLE;
-  ambit_status status = find_inertia(b, &j);
-  const ambit_expr *rate = status == AMBIT_OK ? b->get(b, JOINT, effort ? AMBIT_RATE2 : AMBIT_RATE) : NULL;
+  const ambit_expr *inertia = b->param(b, INERTIA), *rate = b->get(b, JOINT, effort ? AMBIT_RATE2 : AMBIT_RATE);
   if (!rate) return AMBIT_INVALID;
+  ambit_expr j = inertia ? *inertia : *b->param(b, MASS);
   if (effort)
     out[0] = ambit_negate(b, ambit_multiply(b, j, *rate));
   else
@@ -42,9 +41,7 @@ static ambit_status express(ambit_build *b, uint32_t port, uint32_t quantity, am
   return AMBIT_OK;
 }
 
-static const ambit_element element = {
-  .size = sizeof element, .nport = 1, .port = ports, .param = params, .express = express
-};
+static const ambit_element element = { sizeof element, 1, ports, params, express, check };
 
 AMBIT_ELEMENT_ENTRY("armature", "1.0",
     "Inertia on the coordinate of a joint: the rotor of its drive, multiplied by the square of the gear ratio.",

@@ -35,15 +35,11 @@ typedef struct bush {
   ambit_vector3 d_rate, theta_rate; /* only when asked for */
 } bush;
 
+/* Stiffnesses that move would put in power of their own. */
 static ambit_status check(ambit_build *b) {
   ambit_status status = dissipation_check(b, b->param(b, DAMPING), 3, "damping");
-  if (status != AMBIT_OK) return status;
-  return dissipation_check(b, b->param(b, ROTATIONAL_DAMPING), 3, "rotational_damping");
-}
-
-/* Stiffnesses that move would put in power of their own. */
-static ambit_status check_fixed(ambit_build *b) {
-  ambit_status status = ambit_check_fixed(b, b->param(b, STIFFNESS), 3, "stiffness");
+  if (status == AMBIT_OK) status = dissipation_check(b, b->param(b, ROTATIONAL_DAMPING), 3, "rotational_damping");
+  if (status == AMBIT_OK) status = ambit_check_fixed(b, b->param(b, STIFFNESS), 3, "stiffness");
   if (status != AMBIT_OK) return status;
   return ambit_check_fixed(b, b->param(b, ROTATIONAL_STIFFNESS), 3, "rotational_stiffness");
 }
@@ -131,8 +127,7 @@ static ambit_status express(ambit_build *b, uint32_t port, uint32_t quantity, am
   int energy = port == AMBIT_NO_PORT && quantity == AMBIT_ENERGY;
   if (!wrench && !energy && !power) return AMBIT_UNABLE;
   if (power && !damps(b)) return AMBIT_UNABLE;
-  ambit_status status = check_fixed(b);
-  if (status == AMBIT_OK) status = place(b, &s);
+  ambit_status status = place(b, &s);
   if (status == AMBIT_OK && !energy && damps(b)) status = move(b, &s);
   if (status != AMBIT_OK) return status;
   if (wrench) {

@@ -29,7 +29,7 @@ static ambit_status express(ambit_build *b, uint32_t port, uint32_t quantity, am
   return AMBIT_OK;
 }
 
-static const ambit_element element = { sizeof element, 2, ports, params, express, NULL };
+static const ambit_element element = { sizeof element, 2, ports, params, express, line_check };
 
 AMBIT_ELEMENT_ENTRY("force_law", "1.0",
     "A force along the line between two points, given as a number, an expression or a function(length, rate, t); "

@@ -82,8 +82,8 @@ static inline int inertia_is_impossible(const inertia_range *x, double trace) {
   return a.hi - c.lo + d.hi < -slack * trace * trace;
 }
 
-/* Nine entries by rows; NULL: a point. */
-static inline ambit_status inertia_check(ambit_build *b, const ambit_expr *e) {
+/* Nine entries by rows; NULL: a point. Not symmetric is always a slip: half of the entries would not count. */
+static inline ambit_status inertia_check(ambit_build *b, const ambit_expr *e, int physical) {
   inertia_range x[9];
   double trace = 0;
   if (!e) return AMBIT_OK;
@@ -93,7 +93,7 @@ static inline ambit_status inertia_check(ambit_build *b, const ambit_expr *e) {
     trace += low > high ? low : high;
   }
   ambit_status status = inertia_check_symmetry(b, x, INERTIA_SLACK * trace);
-  if (status != AMBIT_OK || !inertia_is_impossible(x, trace)) return status;
+  if (status != AMBIT_OK || !physical || !inertia_is_impossible(x, trace)) return status;
   return b->fail(b, AMBIT_INVALID,
       "no body has this inertia: of its principal moments one is negative, or larger than the sum of the other two; "
       "`physical = false` takes it as it is");

@@ -43,11 +43,15 @@ static inline ambit_status line_place(ambit_build *b, line *s) {
   return b->fail(b, AMBIT_INVALID, "its two points are one and the same, so no line joins them");
 }
 
+/* A point that moves in its frame by itself would put in power, and add to the rate of the length. */
+static inline ambit_status line_check(ambit_build *b) {
+  ambit_status status = ambit_check_fixed(b, b->param(b, LINE_FROM_OFFSET), 3, "from_offset");
+  return status == AMBIT_OK ? ambit_check_fixed(b, b->param(b, LINE_TO_OFFSET), 3, "to_offset") : status;
+}
+
 static inline ambit_status line_move(ambit_build *b, line *s) {
   ambit_vector3 first, second;
-  ambit_status status = ambit_check_fixed(b, b->param(b, LINE_FROM_OFFSET), 3, "from_offset");
-  if (status == AMBIT_OK) status = ambit_check_fixed(b, b->param(b, LINE_TO_OFFSET), 3, "to_offset");
-  if (status == AMBIT_OK) status = point_velocity(b, LINE_FROM, line_offset(b, LINE_FROM), &first);
+  ambit_status status = point_velocity(b, LINE_FROM, line_offset(b, LINE_FROM), &first);
   if (status == AMBIT_OK) status = point_velocity(b, LINE_TO, line_offset(b, LINE_TO), &second);
   if (status == AMBIT_OK) s->rate = vector3_subtract(b, second, first);
   return status;

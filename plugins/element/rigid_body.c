@@ -30,7 +30,7 @@ static ambit_status check(ambit_build *b) {
       hi == 0 ? ambit_check_fixed(b, b->param(b, MASS), 1, "mass") : ambit_check_mass(b, *b->param(b, MASS));
   if (status == AMBIT_OK) status = ambit_check_fixed(b, b->param(b, CENTRE), 3, "centre");
   if (status == AMBIT_OK) status = ambit_check_fixed(b, b->param(b, INERTIA), 9, "inertia");
-  return status == AMBIT_OK && hi != 0 ? inertia_check(b, b->param(b, INERTIA)) : status;
+  return status == AMBIT_OK ? inertia_check(b, b->param(b, INERTIA), hi != 0) : status;
 }
 
 static ambit_status express_wrench(ambit_build *b, ambit_expr m, ambit_vector3 c, ambit_expr *out) {

@@ -21,7 +21,8 @@ static const ambit_param params[] = {
 
 static ambit_status check(ambit_build *b) {
   double lo, hi;
-  ambit_status status = dissipation_check(b, b->param(b, DAMPING), 1, "damping");
+  ambit_status status = line_check(b);
+  if (status == AMBIT_OK) status = dissipation_check(b, b->param(b, DAMPING), 1, "damping");
   b->range(b, *b->param(b, LENGTH), &lo, &hi);
   if (status == AMBIT_OK && hi < 0)
     return b->fail(b, AMBIT_INVALID, "the rest length is negative: %g m; expected 0 or more", hi);

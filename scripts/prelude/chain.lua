@@ -45,6 +45,10 @@ local shapes = { [""] = true, axis = true, flag = true, integer = true, any = tr
 local function read_default(param)
   local value = param.default
   if value == nil or param.shape == "any" then return end
+  if value == "" then
+    check.fail("%s: the default is an empty text; leave it out, and say optional = true if nothing is to be a value",
+      param.what)
+  end
   if type(value) == "string" and not param.shape:find "|" and param.shape ~= "integer" then
     param.fallback = value
     parameter.fallback(param, param.what)

@@ -5,7 +5,8 @@ local check = {}
 
 -- Raises "scene.lua:12: message" at the nearest line that is not Ambit's own.
 function check.fail(format, ...)
-  return core.fail(select("#", ...) > 0 and format:format(...) or format)
+  local message = select("#", ...) > 0 and format:format(...) or format
+  return core.fail((message:gsub("\0", "\\0"))) -- C would end the text there
 end
 
 -- What a value is, in a user's words.

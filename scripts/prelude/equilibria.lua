@@ -77,7 +77,7 @@ function verb.equilibria(t)
   local list, leaves, values = equations(system, speeds)
   local symbols, allowed = roots.symbols(list), {}
   for _, name in ipairs(system.states) do allowed[name] = true end
-  for _, name in ipairs(check.sorted(t.at or {})) do
+  for _, name in ipairs(check.sorted(check.table(t.at == nil and {} or t.at, "equilibria: at"))) do
     if speeds[name] or searched[name] then check.fail("equilibria: at: `%s` has a place already", name) end
   end
   local more_leaves, more_values = roots.bind(t.at, symbols, allowed, "equilibria")

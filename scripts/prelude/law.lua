@@ -57,6 +57,7 @@ end
 -- that are not functions, by name.
 function law.record(self, d, t, values, param, value)
   local arguments, what = {}, param.what
+  if param.shape ~= "" and not param.shape:find "^%d" then check.fail("%s: cannot be a function", what) end
   for _, port in ipairs(d.ports) do
     if connected(d, t, port.name, "joint") then of_joint(self, port, t[port.name], what, arguments) end
   end
@@ -66,9 +67,12 @@ function law.record(self, d, t, values, param, value)
     of_frame(self, t, values, param, what, arguments)
   end
   arguments[#arguments + 1] = core.time()
-  local result = value(table.unpack(arguments))
-  if result == nil then check.fail("%s: the function returned nothing", what) end
-  return result
+  local results = table.pack(value(table.unpack(arguments)))
+  if results[1] == nil then check.fail("%s: the function returned nothing", what) end
+  if results.n > 1 then
+    check.fail("%s: the function returned %d values: expected one, or a list of them in a table", what, results.n)
+  end
+  return results[1]
 end
 
 return law

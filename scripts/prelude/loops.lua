@@ -38,9 +38,11 @@ function methods:independent(names)
   check.keys(names, {}, "independent", #names)
   local known = coordinate_names(self)
   for _, s in ipairs(core.speeds(self.handle)) do known[#known + 1] = s.name end
-  local is_known = {}
+  local is_known, said = {}, {}
   for _, name in ipairs(known) do is_known[name] = true end
   for _, name in ipairs(names) do
+    if said[name] then check.fail("independent: `%s` is named twice", tostring(name)) end
+    said[name] = true
     if not is_known[name] then
       check.fail("independent: there is no coordinate `%s`%s", tostring(name), check.suggest(name, known))
     end
@@ -95,7 +97,11 @@ end
 local function bounds(value, unit, what)
   if type(value) == "table" and getmetatable(value) == nil then
     if #value ~= 2 then check.fail("%s: expected { lo, hi }, got a list of %d", what, #value) end
-    return set_of(value[1], unit, what).lo, set_of(value[2], unit, what).hi
+    local lo, hi = set_of(value[1], unit, what).lo, set_of(value[2], unit, what).hi
+    if lo > hi then
+      check.fail("%s: the range is empty: %s is greater than %s", what, core.literal(lo), core.literal(hi))
+    end
+    return lo, hi
   end
   local x = set_of(value, unit, what)
   return x.lo, x.hi

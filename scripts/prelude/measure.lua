@@ -100,6 +100,7 @@ function methods:angle(a, b, axis, near)
   local _, qb = pose(self, b, "angle: second frame")
   local q = rotation.product_back(qa, qb)
   if axis == nil then
+    if near ~= nil then check.fail "angle: `near` is of the angle about an axis: say which axis" end
     local s = rotation.vee(q)
     return core.atan2(core.sqrt(rotation.dot(s, s)), rotation.trace(q) - 1)
   end

@@ -19,8 +19,10 @@ function option.names(declaration)
   return list
 end
 
--- As the text that the declaration reads: exact for numbers.
-local function text_of(value, what)
+local DEEPEST = 2 -- rows of numbers
+
+-- As the text that the declaration reads: exact for numbers. depth: of lists around the value
+local function text_of(value, what, depth)
   local kind = check.kind(value)
   if kind == "number" then
     if value ~= value then check.fail("%s: the number is NaN", what) end
@@ -29,8 +31,9 @@ local function text_of(value, what)
   if kind == "string" then return value end
   if kind == "boolean" then return tostring(value) end
   if kind == "table" then
+    if depth >= DEEPEST then check.fail("%s: expected a number or a word, got lists within lists", what) end
     local list = {}
-    for i, entry in ipairs(value) do list[i] = text_of(entry, ("%s[%d]"):format(what, i)) end
+    for i, entry in ipairs(value) do list[i] = text_of(entry, ("%s[%d]"):format(what, i), depth + 1) end
     return table.concat(list, ",")
   end
   check.fail("%s: expected a number, a word or a list, got %s", what, kind)
@@ -41,7 +44,7 @@ function option.collect(t, declaration)
   local list, settings = {}, {}
   for _, param in ipairs(declaration.parameters) do
     if t[param.name] ~= nil then
-      local text = text_of(t[param.name], declaration.name .. ": " .. param.name)
+      local text = text_of(t[param.name], declaration.name .. ": " .. param.name, 0)
       list[#list + 1], list[#list + 2] = param.name, text
     end
   end

@@ -51,6 +51,7 @@ function verb.read_box(box, what)
   if box == nil then check.fail("%s: box is missing: { x = { lo, hi }, ... } for every unknown", what) end
   check.table(box, what .. ": box")
   local names, ranges = {}, {}
+  if next(box) == nil then check.fail("%s: box is empty: { x = { lo, hi }, ... } for every unknown", what) end
   for i, name in ipairs(check.sorted(box)) do
     names[i] = check.text(name, what .. ": box: name of an unknown")
     ranges[i] = verb.range(box[name], ("%s: box.%s"):format(what, name))
@@ -71,7 +72,7 @@ end
 -- Values of `at` for symbols; others are no mistake as long as `allowed` names them.
 function verb.bind(at, symbols, allowed, what)
   local leaves, values = {}, {}
-  for _, name in ipairs(check.sorted(check.table(at or {}, what .. ": at"))) do
+  for _, name in ipairs(check.sorted(check.table(at == nil and {} or at, what .. ": at"))) do
     local leaf = symbols[name]
     if leaf then
       leaves[#leaves + 1] = leaf.expression
@@ -201,7 +202,9 @@ function verb.roots(t)
   local q = verb.settings(t, "roots", { "box", "at" }, #t)
   q.names, q.ranges = verb.read_box(t.box, "roots")
   q.expressions = expressions_of(t, q.names, "roots")
+  if #q.expressions == 0 then check.fail "roots: there is no equation: expected { f, box = { ... } }" end
   local symbols = verb.symbols(q.expressions)
+  if t.at ~= nil then check.table(t.at, "roots: at") end
   for _, name in ipairs(q.names) do
     if t.at and t.at[name] ~= nil then check.fail("roots: `%s` is in `box` and in `at`", name) end
   end

@@ -362,6 +362,48 @@ describe("bad input of a force element", function()
     end)
   end)
 
+  it("is found when the element is added, not when something is asked", function()
+    local m, at, joint = slider()
+    local moving = { ambit.time, 1, 0 }
+    refuses("armature `a` .*the inertia is negative: %-1",
+      function() m:armature { joint = joint, inertia = -1, name = "a" } end)
+    refuses("the mass is negative: %-2", function() m:armature { joint = joint, mass = -2 } end)
+    refuses("expected either `inertia` .* or `mass`", function() m:armature { joint = joint } end)
+    refuses("expected either `inertia` .* or `mass`",
+      function() m:armature { joint = joint, inertia = 1, mass = 1 } end)
+    refuses("`mass` moves in time", function() m:armature { joint = joint, mass = ambit.time } end)
+    refuses("`rotational_stiffness` moves in time",
+      function() m:bushing { from = m.world, to = at, rotational_stiffness = moving } end)
+    assert.equal("0", tostring(m:power()))
+  end)
+
+  it("a point that moves in its frame, with or without a damper: its power would be missing", function()
+    local m, at = slider()
+    local moving = { ambit.time, 1, 0 }
+    refuses("spring_damper `p` .*`from_offset` moves in time", function()
+      m:spring_damper { from = m.world, to = at, from_offset = moving, stiffness = 1, name = "p" }
+    end)
+    refuses("`to_offset` moves in time", function()
+      m:spring_damper { from = m.world, to = at, to_offset = moving, stiffness = 1, length = 1, damping = 1 }
+    end)
+    refuses("force_law `l` .*`to_offset` moves in time", function()
+      m:force_law { from = m.world, to = at, to_offset = moving, force = function(_, v) return -v end, name = "l" }
+    end)
+  end)
+
+  it("a function that returns more than one value, or where none can be", function()
+    local m, at, joint = slider()
+    refuses("joint_spring: stiffness: the function returned 2 values",
+      function() m:joint_spring { joint = joint, stiffness = function() return 1, 2 end } end)
+    refuses("applied_force: force: the function returned 3 values: .* a list",
+      function() m:applied_force { at = at, force = function() return 1, 2, 3 end } end)
+    refuses("returned nothing", function() m:joint_damper { joint = joint, damping = function() return nil end } end)
+    refuses("applied_force: axes: cannot be a function",
+      function() m:applied_force { at = at, force = { 1, 0, 0 }, axes = function() return "body" end } end)
+    refuses("rigid_body: physical: cannot be a function",
+      function() m:rigid_body { at = at, mass = 1, physical = function() return true end } end)
+  end)
+
   it("leaves nothing behind", function()
     local m, at, joint = slider()
     pcall(m.joint_damper, m, { joint = joint, damping = -1, name = "d" })
@@ -392,8 +434,11 @@ describe("bad input of a force element", function()
       inertia(1, between("-0.5", "-0.1"), 1), inertia(1, 1, 1, between("0.9", 1)), inertia(1, 1, 3) } do
       refuses("no body has this inertia", function() m:rigid_body(t) end)
     end
-    refuses("not symmetric: row 1, column 2 is 0.1, row 2, column 1 is 0.3",
-      function() m:rigid_body(inertia(1, 1, 1, between("0.1", "0.2"), "0.3")) end)
+    local lopsided = inertia(1, 1, 1, between("0.1", "0.2"), "0.3")
+    for _, physical in ipairs { true, false } do -- published parameters need not be a body's, but symmetric they are
+      lopsided.physical = physical
+      refuses("not symmetric: row 1, column 2 is 0.1, row 2, column 1 is 0.3", function() m:rigid_body(lopsided) end)
+    end
     for _, t in ipairs { inertia(1, 1, between("1.9", 3)), inertia(1, 1, 2), inertia(1, 1, 1, between("0.2", 1)),
       inertia(between(0, 1), between(0, 1), between(0, 1)), inertia("0.1", "0.7", "0.8"), inertia(0, 0, 0) } do
       m:rigid_body(t)

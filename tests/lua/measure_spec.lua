@@ -95,6 +95,13 @@ describe("between two frames", function()
     assert.is_true(wide.lo > 2.5 and wide.hi < 3.8 and wide:contains(3.1), tostring(wide))
   end)
 
+  it("no angle is near another without an axis", function()
+    local m, p = arm()
+    local fine, problem = pcall(m.angle, m, p.elbow, p.forearm, nil, 3)
+    assert.is_false(fine)
+    assert.truthy(tostring(problem):find("angle: `near` .* say which axis"), tostring(problem))
+  end)
+
   it("the part of a rotation about an axis: Euler's angles first and last", function()
     local m = ambit.mechanism "ball"
     local at = m:spherical { from = m.world, name = "q", order = "zyx" }
