@@ -53,15 +53,22 @@ static ambit_frame *frames_of(lua_State *L, int idx, size_t n) {
   return frame;
 }
 
+/* A text that lives as long as the library: parts keep it. */
+static const char *kept_text(lua_State *L, int idx) {
+  const char *text = ambit_arena_text(AMBIT_LUA(L)->arena, luaL_checkstring(L, idx));
+  if (!text) ambit_lua_error(L, "out of memory");
+  return text;
+}
+
 /* add(mechanism, type, name or nil, where, params, connections) -> part number */
 static int add(lua_State *L) {
   ambit_lua *core = AMBIT_LUA(L);
   ambit_mechanism *m = self(L);
   ambit_failure f = { 0 };
   ambit_part_spec spec = { 0 };
-  spec.type = ambit_arena_text(core->arena, luaL_checkstring(L, 2));
-  spec.name = lua_isnil(L, 3) ? NULL : ambit_arena_text(core->arena, luaL_checkstring(L, 3));
-  spec.where = ambit_arena_text(core->arena, luaL_checkstring(L, 4));
+  spec.type = kept_text(L, 2);
+  spec.name = lua_isnil(L, 3) ? NULL : kept_text(L, 3);
+  spec.where = kept_text(L, 4);
   if (ambit_registry_element(core->registry, spec.type, &spec.element, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
   spec.param = params_of(L, 5, ambit_params_count(spec.element->param));
   spec.connection = frames_of(L, 6, spec.element->nport);

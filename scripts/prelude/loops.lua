@@ -41,11 +41,11 @@ function methods:independent(names)
   local is_known, said = {}, {}
   for _, name in ipairs(known) do is_known[name] = true end
   for _, name in ipairs(names) do
-    if said[name] then check.fail("independent: `%s` is named twice", tostring(name)) end
-    said[name] = true
     if not is_known[name] then
       check.fail("independent: there is no coordinate `%s`%s", tostring(name), check.suggest(name, known))
     end
+    if said[name] then check.fail("independent: `%s` is named twice", name) end
+    said[name] = true
   end
   core.loops_choose(self.handle, names)
   forget(self)

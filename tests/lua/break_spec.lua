@@ -1,4 +1,5 @@
--- What was found by trying to break the verbs: each mistake is one message at the scene's own line that names the thing.
+-- What was found by trying to break the verbs: each mistake is one message, at the scene's own line, that names the
+-- thing.
 local ambit = require "ambit"
 
 local function message(f)
@@ -35,7 +36,8 @@ describe("roots and equilibria", function()
   it("want a table as `at`", function()
     local m = pendulum()
     for _, at in ipairs { 5, true, false } do
-      fails(function() ambit.roots { ambit.sin(m:coordinates().a), box = box, at = at } end, "roots: at: expected a table")
+      fails(function() ambit.roots { ambit.sin(m:coordinates().a), box = box, at = at } end,
+        "roots: at: expected a table")
       fails(function() ambit.equilibria { m, box = box, at = at } end, "equilibria: at: expected a table")
     end
   end)
@@ -59,6 +61,7 @@ end)
 describe("loops", function()
   it("refuse a coordinate that is named twice", function()
     fails(function() five_bar():independent { "q1", "q1" } end, "independent: `q1` is named twice")
+    fails(function() five_bar():independent { 0 / 0 } end, "independent: there is no coordinate")
   end)
 
   it("refuse an empty range of any coordinate", function()
