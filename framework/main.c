@@ -8,11 +8,20 @@
 #include <stdlib.h>
 
 #define EXIT_INTERRUPTED 130
+#define STACK_BYTES ((size_t)1 << 20)
 
 static int add_traceback(lua_State *L) {
   const char *message = lua_tostring(L, 1);
   luaL_traceback(L, L, message ? message : luaL_tolstring(L, 1, NULL), 1);
   return 1;
+}
+
+/* Chains of elements are nested calls (framework/mechanism/pull.c bounds how many). Under a limit of memory the stack
+** must have its room before the heap has taken all; a page that was touched stays.
+*/
+__attribute__((noinline)) static void reserve_stack(void) {
+  volatile char room[STACK_BYTES];
+  for (size_t i = 0; i < sizeof room; i += 4096) room[i] = 0;
 }
 
 /* Protected: everything that may raise. Leaves the exit code. */
@@ -40,6 +49,7 @@ static int command(lua_State *L) {
 
 int main(int argc, char **argv) {
   fesetenv(FE_DFL_ENV); /* a library that was loaded before may have set flush-to-zero */
+  reserve_stack();
   lua_State *L = luaL_newstate();
   if (!L || argc < 1) {
     fprintf(stderr, "ambit: out of memory\n");
@@ -55,8 +65,8 @@ int main(int argc, char **argv) {
   else
     fprintf(stderr, "ambit: %s\n", lua_tostring(L, -1));
   lua_close(L);
-  if (fflush(stdout) != 0) {
-    perror("ambit: stdout");
+  if (fflush(stdout) != 0 || ferror(stdout)) { /* the last flush, or one before it */
+    fprintf(stderr, "ambit: not everything could be written to standard output\n");
     if (code == EXIT_SUCCESS) code = EXIT_FAILURE;
   }
   return ambit_interrupt_seen() ? EXIT_INTERRUPTED : code;

@@ -11,6 +11,7 @@
 #include "mechanism/pivot.h"
 #include <string.h>
 
+#define SIMPLIFY_SPEEDS 32u /* n^2 entries, each of order n: beyond, shortening them takes longer than it saves */
 #define SIMPLIFY_TERMS 64u
 #define SIMPLIFY_JOINTS 4u /* above, shortening the elimination takes longer and gains less than 2 % */
 
@@ -82,8 +83,8 @@ static ambit_status build_mass(ambit_mechanism *m, const equations *s, ambit_exp
   if (status != AMBIT_OK) return status;
   for (size_t i = 0; i < n; i++)
     for (size_t j = i; j < n; j++) { /* symmetric */
-      ambit_expr d = mass[i * n + j];
-      mass[i * n + j] = mass[j * n + i] = simplify(s, ambit_graph_op(s->g, AMBIT_OP_NEG, d, d));
+      ambit_expr d = ambit_graph_op(s->g, AMBIT_OP_NEG, mass[i * n + j], 0);
+      mass[i * n + j] = mass[j * n + i] = n <= SIMPLIFY_SPEEDS ? simplify(s, d) : d;
     }
   return AMBIT_OK;
 }

@@ -39,6 +39,18 @@ local function has(text, ...)
 end
 
 describe("ambit", function()
+  it("says when standard output is full", function()
+    local device = io.open("/dev/full", "w")
+    if not device then return print "there is no /dev/full: not tried" end
+    device:close()
+    local file, problems = write 'print "hello"', os.tmpname()
+    local _, _, code = os.execute(("%s run %s >/dev/full 2>%s"):format(quoted(command), file, problems))
+    assert.equal(1, code)
+    has(read(problems), "not everything could be written to standard output")
+    os.remove(file)
+    os.remove(problems)
+  end)
+
   it("says what it can do", function()
     local code, stdout = run "--help"
     assert.equal(0, code)
