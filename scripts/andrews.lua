@@ -49,7 +49,9 @@ local start = m:assemble {
   },
   within = "1e-3",
 }
-print("assembly: " .. start.status)
+local widest = 0
+for _, x in pairs(start.configuration) do widest = math.max(widest, x:width()) end
+print(("assembly: %s, no wider than %.1e rad, in %.2f ms"):format(start.status, widest, 1000 * start.cpu_seconds))
 
 m:independent { "beta" } -- the other six speeds follow from it
 local initial = start.configuration

@@ -12,3 +12,8 @@ for program in "$build"/bench/*; do
 done
 printf '\n## figures\n\n'
 "$build/ambit" run --quiet scripts/bench/figures.lua
+for scene in "andrews 0.03" "n_four_bar 2" "n_four_bar 10" bricard stewart ur5; do
+  printf '\n## scripts/%s\n\n' "$scene"
+  read -r name words <<<"$scene"
+  "$build/ambit" run --quiet "scripts/$name.lua" $words
+done

@@ -13,8 +13,8 @@ enum { INERTIA, MASS };
 static const ambit_port ports[] = { { "joint", AMBIT_PORT_JOINT, AMBIT_ROLE_IN, 1, 0,
     "the joint that the rotor turns with" } };
 static const ambit_param params[] = {
-  { "inertia", "kg m^2", "", "", "inertia felt by a joint that turns" },
-  { "mass", "kg", "", "", "mass felt by a joint that slides" },
+  { "inertia", "kg m^2|", "", "", "inertia felt by a joint that turns" },
+  { "mass", "|kg", "", "", "mass felt by a joint that slides" },
   { NULL, NULL, NULL, NULL, NULL },
 };
 

@@ -8,8 +8,8 @@ enum { TORQUE, FORCE };
 
 static const ambit_port ports[] = { { "joint", AMBIT_PORT_JOINT, AMBIT_ROLE_IN, 1, 0, "the joint that is driven" } };
 static const ambit_param params[] = {
-  { "torque", "N m", "", "", "torque on a joint that turns" },
-  { "force", "N", "", "", "force on a joint that slides" },
+  { "torque", "N m|", "", "", "torque on a joint that turns" },
+  { "force", "|N", "", "", "force on a joint that slides" },
   { NULL, NULL, NULL, NULL, NULL },
 };
 

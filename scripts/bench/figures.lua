@@ -125,6 +125,14 @@ do
   row("double pendulum, point, reference digits inside", "yes", inside and "yes" or "no", inside)
 end
 
+-- its positions of rest: hanging, upright and two folded ones, no others
+do
+  local rest = ambit.equilibria { double_pendulum():dynamics(), box = { beta1 = { "-3.15", 1 }, beta2 = { "-3.15", 1 } } }
+  row("double pendulum, positions of rest in [-3.15, 1]^2", "4, no box undecided",
+    ("%d, %d undecided; %d boxes, %s s"):format(#rest.proved, #rest.undecided, rest.boxes, number(rest.cpu_seconds)),
+    rest.status == "complete" and #rest.proved == 4)
+end
+
 -- 3. Lorenz from (15, 15, 36)
 do
   local lorenz = ambit.ode {

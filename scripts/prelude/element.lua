@@ -57,16 +57,23 @@ local function connections(self, d, t)
 end
 
 -- Data of a joint have one unit if it turns and another if it slides ("N m/rad|N/m"): that of the joint at hand, where
--- it can be told.
+-- it can be told. "N m|" is for one that turns only.
 local function fitting(self, d, t, param)
   if not param.unit:find "|" then return param end
   local turning, sliding = param.unit:match "^(.-)|(.*)$"
   for _, port in ipairs(d.ports) do
-    local part = port.kind == "joint" and port.role == "in" and t[port.name] ~= nil
-      and frame.place(self, t[port.name], "joint", param.what)
-    for _, c in ipairs(part and core.coordinates(self.handle) or {}) do
-      if c.part == part then
-        return setmetatable({ unit = c.unit == "rad" and turning or sliding }, { __index = param })
+    if port.kind == "joint" and port.role == "in" and t[port.name] ~= nil then
+      local part, number = frame.place(self, t[port.name], "joint", param.what)
+      local q = core.pull(self.handle, part, number, core.COORDINATE, 1)[1]
+      local leaf = core.leaves({ q })[1]
+      if leaf and leaf.expression == q then -- else a given motion
+        local turns = leaf.unit == "rad"
+        local unit = turns and turning or sliding
+        if unit == "" then
+          check.fail("%s: it is in %s, but the joint `%s` %s", param.what, parameter.unit_text(param),
+            core.part_name(self.handle, part), turns and "turns" or "slides")
+        end
+        return setmetatable({ unit = unit }, { __index = param })
       end
     end
   end

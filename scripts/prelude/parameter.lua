@@ -5,7 +5,9 @@ local core = require "ambit.core"
 local parameter = {}
 
 -- "N m/rad or N/m": some data have one unit or another.
-function parameter.unit_text(param) return (param.unit:gsub("|", " or ")) end
+function parameter.unit_text(param)
+  return (param.unit:gsub("^|", ""):gsub("|$", ""):gsub("|", " or "))
+end
 
 local axes = { x = { 1, 0, 0 }, y = { 0, 1, 0 }, z = { 0, 0, 1 } }
 

@@ -28,7 +28,7 @@ m:point_mass { at = elbow, mass = ambit.around(2, "5%"), name = "weight" }
 local fore = m:revolute { from = elbow, axis = "y", name = "elbow" }
 m:rigid_body { at = fore, mass = "0.5", name = "hand" }
 local other = m:spherical { from = elbow, name = "ball" }
-m:joint_torque { joint = fore, force = "0.1", name = "motor" }
+m:joint_torque { joint = fore, torque = "0.1", name = "motor" }
 ambit.evaluate { m:position(fore), at = { shoulder = 1 } }
 ]]
 

@@ -365,11 +365,12 @@ describe("bad input of a force element", function()
   it("is found when the element is added, not when something is asked", function()
     local m, at, joint = slider()
     local moving = { ambit.time, 1, 0 }
+    local _, hinge = m:revolute { from = m.world, axis = "z", name = "hinge" }
     refuses("armature `a` .*the inertia is negative: %-1",
-      function() m:armature { joint = joint, inertia = -1, name = "a" } end)
+      function() m:armature { joint = hinge, inertia = -1, name = "a" } end)
     refuses("the mass is negative: %-2", function() m:armature { joint = joint, mass = -2 } end)
     refuses("expected either `inertia` .* or `mass`", function() m:armature { joint = joint } end)
-    refuses("expected either `inertia` .* or `mass`",
+    refuses("it is in kg m%^2, but the joint `s` slides",
       function() m:armature { joint = joint, inertia = 1, mass = 1 } end)
     refuses("`mass` moves in time", function() m:armature { joint = joint, mass = ambit.time } end)
     refuses("`rotational_stiffness` moves in time",
@@ -443,5 +444,31 @@ describe("bad input of a force element", function()
       inertia(between(0, 1), between(0, 1), between(0, 1)), inertia("0.1", "0.7", "0.8"), inertia(0, 0, 0) } do
       m:rigid_body(t)
     end
+  end)
+end)
+
+describe("units of joint forces", function()
+  it("fit the joint", function()
+    local m = ambit.mechanism "units"
+    local _, turns = m:revolute { from = m.world, axis = "z", name = "hinge" }
+    local _, slides = m:prismatic { from = m.world, axis = "x", name = "slider" }
+    local function said(text, f)
+      local good, message = pcall(f)
+      assert.is_false(good)
+      assert.is_truthy(tostring(message):find(text, 1, true), message)
+    end
+    said("joint_torque: torque: it is in N m, but the joint `slider` slides", function()
+      m:joint_torque { joint = slides, torque = 1 }
+    end)
+    said("joint_torque: force: it is in N, but the joint `hinge` turns", function()
+      m:joint_torque { joint = turns, force = function(q) return -q end }
+    end)
+    said("armature: inertia: it is in kg m^2, but the joint `slider` slides", function()
+      m:armature { joint = slides, inertia = 1 }
+    end)
+    said("N m", function() m:joint_torque { joint = turns, torque = "3 kg" } end)
+    m:joint_torque { joint = turns, torque = "3 N m" }
+    m:joint_torque { joint = slides, force = "3 N" }
+    m:armature { joint = slides, mass = "3 kg" }
   end)
 end)

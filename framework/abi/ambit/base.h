@@ -61,8 +61,9 @@ struct ambit_host {
 ** as three numbers, not normalised), "flag" true or false (1 or 0), "integer", or a choice "rk4|rk8pd|msbdf" (arrives
 ** as the index of the word). */
 typedef struct ambit_param {
-  const char *name;     /* "stiffness" */
-  const char *unit;     /* SI, "N/m"; "1" if dimensionless; "N m/rad|N/m": of a joint that turns, that slides */
+  const char *name; /* "stiffness" */
+  const char *
+      unit; /* SI, "N/m"; "1" if dimensionless; "N m/rad|N/m": of a joint that turns, that slides ("N m|": of one that turns only) */
   const char *shape;    /* see above */
   const char *fallback; /* text used when absent ("0.5", "0,0,1", "true"); NULL = required; "" = may be absent */
   const char *doc;      /* one sentence */
