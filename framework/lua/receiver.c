@@ -3,6 +3,7 @@
 
 static int32_t emit(ambit_sink *s, const ambit_record *record) {
   ambit_receiver *r = (ambit_receiver *)(void *)s;
+  if (r->failure.status != AMBIT_OK) return 1;
   if (!ambit_track_append(r->track, record)) {
     ambit_fail(&r->failure, AMBIT_NOMEM, "out of memory for the records of this run");
     return 1;
@@ -17,9 +18,15 @@ static int32_t progress(ambit_sink *s, double done, const char *message) {
   return ambit_interrupt_pending();
 }
 
-ambit_receiver ambit_receiver_push(lua_State *L, size_t nx, const char *const *name) {
+void ambit_receiver_prepared(void *user, size_t nu, const ambit_expr *unknown) {
+  ambit_receiver *r = user;
+  if (!ambit_held_set_begin(&r->track->set, nu, unknown))
+    ambit_fail(&r->failure, AMBIT_NOMEM, "out of memory for the records of this run");
+}
+
+ambit_receiver ambit_receiver_push(lua_State *L, size_t nx, const char *const *name, uint32_t keep) {
   return (ambit_receiver) { .sink = { sizeof(ambit_sink), emit, progress },
-    .track = ambit_track_push(L, nx),
+    .track = ambit_track_push(L, nx, keep),
     .records = AMBIT_LUA(L)->records,
     .name = name };
 }

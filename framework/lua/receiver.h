@@ -17,8 +17,10 @@ typedef struct ambit_receiver {
   ambit_failure failure; /* why the receiver stopped the run: memory, a full disk */
 } ambit_receiver;
 
-/* A receiver of records of nx values with these names; pushes its track. */
-ambit_receiver ambit_receiver_push(lua_State *L, size_t nx, const char *const *name);
+/* A receiver of records of nx values with these names; pushes its track, which keeps AMBIT_TRACK_*. */
+ambit_receiver ambit_receiver_push(lua_State *L, size_t nx, const char *const *name, uint32_t keep);
+/* For ambit_simulate_request.prepared, `user` being the receiver. */
+void ambit_receiver_prepared(void *user, size_t nu, const ambit_expr *unknown);
 /* One that only draws progress. */
 ambit_receiver ambit_receiver_silent(void);
 /* Around the run: progress and interrupt. Nothing between them may raise. */

@@ -60,7 +60,7 @@ static int roots(lua_State *L) {
   request.arithmetic_option = ambit_lua_options(L, 4, &request.narithmetic_option);
   request.box = boxes(L, 10, q.nx);
   request.centre = lua_isnil(L, 11) ? NULL : ambit_lua_numbers(L, 11, &q.nx);
-  ambit_receiver to = ambit_receiver_push(L, q.nx, q.name);
+  ambit_receiver to = ambit_receiver_push(L, q.nx, q.name, 0);
   request.sink = &to.sink;
   ambit_roots_result result = { 0 };
   ambit_report report = { 0 };

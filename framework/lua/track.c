@@ -1,6 +1,7 @@
 /* track.c -- the recorded steps of a run. */
 #include "lua/track.h"
 #include "base/vector.h"
+#include "model/dense.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,6 +13,8 @@ static int close(lua_State *L) {
   ambit_track *track = self(L);
   free(track->step);
   free(track->value);
+  free(track->dense);
+  ambit_held_set_clear(&track->set);
   memset(track, 0, sizeof *track);
   return 0;
 }
@@ -26,21 +29,54 @@ static bool reserve(ambit_track *track, size_t steps) {
   return true;
 }
 
-ambit_track *ambit_track_push(lua_State *L, size_t nx) {
+ambit_track *ambit_track_push(lua_State *L, size_t nx, uint32_t keep) {
   ambit_track *track = lua_newuserdatauv(L, sizeof *track, 0);
   memset(track, 0, sizeof *track);
   track->nx = nx;
+  track->keep = keep;
   luaL_setmetatable(L, AMBIT_TYPE_TRACK);
-  if (!reserve(track, FIRST_STEPS)) ambit_lua_error(L, "out of memory");
+  if (!reserve(track, keep & AMBIT_TRACK_LAST ? 2 : FIRST_STEPS)) ambit_lua_error(L, "out of memory");
   return track;
+}
+
+/* Where only the last step is wanted, the next one takes its place. */
+static void forget_last(ambit_track *track) {
+  if (!(track->keep & AMBIT_TRACK_LAST) || !track->count) return;
+  if (track->step[track->count - 1].kind != AMBIT_REC_STEP) return;
+  track->count--;
+  if (track->step[track->count].ndense) track->count_dense = track->step[track->count].dense;
+}
+
+static bool append_dense(ambit_track *track, ambit_track_step *step, const ambit_record *r) {
+  if (!(track->keep & AMBIT_TRACK_DENSE) || !r->ndense || !r->dense_mid || !r->dense_rad) return true;
+  size_t n = track->nx * r->ndense;
+  double *dense = ambit_vector_reserve(track->dense, &track->room_dense, track->count_dense + 2 * n, sizeof *dense);
+  if (!dense) return false;
+  track->dense = dense;
+  step->ndense = r->ndense;
+  step->dense = track->count_dense;
+  memcpy(dense + track->count_dense, r->dense_mid, n * sizeof *dense);
+  memcpy(dense + track->count_dense + n, r->dense_rad, n * sizeof *dense);
+  track->count_dense += 2 * n;
+  return true;
+}
+
+static bool append_step(ambit_track *track, ambit_track_step *step, const ambit_record *r) {
+  forget_last(track);
+  return append_dense(track, step, r) && ambit_held_set_put(&track->set, r->nx, r->set);
 }
 
 bool ambit_track_append(ambit_track *track, const ambit_record *r) {
   size_t nx = track->nx, bytes = nx * sizeof(double);
+  bool tube = r->tube_lo && r->tube_hi;
+  ambit_track_step step = { .t_from = r->t_from, .t_to = r->t_to, .kind = r->kind, .event = r->event };
+  step.flags = r->flags;
+  step.order = r->order;
+  step.tube = tube;
+  if (r->kind == AMBIT_REC_STEP && !append_step(track, &step, r)) return false;
   if (!reserve(track, track->count + 1)) return false;
   double *value = track->value + track->count * 4 * nx;
-  bool tube = r->tube_lo && r->tube_hi;
-  track->step[track->count++] = (ambit_track_step) { r->t_from, r->t_to, r->kind, r->event, r->flags, r->order, tube };
+  track->step[track->count++] = step;
   memcpy(value, r->lo, bytes);
   memcpy(value + nx, r->hi, bytes);
   if (tube) {
@@ -83,6 +119,35 @@ static int value(lua_State *L) {
   return 1;
 }
 
+/* track_dense(track, i, state, t) -> enclosure at a time within the step; nil if it has no dense enclosure */
+static int dense(lua_State *L) {
+  size_t i;
+  const ambit_track *track = self(L);
+  const ambit_track_step *s = step_at(L, track, &i);
+  size_t state = (size_t)luaL_checkinteger(L, 3) - 1, nx = track->nx, n = nx * s->ndense;
+  double t = luaL_checknumber(L, 4);
+  if (state >= nx || !s->ndense) return 0;
+  const double *v = track->value + i * 4 * nx;
+  const ambit_record r = { .t_from = s->t_from,
+    .tube_lo = s->tube ? v + 2 * nx : NULL,
+    .tube_hi = s->tube ? v + 3 * nx : NULL,
+    .ndense = s->ndense,
+    .dense_mid = track->dense + s->dense,
+    .dense_rad = track->dense + s->dense + n };
+  ambit_lua_push_enclosure(L, ambit_dense_state(&r, (uint32_t)state, (ambit_interval) { t, t }), s->flags);
+  return 1;
+}
+
+/* track_set(track) -> {expression, ...}: the states at the end as functions of the run's unknowns; nil: not known */
+static int set(lua_State *L) {
+  const ambit_track *track = self(L);
+  if (!track->set.set.nterm) return 0;
+  ambit_expr *x = lua_newuserdatauv(L, track->nx * sizeof *x, 0);
+  ambit_held_set_express(&track->set, AMBIT_LUA(L)->graph, track->nx, x);
+  ambit_lua_push_expressions(L, track->nx, x);
+  return 1;
+}
+
 static int count(lua_State *L) {
   lua_pushinteger(L, (lua_Integer)self(L)->count);
   return 1;
@@ -113,7 +178,7 @@ static int find(lua_State *L) {
 void ambit_lua_open_track(lua_State *L, ambit_lua *core) {
   static const luaL_Reg meta[] = { { "__gc", close }, { NULL, NULL } };
   static const luaL_Reg functions[] = { { "track_step", step }, { "track_value", value }, { "track_count", count },
-    { "track_find", find }, { NULL, NULL } };
+    { "track_find", find }, { "track_dense", dense }, { "track_set", set }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
   ambit_lua_new_type(L, core, AMBIT_TYPE_TRACK, meta);
   lua_pop(L, 1);

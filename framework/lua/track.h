@@ -6,20 +6,30 @@
 #ifndef AMBIT_LUA_TRACK_H
 #define AMBIT_LUA_TRACK_H
 #include "lua/core.h"
+#include "lua/held_set.h"
 #include <ambit/solver.h>
+
+#define AMBIT_TRACK_LAST 1u  /* of the steps, only the last is kept (and those before an event) */
+#define AMBIT_TRACK_DENSE 2u /* the steps' dense enclosures are kept */
 
 typedef struct ambit_track_step {
   double t_from, t_to;
   uint32_t kind, event, flags, order;
   bool tube;
+  uint32_t ndense; /* coefficients of the dense enclosure of each state; 0: none */
+  size_t dense;    /* where they are: mid [nx x ndense], rad [nx x ndense] */
 } ambit_track_step;
 
 typedef struct ambit_track {
   size_t nx, count, room_steps, room_values;
   ambit_track_step *step; /* [count] */
   double *value;          /* [count][4 nx]: lo, hi, tube lo, tube hi */
+  uint32_t keep;          /* AMBIT_TRACK_* */
+  double *dense;
+  size_t count_dense, room_dense;
+  ambit_held_set set; /* at the end of the last step */
 } ambit_track;
 
-ambit_track *ambit_track_push(lua_State *L, size_t nx);
+ambit_track *ambit_track_push(lua_State *L, size_t nx, uint32_t keep);
 bool ambit_track_append(ambit_track *track, const ambit_record *r); /* false: out of memory */
 #endif

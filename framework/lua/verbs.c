@@ -93,8 +93,11 @@ static ambit_simulate_request simulate_request(lua_State *L) {
 ** report */
 static int simulate(lua_State *L) {
   ambit_simulate_request q = simulate_request(L);
-  ambit_receiver to = ambit_receiver_push(L, q.system->nx, q.system->name);
+  ambit_receiver to = ambit_receiver_push(L, q.system->nx, q.system->name, 0);
   q.sink = &to.sink;
+  q.wish = AMBIT_WISH_SET;
+  q.prepared = ambit_receiver_prepared;
+  q.prepared_user = &to;
   ambit_simulate_result result = { 0 };
   ambit_report report = { 0 };
   ambit_failure f = { 0 };

@@ -167,6 +167,7 @@ static ambit_status seal_initial(build *b) {
   ambit_status status = ambit_unknowns_leaves(b->graph, b->arena, nx + np, out, &nu, &b->unknown, b->f);
   if (status != AMBIT_OK) return status;
   b->p->nu = (uint32_t)nu;
+  if (b->q->unknown) *b->q->unknown = b->unknown;
   return ambit_tape_seal(
       b->graph, b->arena, nx + np, out, nu, b->unknown, 0, AMBIT_TAPE_SERIES | b->q->seal, &b->initial, b->f);
 }

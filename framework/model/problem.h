@@ -10,8 +10,9 @@ typedef struct ambit_problem_request {
   const ambit_expr *initial; /* [nx] over unknowns */
   size_t ntime;
   const double *time;
-  uint32_t want; /* AMBIT_WANT_* */
-  uint32_t seal; /* AMBIT_SEAL_KEEP or 0 */
+  uint32_t want;              /* AMBIT_WANT_* */
+  uint32_t seal;              /* AMBIT_SEAL_KEEP or 0 */
+  const ambit_expr **unknown; /* unless NULL, is told the unknowns [nu], in the order of the problem; in the arena */
 } ambit_problem_request;
 
 /* Fills everything but arithmetic and actx; all of it lives in the arena. Parameters are the unknowns that the

@@ -69,7 +69,7 @@ static ambit_status prepare(job *j, ambit_failure *f) {
       j->options, j->solver->param, "solver", j->solver_name, q->nsolver_option, q->solver_option, &own);
   if (!j->option) return ambit_fail(f, own.status, "%s", own.message);
   uint32_t want = ambit_pair_want(j->solver, j->option);
-  ambit_problem_request request = { q->system, q->initial, q->ntime, q->time, want | AMBIT_WANT_INITIAL, 0 };
+  ambit_problem_request request = { q->system, q->initial, q->ntime, q->time, want | AMBIT_WANT_INITIAL, 0, NULL };
   status = ambit_problem_build(&request, j->arena, &j->problem, f);
   if (status != AMBIT_OK) return status;
   j->initial = j->problem.initial;

@@ -33,7 +33,7 @@ static bool bounds_make_sense(uint32_t n, const double *lo, const double *hi) {
 
 /* NULL: the step is sound in form */
 static const char *find_fault(const guard *g, const ambit_record *r) {
-  if (r->size < sizeof *r) return "a record of the wrong size";
+  if (r->size < offsetof(ambit_record, ndense)) return "a record of the wrong size";
   if (r->kind != AMBIT_REC_STEP) return NULL;
   if (r->nx != g->nx || !r->lo || !r->hi) return "a step without an enclosure of every state";
   if (!bounds_make_sense(r->nx, r->lo, r->hi)) return "a step with an empty or NaN enclosure";
@@ -51,9 +51,11 @@ static int32_t pass(guard *g, int32_t stop) {
   return stop;
 }
 
-static int32_t emit(ambit_sink *s, const ambit_record *r) {
+static int32_t emit(ambit_sink *s, const ambit_record *given) {
   guard *g = (guard *)(void *)s;
-  ambit_allocation_forbid(0); /* what the receiver does is its own affair */
+  ambit_allocation_forbid(0);              /* what the receiver does is its own affair */
+  ambit_record whole = { 0 }, *r = &whole; /* a solver may be older than this kernel, and its records shorter */
+  memcpy(r, given, given->size < sizeof *r ? given->size : sizeof *r);
   const char *fault = find_fault(g, r);
   if (fault) {
     snprintf(g->broken, sizeof g->broken, "%s", fault);
@@ -117,10 +119,13 @@ static ambit_status prepare(job *j, ambit_failure *f) {
   status = ambit_registry_arithmetic(q->registry, j->arithmetic, &arithmetic, f);
   if (status != AMBIT_OK) return status;
   uint32_t want = ambit_pair_want(j->solver, j->option);
+  const ambit_expr *unknown;
   ambit_problem_request request = { q->system, q->initial, q->ntime, q->time, want,
-    arithmetic->set_text ? AMBIT_SEAL_KEEP : 0 };
+    arithmetic->set_text ? AMBIT_SEAL_KEEP : 0, &unknown };
   status = ambit_problem_build(&request, j->arena, &j->problem, f);
   if (status != AMBIT_OK) return status;
+  j->problem.wish = q->wish;
+  if (q->prepared) q->prepared(q->prepared_user, j->problem.nu, unknown);
   const ambit_problem *p = &j->problem;
   uint32_t nvar = want & AMBIT_WANT_INITIAL ? p->nu : p->nx + p->np;
   return ambit_context_open(

@@ -16,6 +16,10 @@ typedef struct ambit_simulate_request {
   const ambit_expr *initial; /* [nx] over unknowns; every state */
   size_t ntime;              /* >= 2 */
   const double *time;
+  uint32_t wish; /* AMBIT_WISH_*: what the sink would like besides */
+  /* or NULL: is told, before the first record, the unknowns that sets (ambit_set) are functions of */
+  void (*prepared)(void *user, size_t nu, const ambit_expr *unknown);
+  void *prepared_user;
   ambit_sink *sink; /* sees every record as it is made */
 } ambit_simulate_request;
 

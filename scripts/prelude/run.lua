@@ -54,7 +54,18 @@ function methods:steps()
   end
 end
 
--- The enclosure at a time: of a step's end exactly, otherwise the step's tube, which holds for all its times.
+-- Within step i: from its dense enclosure, otherwise its tube, which holds for all its times.
+local function within(self, i, t)
+  local values = {}
+  for k, name in ipairs(self.states) do
+    local x = core.track_dense(self.track, i, k, t) or core.track_value(self.track, i, k, true)
+    if not x then return nil end
+    values[name] = x
+  end
+  return strict(values, self.states)
+end
+
+-- The enclosure at a time: tight at the ends of steps and, if the run was made with dense = true, everywhere.
 function methods:at(t)
   t = instant.of(t, "at: t")
   if t == self.t_start then return strict(self.initial(), self.states) end
@@ -64,11 +75,23 @@ function methods:at(t)
       core.literal(self.t_start),
       core.literal(self.t_reached))
   end
-  local values = enclosures(self, i, not is_end)
+  local values
+  if is_end then values = enclosures(self, i, false) else values = within(self, i, t) end
   if not values then
     check.fail('at: solver `%s` says nothing between its steps; put t into the list of times', self.solver)
   end
   return values
+end
+
+-- The set at the end, to go on from: an initial value for each state, as an expression of the same uncertain data that
+-- the run started from (so that what the states have in common is kept) and of a fresh one for what was added on the
+-- way. Solvers that do not know the set as a function of the data give a box.
+function methods:set()
+  local list, values = core.track_set(self.track), {}
+  for i, name in ipairs(self.states) do
+    values[name] = list and list[i] or core.expression(self.x[name])
+  end
+  return strict(values, self.states)
 end
 
 check.methods(methods, Run)

@@ -48,7 +48,7 @@ static void close_scene(scene *s) {
 
 static ambit_status build(scene *s, uint32_t want) {
   static const double time[] = { 0, 1 };
-  const ambit_problem_request q = { &s->system, s->initial, 2, time, want, 0 };
+  const ambit_problem_request q = { &s->system, s->initial, 2, time, want, 0, NULL };
   s->failure = (ambit_failure) { 0 };
   return ambit_problem_build(&q, s->arena, &s->problem, &s->failure);
 }

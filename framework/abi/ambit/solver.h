@@ -12,7 +12,8 @@
 ** atan2, on which the entries may be finite although f jumps */
 #define AMBIT_WANT_JACOBIAN 4u
 #define AMBIT_WANT_INITIAL 8u /* initial state and parameters as a SERIES tape over the unknowns */
-#define AMBIT_WANT_EVENT 16u  /* g(x, p, t) whose sign changes end a phase */
+/* a context for each thread of "ambit.pool/1" (ambit_problem.worker), for solvers that work on pieces side by side */
+#define AMBIT_WANT_WORKERS 16u
 /* g(x, p, t) that stay zero along every solution that starts there, as a tape (SERIES if that is wanted), and with
 ** AMBIT_WANT_JACOBIAN their Jacobian; absent if the system has none */
 #define AMBIT_WANT_INVARIANT 32u
@@ -23,25 +24,45 @@
 #define AMBIT_SOLVES_FLOW 0u
 #define AMBIT_SOLVES_ROOTS 1u
 
-/* Inputs of rhs, jacobian, event: x [nx], p [np], then t if uses_time. Inputs of initial: the unknowns [nu];
+/* What the receiver of the records would like besides: a solver that can't, leaves it out; one that can, does so only
+** on this wish. DENSE: the dense enclosure of each step. SET: the set at the end of each step as a function of the
+** unknowns. */
+#define AMBIT_WISH_DENSE 1u
+#define AMBIT_WISH_SET 2u
+
+/* Inputs of rhs, jacobian: x [nx], p [np], then t if uses_time. Inputs of initial: the unknowns [nu];
 ** its outputs: x(t0) [nx], p [np]. An unknown that several data share occurs once: correlation is kept. */
 typedef struct ambit_problem {
-  uint32_t size, nx, np, nu, nevent, uses_time;
-  const char *const *name;                            /* [nx] state names, [np] parameter names behind them */
-  const ambit_tape *rhs, *jacobian, *initial, *event; /* NULL when not wanted */
-  const ambit_arithmetic *arithmetic;                 /* completed: every run[] filled */
-  void *actx;                                         /* its context, lent to this solver until close */
-  const double *x0_lo, *x0_hi;                        /* [nx] hull of the initial set */
-  const double *p_lo, *p_hi; /* [np] hull of the parameters (only uncertain data are parameters) */
-  const double *u_lo, *u_hi; /* [nu] ranges of the unknowns */
-  uint32_t ntime;            /* >= 2 */
+  uint32_t size, nx, np, nu, wish, uses_time; /* wish: AMBIT_WISH_* */
+  const char *const *name;                    /* [nx] state names, [np] parameter names behind them */
+  const ambit_tape *rhs, *jacobian, *initial; /* NULL when not wanted */
+  const ambit_arithmetic *arithmetic;         /* completed: every run[] filled */
+  void *actx;                                 /* its context, lent to this solver until close */
+  const double *x0_lo, *x0_hi;                /* [nx] hull of the initial set */
+  const double *p_lo, *p_hi;                  /* [np] hull of the parameters (only uncertain data are parameters) */
+  const double *u_lo, *u_hi;                  /* [nu] ranges of the unknowns */
+  uint32_t ntime;                             /* >= 2 */
   /* [ntime] start, instants that a step must end on, end; ascending or descending, s */
   const double *time;
   uint32_t ninvariant;
   const ambit_tape *invariant, *invariant_jacobian; /* [ninvariant], [ninvariant x nx] by rows; inputs as of rhs */
   const char *const *invariant_name;                /* [ninvariant] "close: row 1", for messages */
   const ambit_tape *slope;                          /* [nx x np], or NULL if rhs has no derivative by p */
+  uint32_t nworker;                                 /* threads that "ambit.pool/1" lends, at least 1 */
+  /* [nworker] contexts like actx, one for each thread; worker[0] is actx; NULL unless wanted */
+  void *const *worker;
 } ambit_problem;
+
+/* A set of states that still knows what it depends on: for every u in the box of the unknowns, with
+** v_j = (u_j - about_j) / scale_j,  |x_i(u) - sum_t coefficient[i * nterm + t] prod_j v_j^exponent[t * nu + j]| <= rest_i.
+** A run can be continued from it without losing what the states have in common. */
+typedef struct ambit_set {
+  uint32_t size, nu, nterm, pad;
+  const double *about, *scale; /* [nu]; scale > 0 */
+  const uint32_t *exponent;    /* [nterm x nu] */
+  const double *coefficient;   /* [nx x nterm] */
+  const double *rest;          /* [nx] */
+} ambit_set;
 
 /* Result record: header first, so that readers skip kinds they do not know. Enclosures hold for every solution on which
 ** the invariants (if any) vanish. */
@@ -59,6 +80,11 @@ typedef struct ambit_record {
   const double *lo, *hi;           /* [nx] at t_to; valid only during the call */
   const double *tube_lo, *tube_hi; /* [nx] over the whole step, or NULL */
   uint32_t order, ncoef;           /* order used (0 = none) */
+  /* AMBIT_WISH_DENSE: for s from 0 to t_to - t_from (s and the difference as real numbers),
+  ** x_i(t_from + s) in sum_{k < ndense} (dense_mid[i * ndense + k] +- dense_rad[i * ndense + k]) s^k; or NULL */
+  uint32_t ndense, pad;
+  const double *dense_mid, *dense_rad;
+  const ambit_set *set; /* AMBIT_WISH_SET: the set at t_to, inside [lo, hi]; or NULL */
 } ambit_record;
 
 typedef struct ambit_sink ambit_sink;
