@@ -4,6 +4,7 @@
 ** except by points where a part known to be total was removed. Proofs: docs/numerics/folding.md.
 */
 #include "graph/fold.h"
+#include "graph/kink.h"
 
 bool ambit_fold_exact(uint32_t op, double a, double b, double *r) {
   ambit_interval x, p = { a, a }, q = { b, b };
@@ -97,4 +98,14 @@ ambit_expr ambit_graph_op(ambit_graph *g, uint32_t op, ambit_expr a, ambit_expr 
 
 ambit_expr ambit_graph_pown(ambit_graph *g, ambit_expr a, int32_t n) {
   return a < g->count ? ambit_fold_power(g, a, n) : AMBIT_NO_EXPR;
+}
+
+ambit_expr ambit_store_rebuild(ambit_graph *g, ambit_expr e, ambit_expr a, ambit_expr b) {
+  uint32_t op = ambit_at(g, e)->op;
+  if (op == AMBIT_OP_POWN) return ambit_graph_pown(g, a, (int32_t)ambit_at(g, e)->b);
+  if (!ambit_op_has_kink(op)) return ambit_graph_op(g, op, a, b);
+  const char *other = ambit_graph_written_by(g, ambit_graph_writer(g, e));
+  ambit_expr rebuilt = ambit_graph_op(g, op, a, b);
+  ambit_graph_written_by(g, other);
+  return rebuilt;
 }

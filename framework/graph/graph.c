@@ -125,7 +125,10 @@ ambit_expr ambit_store_make(ambit_graph *g, uint32_t op, ambit_expr a, ambit_exp
     if (!(op == AMBIT_OP_POWN && a != AMBIT_NO_EXPR)) return AMBIT_NO_EXPR;
   }
   bool two = ambit_op_is_binary(op) || op == AMBIT_OP_POWN;
-  return intern(g, (ambit_node) { .op = op, .a = a, .b = two ? b : a });
+  size_t before = g->count;
+  ambit_expr e = intern(g, (ambit_node) { .op = op, .a = a, .b = two ? b : a });
+  if (g->count == before || !ambit_op_has_kink(op)) return e;
+  return ambit_kinks_note(g, e) ? e : AMBIT_NO_EXPR;
 }
 
 static ambit_node constant_node(ambit_interval x, const char *text) {
@@ -150,6 +153,7 @@ void ambit_graph_close(ambit_graph *g) {
   ambit_arena_close(g->arena);
   free(g->table);
   free(g->stored);
+  free(g->kinks.known);
   free(g);
 }
 

@@ -2,6 +2,7 @@
 ** beside them. */
 #include "graph/jet.h"
 #include "graph/tail.h"
+#include "num/interval.h"
 #include "num/rounding.h"
 #include <math.h>
 #include <string.h>
@@ -216,6 +217,25 @@ static ambit_status tail(ambit_jet *jet, uint32_t K, double h, const double *tai
   return status;
 }
 
+/* bounds of coefficient 0, as midpoint and radius */
+static ambit_interval start_of(const ambit_jet *jet, uint32_t slot) {
+  double mid, rad;
+  get(jet, slot, 0, &mid, &rad, NULL, NULL);
+  if (!isfinite(mid) || !isfinite(rad)) return AMBIT_ENTIRE;
+  return ambit_interval_add((ambit_interval) { mid, mid }, (ambit_interval) { -rad, rad });
+}
+
+static const char *kink(const ambit_jet *jet) {
+  const ambit_tape *t = jet->tape;
+  for (uint32_t i = 0; i < t->ninstr && jet->known && t->kink; i++) {
+    if (!t->kink[i]) continue;
+    ambit_interval x = start_of(jet, t->a[i]);
+    if (t->op[i] != AMBIT_OP_ABS) x = ambit_interval_sub(x, start_of(jet, t->b[i]));
+    if (x.lo <= 0 && x.hi >= 0) return t->kink[i];
+  }
+  return NULL;
+}
+
 const ambit_jet_service ambit_jet_service_v1 = {
   .size = sizeof(ambit_jet_service),
   .open = open,
@@ -225,4 +245,5 @@ const ambit_jet_service ambit_jet_service_v1 = {
   .get = get,
   .solve = solve,
   .tail = tail,
+  .kink = kink,
 };

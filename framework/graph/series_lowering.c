@@ -90,7 +90,9 @@ static bool rewrite(ambit_graph *g, size_t nout, ambit_expr *root, ambit_walk_st
   for (size_t i = 0; i < w.count && done; i++) {
     const ambit_node x = *ambit_at(g, w.node[i]);
     bool leaf = ambit_op_is_leaf(x.op) || (stop && stop(g, w.node[i]));
+    const char *other = ambit_graph_written_by(g, ambit_graph_writer(g, w.node[i]));
     now[i] = leaf ? w.node[i] : lower(g, x.op, now[w.a[i]], x.op == AMBIT_OP_POWN ? x.b : now[w.b[i]]);
+    ambit_graph_written_by(g, other);
     done = now[i] != AMBIT_NO_EXPR;
   }
   for (size_t i = 0; i < nout && done; i++) root[i] = now[root[i]];

@@ -92,7 +92,7 @@ static ambit_polynomial read_node(simplifier *s, uint32_t i) {
   default: break;
   }
   if (ambit_op_is_leaf(x.op)) return ambit_polynomial_of(&s->ring, s->walk.node[i]);
-  return ambit_polynomial_of(&s->ring, ambit_graph_op(s->ring.g, x.op, settle(s, a), settle(s, b)));
+  return ambit_polynomial_of(&s->ring, ambit_store_rebuild(s->ring.g, s->walk.node[i], settle(s, a), settle(s, b)));
 }
 
 static ambit_expr simplify(simplifier *s, ambit_expr e) {

@@ -6,6 +6,7 @@
 #ifndef AMBIT_STORE_H
 #define AMBIT_STORE_H
 #include "graph/graph.h"
+#include "graph/kink.h"
 
 typedef struct ambit_stored {
   ambit_node node;
@@ -23,6 +24,7 @@ struct ambit_graph {
   ambit_arena *arena; /* texts */
   ambit_marks *marks;
   ambit_expr pi, time; /* AMBIT_NO_EXPR until asked for */
+  ambit_kinks kinks;
 };
 
 #define AMBIT_ZERO 0u /* node numbers fixed by ambit_graph_open */
@@ -30,6 +32,9 @@ struct ambit_graph {
 
 /* A hash-consed operation; no rule is applied. a, b < count. POWN: b is the exponent. AMBIT_NO_EXPR: out of memory. */
 ambit_expr ambit_store_make(ambit_graph *g, uint32_t op, ambit_expr a, ambit_expr b);
+
+/* An operation of the same kind as node e on other operands, by the folding rules; it keeps e's writer. */
+ambit_expr ambit_store_rebuild(ambit_graph *g, ambit_expr e, ambit_expr a, ambit_expr b);
 
 static inline const ambit_node *ambit_at(const ambit_graph *g, ambit_expr e) { return &g->stored[e].node; }
 static inline bool ambit_op_is_binary(uint32_t op) {

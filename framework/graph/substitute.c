@@ -7,7 +7,7 @@ static ambit_expr rebuild(ambit_graph *g, ambit_expr e, ambit_expr a, ambit_expr
   const ambit_node x = *ambit_at(g, e);
   bool binary = ambit_op_is_binary(x.op);
   if (ambit_op_is_leaf(x.op) || (a == x.a && (!binary || b == x.b))) return e;
-  return x.op == AMBIT_OP_POWN ? ambit_graph_pown(g, a, (int32_t)x.b) : ambit_graph_op(g, x.op, a, b);
+  return ambit_store_rebuild(g, e, a, b);
 }
 
 /* e[i], already positions in the walk, become expressions. */

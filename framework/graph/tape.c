@@ -8,6 +8,7 @@
 **    not depend on each other, so equal opcodes of a level make a run.
 ** 3. Constants share a slot only if they are the same number: equal points, or the same node.
 */
+#include "graph/kink.h"
 #include "graph/tape.h"
 #include "graph/series_lowering.h"
 #include "graph/store.h"
@@ -25,7 +26,7 @@ typedef struct sealing {
   uint32_t *order; /* [walk.count] positions of the instructions, sorted */
   uint32_t *dst, *op, *a, *b, *aux, *out, *degree;
   double *lo, *hi, *range_lo, *range_hi;
-  const char **text;
+  const char **text, **kink;
   ambit_run *run;
   ambit_tape *tape;
 } sealing;
@@ -199,6 +200,15 @@ static void write_instructions(sealing *s) {
   }
 }
 
+static bool name_kinks(sealing *s) {
+  for (uint32_t k = 0; k < s->tape->ninstr; k++) {
+    if (!ambit_op_has_kink(s->op[k])) continue;
+    s->kink[k] = ambit_kink_text(s->g, s->walk.node[s->order[k]], s->arena);
+    if (!s->kink[k]) return false;
+  }
+  return true;
+}
+
 static void write_aux(sealing *s) {
   if (!(s->tape->flags & AMBIT_TAPE_SERIES)) return;
   for (uint32_t k = 0; k < s->tape->ninstr; k++) {
@@ -259,9 +269,11 @@ static bool allocate(sealing *s, size_t ninstr, size_t nout) {
   s->run = take(s, ninstr, sizeof *s->run);
   s->out = take(s, nout, sizeof *s->out);
   s->degree = take(s, nslot, sizeof *s->degree);
+  s->kink = take(s, ninstr, sizeof *s->kink);
   s->range_lo = take(s, nslot, sizeof *s->range_lo);
   s->range_hi = take(s, nslot, sizeof *s->range_hi);
-  return s->op && s->dst && s->a && s->b && s->aux && s->run && s->out && s->degree && s->range_lo && s->range_hi;
+  return s->kink && s->op && s->dst && s->a && s->b && s->aux && s->run && s->out && s->degree && s->range_lo &&
+         s->range_hi;
 }
 
 static bool allocate_scratch(sealing *s) {
@@ -279,7 +291,7 @@ static void finish(sealing *s) {
   ambit_tape *t = s->tape;
   t->nslot = t->nconst + t->nin + t->ninstr;
   t->op = s->op, t->dst = s->dst, t->a = s->a, t->b = s->b, t->aux = s->aux, t->run = s->run;
-  t->lo = s->lo, t->hi = s->hi, t->text = s->text;
+  t->lo = s->lo, t->hi = s->hi, t->text = s->text, t->kink = s->kink;
   t->out = s->out, t->degree = s->degree, t->range_lo = s->range_lo, t->range_hi = s->range_hi;
 }
 
@@ -299,7 +311,7 @@ static ambit_status write_tape(
   for (size_t i = 0; i < nout; i++) s->out[i] = s->slot[ambit_walk_find(s->g, root[i])];
   describe_slots(s, in, nvarying);
   finish(s);
-  return AMBIT_OK;
+  return name_kinks(s) ? AMBIT_OK : no_memory(s->failure); /* last: texts are walks of their own */
 }
 
 static ambit_status check_arguments(

@@ -1,5 +1,6 @@
 /* build.c -- what an element sees of the kernel while it writes formulas (ambit_build), and the world. */
 #include "base/vector.h"
+#include "graph/kink.h"
 #include "mechanism/parts.h"
 #include "num/decimal.h"
 #include <stdarg.h>
@@ -225,7 +226,11 @@ ambit_status ambit_build_express(ambit_mechanism *m, ambit_cell *cell, ambit_exp
                   partial_time },
     .m = m,
     .cell = cell };
-  return part_of(&s)->element->express(&s.open, cell->port, cell->quantity, out);
+  char who[AMBIT_WHO_MAX];
+  const char *asker = ambit_graph_written_by(m->graph, ambit_part_who(part_of(&s), who));
+  ambit_status status = part_of(&s)->element->express(&s.open, cell->port, cell->quantity, out);
+  ambit_graph_written_by(m->graph, asker);
+  return status;
 }
 
 ambit_status ambit_build_check(ambit_mechanism *m, uint32_t part, ambit_failure *f) {

@@ -43,5 +43,8 @@ typedef struct ambit_jet_service {
   ** equals sum_{k<=K+1} x_k (s h)^k +- |h| tail_out / (K+2) s^(K+2) (proof: docs/numerics/series.md). */
   ambit_status (*tail)(ambit_jet *jet, uint32_t K, double h, const double *tail_in, const double *dtail_in,
       double *tail_out, double *dtail_out);
+  /* An ABS, MIN or MAX that coefficients of order 0 leave undecided (where the function has a kink), as the tape names
+  ** it; NULL: there is none. */
+  const char *(*kink)(const ambit_jet *jet);
 } ambit_jet_service;
 #endif

@@ -74,5 +74,7 @@ typedef struct ambit_tape {
   /* [nslot] bounds that hold for every real input (cos: [-1, 1]), an unknown datum being in its set; may be
   ** infinite */
   const double *range_lo, *range_hi;
+  /* [ninstr] what an ABS, MIN or MAX is, for messages: "abs(v) of joint_friction `knee`"; NULL elsewhere */
+  const char *const *kink;
 } ambit_tape;
 #endif
