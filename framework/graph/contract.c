@@ -13,22 +13,36 @@
 struct ambit_contractor {
   const ambit_tape *tape;
   ambit_interval *slot; /* [nslot] */
+  uint32_t *lowest;     /* [nslot] the first input that the slot depends on, or nin */
 };
-
-static ambit_status open(const ambit_host *h, const ambit_tape *t, ambit_contractor **out) {
-  ambit_contractor *c = h->alloc(h, sizeof *c);
-  ambit_interval *slot = h->alloc(h, (t->nslot + 1u) * sizeof *slot);
-  if (!c || !slot) return h->fail(h, AMBIT_NOMEM, "out of memory");
-  *c = (ambit_contractor) { t, slot };
-  for (uint32_t i = 0; i < t->nconst; i++) slot[i] = (ambit_interval) { t->lo[i], t->hi[i] };
-  *out = c;
-  return AMBIT_OK;
-}
 
 static int32_t exponent(const ambit_tape *t, uint32_t i) {
   int32_t n;
   memcpy(&n, &t->b[i], sizeof n);
   return n;
+}
+
+static uint32_t lower(uint32_t a, uint32_t b) { return a < b ? a : b; }
+
+static void find_lowest(const ambit_tape *t, uint32_t *lowest) {
+  for (uint32_t i = 0; i < t->nconst; i++) lowest[i] = t->nin;
+  for (uint32_t i = 0; i < t->nin; i++) lowest[t->nconst + i] = i;
+  for (uint32_t i = 0; i < t->ninstr; i++) {
+    uint32_t a = lowest[t->a[i]];
+    lowest[t->dst[i]] = t->op[i] == AMBIT_OP_POWN ? a : lower(a, lowest[t->b[i]]);
+  }
+}
+
+static ambit_status open(const ambit_host *h, const ambit_tape *t, ambit_contractor **out) {
+  ambit_contractor *c = h->alloc(h, sizeof *c);
+  ambit_interval *slot = h->alloc(h, (t->nslot + 1u) * sizeof *slot);
+  uint32_t *lowest = h->alloc(h, (t->nslot + 1u) * sizeof *lowest);
+  if (!c || !slot || !lowest) return h->fail(h, AMBIT_NOMEM, "out of memory");
+  *c = (ambit_contractor) { t, slot, lowest };
+  find_lowest(t, lowest);
+  for (uint32_t i = 0; i < t->nconst; i++) slot[i] = (ambit_interval) { t->lo[i], t->hi[i] };
+  *out = c;
+  return AMBIT_OK;
 }
 
 /* does op jump or bend somewhere over these operands? */
@@ -42,8 +56,8 @@ static bool has_kink(uint32_t op, ambit_interval a, ambit_interval b) {
   }
 }
 
-/* constants are in place; flags over all slots */
-static uint32_t forward(const ambit_contractor *c, const double *lo, const double *hi) {
+/* constants are in place; flags over all slots; KINK along the first n inputs */
+static uint32_t forward(const ambit_contractor *c, const double *lo, const double *hi, uint32_t n) {
   const ambit_tape *t = c->tape;
   ambit_interval *slot = c->slot;
   uint32_t flags = 0;
@@ -56,7 +70,7 @@ static uint32_t forward(const ambit_contractor *c, const double *lo, const doubl
     }
     ambit_interval b = slot[t->b[i]];
     flags |= ambit_interval_op(t->op[i], r, a, b);
-    if (has_kink(t->op[i], a, b)) flags |= AMBIT_F_KINK;
+    if (has_kink(t->op[i], a, b)) flags |= c->lowest[t->dst[i]] < n ? AMBIT_F_KINK : AMBIT_F_KINK_ELSEWHERE;
   }
   return flags;
 }
@@ -94,7 +108,7 @@ static bool backward(const ambit_contractor *c) {
 
 static ambit_status narrow(ambit_contractor *c, double *lo, double *hi, const double *out_lo, const double *out_hi) {
   const ambit_tape *t = c->tape;
-  if (forward(c, lo, hi) & AMBIT_F_EMPTY) return AMBIT_DOMAIN;
+  if (forward(c, lo, hi, 0) & AMBIT_F_EMPTY) return AMBIT_DOMAIN;
   if (!demand(c, out_lo, out_hi) || !backward(c)) return AMBIT_DOMAIN;
   for (uint32_t i = 0; i < t->nin; i++) {
     lo[i] = c->slot[t->nconst + i].lo;
@@ -103,6 +117,14 @@ static ambit_status narrow(ambit_contractor *c, double *lo, double *hi, const do
   return AMBIT_OK;
 }
 
-static uint32_t inspect(ambit_contractor *c, const double *lo, const double *hi) { return forward(c, lo, hi); }
+static uint32_t inspect_in(ambit_contractor *c, const double *lo, const double *hi, uint32_t n) {
+  return forward(c, lo, hi, n);
+}
 
-const ambit_contract_service ambit_contract_service_v1 = { sizeof ambit_contract_service_v1, open, narrow, inspect };
+/* a constant operation may have a kink too */
+static uint32_t inspect(ambit_contractor *c, const double *lo, const double *hi) {
+  return inspect_in(c, lo, hi, UINT32_MAX);
+}
+
+const ambit_contract_service ambit_contract_service_v1 = { sizeof ambit_contract_service_v1, open, narrow, inspect,
+  inspect_in };

@@ -2,6 +2,7 @@
 #include "host/services.h"
 #include "graph/contract.h"
 #include "graph/jet.h"
+#include "host/pool.h"
 #include "num/service.h"
 #include <pthread.h>
 #include <stdarg.h>
@@ -15,6 +16,7 @@
 typedef struct guarded_lease {
   ambit_lease lease; /* first: host, lease and this share one address */
   pthread_mutex_t lock;
+  ambit_pool *pools; /* those that are open */
 } guarded_lease;
 
 static void *alloc(const ambit_host *h, size_t bytes) {
@@ -45,11 +47,20 @@ static void note(const ambit_host *h, const char *format, ...) {
   lease->note(lease->user, line);
 }
 
+static ambit_status open_pool(const ambit_host *h, uint32_t threads, ambit_pool **pool) {
+  guarded_lease *guarded = (guarded_lease *)(uintptr_t)h;
+  return ambit_pool_open(&guarded->pools, threads, pool);
+}
+
+static const ambit_pool_service pool_service_v1 = { sizeof(ambit_pool_service), open_pool, ambit_pool_close,
+  ambit_pool_run };
+
 static const void *service(const ambit_host *h, const char *id) {
   (void)h;
   if (strcmp(id, AMBIT_NUM_SERVICE) == 0) return &ambit_num_service_v1;
   if (strcmp(id, AMBIT_JET_SERVICE) == 0) return &ambit_jet_service_v1;
   if (strcmp(id, AMBIT_CONTRACT_SERVICE) == 0) return &ambit_contract_service_v1;
+  if (strcmp(id, AMBIT_POOL_SERVICE) == 0) return &pool_service_v1;
   return NULL;
 }
 
@@ -75,6 +86,7 @@ ambit_status ambit_lease_open(ambit_lease **lease, void (*sink)(void *user, cons
 void ambit_lease_close(ambit_lease *lease) {
   if (!lease) return;
   guarded_lease *guarded = (guarded_lease *)(void *)lease;
+  while (guarded->pools) ambit_pool_close(guarded->pools);
   pthread_mutex_destroy(&guarded->lock);
   ambit_arena_close(lease->arena);
   free(guarded);

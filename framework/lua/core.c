@@ -82,6 +82,9 @@ int luaopen_ambit_core(lua_State *L) {
   ambit_lua_open_roots(L, core);
   ambit_lua_open_system(L, core);
   ambit_lua_open_verbs(L, core);
+  ambit_lua_open_variation(L, core);
+  ambit_lua_open_watch(L, core);
+  ambit_lua_open_events(L, core);
   ambit_lua_open_track(L, core);
   ambit_lua_open_records(L, core);
   ambit_lua_open_process(L, core);

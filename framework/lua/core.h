@@ -74,6 +74,9 @@ ambit_lua_enclosure ambit_lua_to_enclosure(lua_State *L, int idx, const char *wh
 /* {expression, ...} at idx -> an array of n owned by Lua (pushed as one userdata above the stack). */
 ambit_expr *ambit_lua_to_array(lua_State *L, int idx, size_t n);
 bool ambit_lua_is_constant(lua_State *L, const ambit_lua_expression *x);
+/* "kg*m^2/s^3" of a dimension, for the unit reader. */
+#define AMBIT_LUA_DIMENSION_MAX 96
+void ambit_lua_dimension_text(const int8_t power[7], char out[AMBIT_LUA_DIMENSION_MAX]);
 
 /* Each adds its functions to the table on top of the stack (the state as upvalue). */
 void ambit_lua_open_functions(lua_State *L, ambit_lua *core);  /* functions.c: sin, pow, ... */
@@ -87,6 +90,9 @@ void ambit_lua_open_loops(lua_State *L, ambit_lua *core);      /* loops.c */
 void ambit_lua_open_roots(lua_State *L, ambit_lua *core);      /* roots.c */
 void ambit_lua_open_system(lua_State *L, ambit_lua *core);     /* system.c */
 void ambit_lua_open_verbs(lua_State *L, ambit_lua *core);      /* verbs.c: evaluate, simulate */
+void ambit_lua_open_variation(lua_State *L, ambit_lua *core);  /* variation.c */
+void ambit_lua_open_watch(lua_State *L, ambit_lua *core);      /* watch.c: conditions along a run */
+void ambit_lua_open_events(lua_State *L, ambit_lua *core);     /* events.c: zero crossings along a run */
 void ambit_lua_open_track(lua_State *L, ambit_lua *core);      /* track.c: the recorded steps of a run */
 void ambit_lua_open_records(lua_State *L, ambit_lua *core);    /* records.c: JSON lines */
 void ambit_lua_open_process(lua_State *L, ambit_lua *core);    /* process.c: libraries, clocks, terminals */

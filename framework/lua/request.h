@@ -4,11 +4,15 @@
 #define AMBIT_LUA_REQUEST_H
 #include "lua/core.h"
 #include "model/report.h"
+#include "model/simulate.h"
 
 ambit_option *ambit_lua_options(lua_State *L, int idx, size_t *n); /* {name, text, name, text, ...} */
 double *ambit_lua_numbers(lua_State *L, int idx, size_t *n);       /* {x, ...} */
 const char **ambit_lua_texts(lua_State *L, int idx, size_t *n);    /* {text, ...}; the texts stay the table's */
 void ambit_lua_push_report(lua_State *L, const ambit_report *r);
+
+/* (system, solver, arithmetic or nil, solver options, arithmetic options, {initial}, {time}) at 1..7 */
+ambit_simulate_request ambit_lua_simulate_request(lua_State *L);
 
 /* Field of the table on top of the stack. */
 void ambit_lua_set_number(lua_State *L, const char *key, double value);

@@ -2,7 +2,9 @@
 #include "lua/receiver.h"
 #include "lua/request.h"
 #include "lua/system.h"
+#include "model/eigen.h"
 #include "model/roots.h"
+#include "num/solve.h"
 #include <string.h>
 
 static void push_doubles(lua_State *L, size_t n, const double *x) {
@@ -49,9 +51,9 @@ static void push_result(lua_State *L, const ambit_receiver *to, const ambit_root
 }
 
 /* roots(solver, arithmetic or nil, solver options, arithmetic options, {equation}, {unknown}, {name}, {leaf}, {value},
-** {box}, {centre} or nil) -> track of roots, result, report */
+** {box}, {centre} or nil, number of leading equations or nil) -> track of roots, result, report */
 static int roots(lua_State *L) {
-  lua_settop(L, 11);
+  lua_settop(L, 12);
   ambit_equations q = equations(L, 5);
   ambit_roots_request request = { .equations = &q, .registry = AMBIT_LUA(L)->registry };
   request.solver = luaL_checkstring(L, 1);
@@ -60,6 +62,7 @@ static int roots(lua_State *L) {
   request.arithmetic_option = ambit_lua_options(L, 4, &request.narithmetic_option);
   request.box = boxes(L, 10, q.nx);
   request.centre = lua_isnil(L, 11) ? NULL : ambit_lua_numbers(L, 11, &q.nx);
+  request.leading = (size_t)luaL_optinteger(L, 12, 0);
   ambit_receiver to = ambit_receiver_push(L, q.nx, q.name, 0);
   request.sink = &to.sink;
   ambit_roots_result result = { 0 };
@@ -94,7 +97,68 @@ static int approach(lua_State *L) {
   return 3;
 }
 
+/* -- matrices of enclosures, by rows */
+
+static void push_eigenvalues(lua_State *L, size_t n, const ambit_eigenvalue *value) {
+  lua_createtable(L, (int)n, 0);
+  for (size_t i = 0; i < n; i++) {
+    lua_createtable(L, 0, 3);
+    ambit_lua_push_enclosure(L, value[i].re, 0);
+    lua_setfield(L, -2, "re");
+    ambit_lua_push_enclosure(L, value[i].im, 0);
+    lua_setfield(L, -2, "im");
+    ambit_lua_set_count(L, "count", value[i].count);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+}
+
+/* spectrum(n, {enclosure}) -> {{re, im, count}} or nil, "stable", "unstable" or "undecided", how that was seen */
+static int spectrum(lua_State *L) {
+  static const char *const stability[] = { "undecided", "stable", "unstable" };
+  size_t n = (size_t)luaL_checkinteger(L, 1);
+  const ambit_interval *a = boxes(L, 2, n * n);
+  ambit_eigenvalue *value = lua_newuserdatauv(L, (n + 1) * sizeof *value, 0);
+  ambit_eigen result;
+  ambit_failure f = { 0 };
+  if (ambit_eigen_analyse(AMBIT_LUA(L)->registry, n, a, value, &result, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
+  if (result.enclosed)
+    push_eigenvalues(L, n, value);
+  else
+    lua_pushnil(L);
+  lua_pushstring(L, stability[result.stability]);
+  lua_pushstring(L, result.by);
+  return 3;
+}
+
+/* is_positive_definite(n, {enclosure}): every symmetric matrix of the set */
+static int is_positive_definite(lua_State *L) {
+  size_t n = (size_t)luaL_checkinteger(L, 1);
+  const ambit_interval *a = boxes(L, 2, n * n);
+  ambit_arena *arena = ambit_arena_open();
+  bool proved = arena && ambit_is_positive_definite(n, a, arena);
+  ambit_arena_close(arena);
+  lua_pushboolean(L, proved);
+  return 1;
+}
+
+/* solve(n, {enclosure} by rows, {enclosure}) -> {enclosure}: all solutions; nil if the matrices are not proved
+** regular */
+static int solve(lua_State *L) {
+  size_t n = (size_t)luaL_checkinteger(L, 1);
+  const ambit_interval *a = boxes(L, 2, n * n), *b = boxes(L, 3, n);
+  ambit_interval *x = lua_newuserdatauv(L, (n + 1) * sizeof *x, 0);
+  double *scratch = lua_newuserdatauv(L, (2 * n * n + 1) * sizeof *scratch, 0);
+  if (!ambit_solve_enclose(n, a, b, x, scratch)) return lua_pushnil(L), 1;
+  lua_createtable(L, (int)n, 0);
+  for (size_t i = 0; i < n; i++) {
+    ambit_lua_push_enclosure(L, x[i], 0);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  return 1;
+}
+
 void ambit_lua_open_roots(lua_State *L, ambit_lua *core) {
-  static const luaL_Reg functions[] = { { "roots", roots }, { "approach", approach }, { NULL, NULL } };
+  static const luaL_Reg functions[] = { { "roots", roots }, { "approach", approach }, { "spectrum", spectrum },
+    { "is_positive_definite", is_positive_definite }, { "solve", solve }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
 }

@@ -28,9 +28,24 @@ static const char *text_at(lua_State *L, ambit_arena *arena, int idx, lua_Intege
   return text;
 }
 
-/* system({name}, {unit}, {state}, {rate}) */
+/* {invariant}, {name} at 5 and 6, or nothing */
+static void add_invariants(lua_State *L, ambit_lua_system *s) {
+  if (lua_isnoneornil(L, 5)) return;
+  size_t n = (size_t)luaL_len(L, 5);
+  const char **name = ambit_arena_alloc(s->arena, n * sizeof *name);
+  ambit_expr *g = ambit_arena_alloc(s->arena, n * sizeof *g);
+  if (!name || !g) ambit_lua_error(L, "out of memory");
+  if (n) memcpy(g, ambit_lua_to_array(L, 5, n), n * sizeof *g);
+  for (size_t i = 0; i < n; i++) name[i] = text_at(L, s->arena, 6, (lua_Integer)i + 1);
+  s->system.ninvariant = n;
+  s->system.invariant = g;
+  s->system.invariant_name = name;
+}
+
+/* system({name}, {unit}, {state}, {rate} [, {invariant}, {name}]) */
 static int system_new(lua_State *L) {
   size_t n = (size_t)luaL_len(L, 1);
+  lua_settop(L, 6);
   ambit_lua_system *s = ambit_lua_push_system(L);
   const char **name = ambit_arena_alloc(s->arena, n * sizeof *name),
              **unit = ambit_arena_alloc(s->arena, n * sizeof *unit);
@@ -47,6 +62,8 @@ static int system_new(lua_State *L) {
   s->system = (ambit_system) {
     .graph = AMBIT_LUA(L)->graph, .nx = n, .name = name, .unit = unit, .state = state, .rate = rate
   };
+  add_invariants(L, s);
+  lua_settop(L, 7);
   return 1;
 }
 

@@ -68,8 +68,7 @@ static ambit_expr number_expression(lua_State *L, int idx, const char *what) {
   return ambit_graph_number(g, x);
 }
 
-/* "kg*m^2/s^3" of a dimension, for the unit reader. */
-static void dimension_text(const int8_t power[7], char out[96]) {
+void ambit_lua_dimension_text(const int8_t power[7], char out[AMBIT_LUA_DIMENSION_MAX]) {
   static const char *const base[7] = { "m", "kg", "s", "A", "K", "mol", "cd" };
   size_t used = 0;
   out[0] = '\0';
@@ -78,10 +77,10 @@ static void dimension_text(const int8_t power[7], char out[96]) {
       int p = power[i] * sign;
       if (p <= 0) continue;
       const char *join = sign < 0 ? (used ? "/" : "1/") : used ? "*" : "";
-      used += (size_t)snprintf(out + used, 96 - used, p == 1 ? "%s%s" : "%s%s^%d", join, base[i], p);
+      used += (size_t)snprintf(out + used, AMBIT_LUA_DIMENSION_MAX - used, p == 1 ? "%s%s" : "%s%s^%d", join, base[i], p);
     }
   }
-  if (!used) snprintf(out, 96, "1");
+  if (!used) snprintf(out, AMBIT_LUA_DIMENSION_MAX, "1");
 }
 
 static bool text_is_set(const char *text, const char *rest) {
@@ -114,11 +113,11 @@ static ambit_status text_expression(
   ambit_interval x;
   const char *rest = "";
   ambit_unit unit = { 0 };
-  char dimension[96];
+  char dimension[AMBIT_LUA_DIMENSION_MAX];
   if (ambit_decimal_read(text, &x, &rest, f) != AMBIT_OK) return f->status;
   while (isspace((unsigned char)*rest)) rest++;
   if (*rest && ambit_unit_read(rest, &unit, f) != AMBIT_OK) return f->status;
-  if (!wanted) dimension_text(unit.power, dimension);
+  if (!wanted) ambit_lua_dimension_text(unit.power, dimension);
   memcpy(out->dimension, unit.power, sizeof out->dimension);
   out->known = *rest != '\0';
   if (text_is_set(text, rest)) {
@@ -133,11 +132,11 @@ static ambit_status text_expression(
 static void check_dimension(lua_State *L, const ambit_lua_expression *x, const char *wanted, const char *what) {
   ambit_unit unit;
   ambit_failure f = { 0 };
-  char have[96], message[256];
+  char have[AMBIT_LUA_DIMENSION_MAX], message[256];
   if (!wanted || !x->known) return;
   if (ambit_unit_read(wanted, &unit, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
   if (memcmp(unit.power, x->dimension, sizeof unit.power) == 0) return;
-  dimension_text(x->dimension, have);
+  ambit_lua_dimension_text(x->dimension, have);
   snprintf(message, sizeof message, "expected a value in %s, got one in %s", wanted, have);
   wrong(L, what, message);
 }

@@ -2,10 +2,13 @@
 #include "lua/core.h"
 #include "lua/receiver.h"
 #include "lua/request.h"
+#include "lua/run_options.h"
 #include "lua/system.h"
+#include "lua/events.h"
 #include "model/evaluate.h"
 #include "model/sample.h"
 #include "model/simulate.h"
+#include "model/suggest.h"
 #include <string.h>
 
 /* (arithmetic, options, {expression}, {leaf}, {value}) at 1..5 */
@@ -66,18 +69,20 @@ static int sample_expressions(lua_State *L) {
 /* -- simulate */
 
 static void push_result(lua_State *L, const ambit_receiver *to, const ambit_simulate_result *result) {
-  lua_createtable(L, 0, 6);
+  lua_createtable(L, 0, 9);
   ambit_lua_set_text(L, "status", ambit_receiver_status(to, result->status));
   ambit_lua_set_text(L, "reason", ambit_receiver_reason(to, result->reason));
   ambit_lua_set_number(L, "t_reached", result->t_reached);
   ambit_lua_set_number(L, "cpu_seconds", result->cpu_seconds);
+  ambit_lua_set_number(L, "wall_seconds", result->wall_seconds);
   ambit_lua_set_count(L, "step_count", result->steps);
+  ambit_lua_set_count(L, "threads", result->threads);
+  ambit_lua_set_count(L, "pieces", result->pieces);
   lua_pushboolean(L, result->rigorous != 0);
   lua_setfield(L, -2, "rigorous");
 }
 
-/* (system, solver, arithmetic or nil, solver options, arithmetic options, {initial}, {time}) at 1..7 */
-static ambit_simulate_request simulate_request(lua_State *L) {
+ambit_simulate_request ambit_lua_simulate_request(lua_State *L) {
   ambit_lua_system *s = ambit_lua_check_system(L, 1);
   ambit_simulate_request q = { .system = &s->system, .registry = AMBIT_LUA(L)->registry };
   q.solver = luaL_checkstring(L, 2);
@@ -89,20 +94,24 @@ static ambit_simulate_request simulate_request(lua_State *L) {
   return q;
 }
 
-/* simulate(system, solver, arithmetic or nil, solver options, arithmetic options, {initial}, {time}) -> track, result,
-** report */
+/* simulate(system, solver, arithmetic or nil, solver options, arithmetic options, {initial}, {time}, events or nil,
+** run options or nil) -> track, result, report */
 static int simulate(lua_State *L) {
-  ambit_simulate_request q = simulate_request(L);
-  ambit_receiver to = ambit_receiver_push(L, q.system->nx, q.system->name, 0);
-  q.sink = &to.sink;
+  ambit_lua_events *events = ambit_lua_find_events(L, 8);
+  ambit_simulate_request q = ambit_lua_simulate_request(L);
   q.wish = AMBIT_WISH_SET;
+  uint32_t keep = ambit_lua_run_options(L, 9, &q);
+  ambit_receiver to = ambit_receiver_push(L, q.system->nx, q.system->name, keep);
+  q.sink = &to.sink;
   q.prepared = ambit_receiver_prepared;
   q.prepared_user = &to;
   ambit_simulate_result result = { 0 };
   ambit_report report = { 0 };
   ambit_failure f = { 0 };
+  ambit_lua_events_begin(events, &q, &to);
   ambit_receiver_begin(L, &to);
   ambit_status status = ambit_simulate(&q, &result, &report, &f);
+  ambit_lua_events_end(events);
   ambit_receiver_end(&to);
   if (status != AMBIT_OK) ambit_lua_raise(L, &f);
   push_result(L, &to, &result);
@@ -110,12 +119,43 @@ static int simulate(lua_State *L) {
   return 3;
 }
 
-/* sample_system(as simulate, draws, seed) -> {enclosure} by instant and state, {status, reason, draws, failed,
+/* look(system, solver or "", arithmetic, options, options, {initial}, {time}) -> facts by which a solver is chosen, or
+** nil and why there are none */
+static int look(lua_State *L) {
+  ambit_simulate_request q = ambit_lua_simulate_request(L);
+  ambit_suggest_facts facts;
+  ambit_failure f = { 0 };
+  if (ambit_suggest_look(&q, &facts, &f) != AMBIT_OK) {
+    lua_pushnil(L);
+    lua_pushstring(L, f.message);
+    return 2;
+  }
+  lua_createtable(L, 0, 14);
+  ambit_lua_set_count(L, "states", facts.states);
+  ambit_lua_set_count(L, "parameters", facts.parameters);
+  ambit_lua_set_count(L, "unknowns", facts.unknowns);
+  ambit_lua_set_count(L, "invariants", facts.invariants);
+  ambit_lua_set_count(L, "kinks", facts.kinks);
+  ambit_lua_set_number(L, "horizon", facts.horizon);
+  ambit_lua_set_number(L, "seen", facts.seen);
+  ambit_lua_set_number(L, "width", facts.width);
+  ambit_lua_set_number(L, "spread", facts.spread);
+  ambit_lua_set_number(L, "bend", facts.bend);
+  ambit_lua_set_number(L, "decay", facts.decay);
+  ambit_lua_set_number(L, "swing", facts.swing);
+  ambit_lua_set_count(L, "steps", facts.steps);
+  if (facts.kink[0]) ambit_lua_set_text(L, "kink", facts.kink);
+  return 1;
+}
+
+/* sample_system(as simulate, draws, seed, threads or nil) -> {enclosure} by instant and state, {status, reason, draws, failed,
 ** cpu_seconds}, report */
 static int sample_system(lua_State *L) {
   size_t draws = (size_t)luaL_checkinteger(L, 8);
   uint64_t seed = (uint64_t)luaL_checkinteger(L, 9);
-  ambit_simulate_request q = simulate_request(L);
+  uint32_t threads = (uint32_t)luaL_optinteger(L, 10, 0);
+  ambit_simulate_request q = ambit_lua_simulate_request(L);
+  q.threads = threads;
   ambit_receiver to = ambit_receiver_silent();
   q.sink = &to.sink;
   size_t n = q.ntime * q.system->nx;
@@ -139,7 +179,7 @@ static int sample_system(lua_State *L) {
 }
 
 void ambit_lua_open_verbs(lua_State *L, ambit_lua *core) {
-  static const luaL_Reg functions[] = { { "evaluate", evaluate }, { "simulate", simulate },
+  static const luaL_Reg functions[] = { { "evaluate", evaluate }, { "simulate", simulate }, { "look", look },
     { "sample_expressions", sample_expressions }, { "sample_system", sample_system }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
 }

@@ -14,4 +14,9 @@ ambit_status ambit_pair_choose(ambit_registry *r, const char *solver_name, const
 static inline uint32_t ambit_pair_want(const ambit_solver *solver, const double *option) {
   return solver->want_for ? solver->want_for(option) : solver->want;
 }
+
+/* Independent variables of the arithmetic's context for a solver that wants this. */
+static inline uint32_t ambit_pair_variables(const ambit_problem *p, uint32_t want) {
+  return (want & AMBIT_WANT_INITIAL ? p->nu : p->nx + p->np) + (want & AMBIT_WANT_TIME ? 1 : 0);
+}
 #endif

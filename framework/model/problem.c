@@ -197,12 +197,20 @@ static ambit_status check_hull(const build *b, uint32_t flags, const ambit_inter
   return AMBIT_OK;
 }
 
+/* The graph's facts hold for the whole range of an unknown, hence for a part of it. */
+static ambit_interval range_of(const build *b, ambit_expr unknown) {
+  ambit_interval range = ambit_graph_node(b->graph, unknown)->value;
+  for (size_t i = 0; i < b->q->nnarrow; i++)
+    if (b->q->narrow[i] == unknown) range = ambit_interval_intersect(range, b->q->range[i]);
+  return range;
+}
+
 static ambit_status find_hulls(build *b) {
   ambit_problem *p = b->p;
   ambit_interval *range = room(b, p->nu, sizeof *range), *slot = room(b, b->initial->nslot, sizeof *slot);
   ambit_interval *x = room(b, (size_t)p->nx + p->np, sizeof *x);
   if (!range || !slot || !x) return no_memory(b);
-  for (uint32_t i = 0; i < p->nu; i++) range[i] = ambit_graph_node(b->graph, b->unknown[i])->value;
+  for (uint32_t i = 0; i < p->nu; i++) range[i] = range_of(b, b->unknown[i]);
   uint32_t flags = ambit_hull(b->initial, range, slot);
   for (uint32_t i = 0; i < p->nx + p->np; i++) x[i] = slot[b->initial->out[i]];
   ambit_status status = check_hull(b, flags, x);
@@ -244,6 +252,19 @@ static ambit_status seal_jacobian(
   return ambit_tape_seal(b->graph, b->arena, n * nx, entry, count_inputs(b), b->input, nx, b->q->seal, tape, b->f);
 }
 
+/* By the parameters; none where a rate has no derivative (solvers then do without). */
+static ambit_status seal_slope(build *b, const ambit_tape **tape) {
+  size_t nx = b->p->nx, np = b->p->np;
+  ambit_expr *entry = room(b, nx * np + 1, sizeof *entry);
+  if (!entry) return no_memory(b);
+  for (size_t i = 0; i < nx * np; i++) {
+    ambit_failure why = { 0 };
+    entry[i] = ambit_graph_derivative(b->graph, b->rate[i / np], b->input[nx + i % np], &why);
+    if (entry[i] == AMBIT_NO_EXPR) return why.status == AMBIT_OK || why.status == AMBIT_NOMEM ? no_memory(b) : AMBIT_OK;
+  }
+  return ambit_tape_seal(b->graph, b->arena, nx * np, entry, count_inputs(b), b->input, nx, b->q->seal, tape, b->f);
+}
+
 /* The Jacobian only for solvers that want Jacobians: series have slopes, which need no derivative. */
 static ambit_status seal_invariants(build *b) {
   ambit_problem *p = b->p;
@@ -266,6 +287,7 @@ static ambit_status seal_wanted(build *b) {
   if (want & (AMBIT_WANT_RHS | AMBIT_WANT_SERIES)) status = seal_flow(b, p->nx, b->rate, &p->rhs);
   if (status == AMBIT_OK && (want & AMBIT_WANT_JACOBIAN))
     status = seal_jacobian(b, p->nx, b->rate, "right-hand side of state", p->name, &p->jacobian);
+  if (status == AMBIT_OK && (want & AMBIT_WANT_SLOPE) && p->np) status = seal_slope(b, &p->slope);
   if (status == AMBIT_OK && b->ninvariant) status = seal_invariants(b);
   if (want & AMBIT_WANT_INITIAL) p->initial = b->initial;
   return status;

@@ -13,6 +13,9 @@ typedef struct ambit_problem_request {
   uint32_t want;              /* AMBIT_WANT_* */
   uint32_t seal;              /* AMBIT_SEAL_KEEP or 0 */
   const ambit_expr **unknown; /* unless NULL, is told the unknowns [nu], in the order of the problem; in the arena */
+  size_t nnarrow;             /* unknowns that have a narrower range in this problem than their own, and that range */
+  const ambit_expr *narrow;
+  const ambit_interval *range;
 } ambit_problem_request;
 
 /* Fills everything but arithmetic and actx; all of it lives in the arena. Parameters are the unknowns that the

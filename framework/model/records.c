@@ -214,7 +214,8 @@ static ambit_interval ordered(double a, double b) {
 /* step: "t" is the instant of "x", "span" the time of "tube"; event: "t" encloses its instant. */
 static ambit_status put_root(ambit_records *r, const ambit_record *root, const char *const *name, ambit_failure *f) {
   ambit_records_begin(r, "root");
-  ambit_records_text(r, "proved", root->event == AMBIT_ROOT_UNIQUE ? "unique" : "undecided");
+  static const char *const proved[] = { "undecided", "unique", "partly" }; /* AMBIT_ROOT_* */
+  ambit_records_text(r, "proved", proved[root->event]);
   put_states(r, "x", root, root->lo, root->hi, name);
   return ambit_records_end(r, f);
 }

@@ -43,8 +43,18 @@ static ambit_status check_box(const ambit_roots_request *q, ambit_failure *f) {
   return AMBIT_OK;
 }
 
+/* equations that are to be solved, of those that are not 0 = 0 */
+static size_t count_leading(const job *j) {
+  size_t n = 0;
+  if (!j->q->leading) return j->ready.ne;
+  for (size_t i = 0; i < j->ready.ne; i++) n += j->ready.place[i] < j->q->leading;
+  return n;
+}
+
+static bool is_implied(const job *j) { return j->q->leading && count_leading(j) == j->ready.nx; }
+
 static ambit_status check_count(const job *j, ambit_failure *f) {
-  size_t ne = j->ready.ne, nx = j->ready.nx;
+  size_t ne = count_leading(j), nx = j->ready.nx;
   if (ne >= nx) return AMBIT_OK;
   char list[256] = "";
   size_t used = 0;
@@ -86,7 +96,7 @@ static double middle(ambit_interval x) { return fmin(fmax(ambit_interval_mid(x),
 static ambit_status choose_rows(job *j, ambit_failure *f) {
   ambit_ready *r = &j->ready;
   const ambit_tape *slopes;
-  if (r->ne == r->nx) return AMBIT_OK;
+  if (r->ne == r->nx || is_implied(j)) return AMBIT_OK;
   ambit_status status = ambit_equations_differentiate(r, r->ne, r->equation, 0, r->nx, 0, &slopes, f);
   if (status != AMBIT_OK) return status;
   double *x = ambit_arena_alloc(j->arena, r->nx * sizeof *x);
@@ -126,6 +136,7 @@ static ambit_status build_problem(job *j, uint32_t want, ambit_failure *f) {
     .size = sizeof *p, .nx = (uint32_t)r->nx, .np = (uint32_t)r->np, .nu = (uint32_t)r->np, .name = r->name
   };
   size_t further = r->ne - r->nx;
+  if (is_implied(j)) p->wish = AMBIT_WISH_IMPLIED;
   ambit_status status = copy_ranges(j, f);
   if (status == AMBIT_OK) status = ambit_equations_seal(r, r->nx, r->equation, j->seal, &p->rhs, f);
   if (status == AMBIT_OK && (want & AMBIT_WANT_JACOBIAN))
@@ -188,7 +199,7 @@ static const char *find_fault(const guard *g, const ambit_record *r) {
   if (r->nx != g->nx || !r->lo || !r->hi) return "a root without an enclosure of every unknown";
   for (uint32_t i = 0; i < r->nx; i++)
     if (!(r->lo[i] <= r->hi[i])) return "a root with an empty or NaN enclosure";
-  return r->event > AMBIT_ROOT_UNIQUE ? "a root of an unknown kind" : NULL;
+  return r->event > AMBIT_ROOT_PARTLY ? "a root of an unknown kind" : NULL;
 }
 
 static int32_t pass(guard *g, const ambit_record *r) {
@@ -196,7 +207,9 @@ static int32_t pass(guard *g, const ambit_record *r) {
   if (g->broken) return 1;
   if (r->kind == AMBIT_REC_SEARCHED) g->result->boxes = r->ncoef;
   if (r->kind != AMBIT_REC_ROOT) return 0;
-  *(r->event == AMBIT_ROOT_UNIQUE ? &g->result->proved : &g->result->undecided) += 1;
+  ambit_roots_result *to = g->result;
+  uint32_t *const count[] = { &to->undecided, &to->proved, &to->partly };
+  *count[r->event] += 1;
   return g->outer && g->outer->emit ? g->outer->emit(g->outer, r) : 0;
 }
 
@@ -215,7 +228,7 @@ static int32_t progress(ambit_sink *s, double done, const char *message) {
   ambit_allocation_forbid(0);
   int32_t stop = g->outer->progress(g->outer, done, message);
   g->stopped = g->stopped || stop;
-  if (g->result->proved + g->result->undecided) ambit_allocation_forbid(1);
+  if (g->result->proved + g->result->partly + g->result->undecided) ambit_allocation_forbid(1);
   return stop;
 }
 
@@ -246,7 +259,7 @@ static ambit_status run(job *j, ambit_roots_result *result, ambit_failure *f) {
   j->problem.arithmetic = j->context.arithmetic;
   j->problem.actx = j->context.ctx;
   result->rigorous = j->solver->needs_rigorous && j->context.arithmetic->rigorous;
-  result->further = j->problem.ninvariant;
+  result->further = is_implied(j) ? 0 : j->problem.ninvariant;
   ambit_status status = j->solver->open(&j->lease->host, &j->problem, j->option, &self);
   if (status != AMBIT_OK) {
     char who[96];

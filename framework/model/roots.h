@@ -22,6 +22,9 @@ typedef struct ambit_roots_request {
   const ambit_equations *equations; /* as many as unknowns or more */
   const ambit_interval *box;        /* [nx], may be unbounded */
   const double *centre; /* [nx] where nx independent equations are chosen if there are more, or NULL: the middle */
+  /* 0; or the number of equations that are solved: those behind them hold at each root of these, or are off by more than
+  ** an enclosure of it is wide; they only narrow and exclude */
+  size_t leading;
   ambit_registry *registry;
   const char *solver;     /* "krawczyk" */
   const char *arithmetic; /* NULL: the solver's default */
@@ -34,7 +37,7 @@ typedef struct ambit_roots_result {
   ambit_status status; /* OK: every box is decided; UNABLE, STOPPED */
   char reason[1024];
   double cpu_seconds;
-  uint32_t boxes, proved, undecided;
+  uint32_t boxes, proved, partly, undecided; /* partly: for a part of the uncertain data's values */
   uint32_t further; /* equations beyond the unknowns that had to hold, and could not be proved to: all roots are then
                     ** undecided */
   uint32_t rigorous;

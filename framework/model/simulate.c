@@ -1,94 +1,18 @@
-/* simulate.c -- checks the pair, builds the problem, runs the solver behind a sink that watches it.
-**
-** The kernel trusts no record blindly: a NaN or reversed bound, a gap in time or a run that claims to be complete
-** without having reached the end makes the outcome `broken`, never `complete`.
+/* simulate.c -- checks the pair, builds the problem, runs the solver behind a sink that watches it: once, or once for
+** each piece of a split.
 */
 #include "model/simulate.h"
 #include "graph/tape.h"
+#include "host/processors.h"
 #include "model/allocation.h"
 #include "model/context.h"
+#include "model/guard.h"
 #include "model/pair.h"
 #include "model/problem.h"
-#include <math.h>
+#include "model/split.h"
 #include <stdbool.h>
 #include <stdio.h>
-#include <string.h>
-
-/* -- the watching sink */
-
-typedef struct guard {
-  ambit_sink sink; /* first: what the solver sees */
-  ambit_sink *outer;
-  uint32_t nx, steps;
-  double direction, reached; /* +1 or -1; end of the last step, s */
-  bool stopped;
-  char broken[160]; /* what was wrong with a record, or "" */
-} guard;
-
-static bool bounds_make_sense(uint32_t n, const double *lo, const double *hi) {
-  for (uint32_t i = 0; i < n; i++)
-    if (!(lo[i] <= hi[i])) return false;
-  return true;
-}
-
-/* NULL: the step is sound in form */
-static const char *find_fault(const guard *g, const ambit_record *r) {
-  if (r->size < offsetof(ambit_record, ndense)) return "a record of the wrong size";
-  if (r->kind != AMBIT_REC_STEP) return NULL;
-  if (r->nx != g->nx || !r->lo || !r->hi) return "a step without an enclosure of every state";
-  if (!bounds_make_sense(r->nx, r->lo, r->hi)) return "a step with an empty or NaN enclosure";
-  if (r->tube_lo && r->tube_hi && !bounds_make_sense(r->nx, r->tube_lo, r->tube_hi))
-    return "a step with an empty or NaN tube";
-  if (!(g->direction * (r->t_from - g->reached) <= 0)) return "a step that leaves a gap in time";
-  if (!(g->direction * (r->t_to - g->reached) >= 0) || !isfinite(r->t_to))
-    return "a step against the direction of time";
-  return NULL;
-}
-
-static int32_t pass(guard *g, int32_t stop) {
-  g->stopped = g->stopped || stop;
-  ambit_allocation_forbid(1); /* from the first record on */
-  return stop;
-}
-
-static int32_t emit(ambit_sink *s, const ambit_record *given) {
-  guard *g = (guard *)(void *)s;
-  ambit_allocation_forbid(0);              /* what the receiver does is its own affair */
-  ambit_record whole = { 0 }, *r = &whole; /* a solver may be older than this kernel, and its records shorter */
-  memcpy(r, given, given->size < sizeof *r ? given->size : sizeof *r);
-  const char *fault = find_fault(g, r);
-  if (fault) {
-    snprintf(g->broken, sizeof g->broken, "%s", fault);
-    return pass(g, 1);
-  }
-  if (r->kind == AMBIT_REC_STEP) {
-    g->steps++;
-    g->reached = r->t_to;
-  }
-  return pass(g, g->outer && g->outer->emit ? g->outer->emit(g->outer, r) : 0);
-}
-
-static int32_t progress(ambit_sink *s, double done, const char *message) {
-  guard *g = (guard *)(void *)s;
-  if (!g->outer || !g->outer->progress) return 0;
-  ambit_allocation_forbid(0);
-  int32_t stop = g->outer->progress(g->outer, done, message);
-  g->stopped = g->stopped || stop;
-  if (g->steps) ambit_allocation_forbid(1);
-  return stop;
-}
-
-static guard make_guard(const ambit_problem *p, ambit_sink *outer) {
-  return (guard) {
-    .sink = { sizeof(ambit_sink), emit, progress },
-    .outer = outer,
-    .nx = p->nx,
-    .direction = p->time[p->ntime - 1] < p->time[0] ? -1 : 1,
-    .reached = p->time[0],
-  };
-}
-
-/* -- the run */
+#include <time.h>
 
 typedef struct job {
   const ambit_simulate_request *q;
@@ -96,10 +20,73 @@ typedef struct job {
   const ambit_solver *solver;
   char arithmetic[AMBIT_NAME_MAX];
   ambit_problem problem;
-  ambit_context context;
+  const ambit_tape *initial; /* x(t0) and p over the unknowns, of a split */
+  ambit_split_plan plan;
+  bool splits;
+  uint32_t threads, ncontext; /* threads of the run; contexts that are open */
+  ambit_context *context;
+  void **ctx; /* [ncontext] of the contexts */
   ambit_lease *lease;
   double *option;
 } job;
+
+static bool is_split(const ambit_simulate_request *q) {
+  bool cuts = q->pieces > 0;
+  for (size_t i = 0; i < q->ncut; i++) cuts = cuts || q->cut[i].parts > 0;
+  return cuts;
+}
+
+static ambit_status count_threads(job *j, ambit_failure *f) {
+  if (j->q->threads == 0) return ambit_processors_threads(&j->threads, f);
+  j->threads = j->q->threads < AMBIT_THREADS_MAX ? j->q->threads : AMBIT_THREADS_MAX;
+  return AMBIT_OK;
+}
+
+/* One for each thread that will compute: a context belongs to one thread at a time. */
+static ambit_status open_contexts(job *j, uint32_t want, ambit_failure *f) {
+  const ambit_simulate_request *q = j->q;
+  const ambit_problem *p = &j->problem;
+  uint32_t nvar = ambit_pair_variables(p, want), n = 1;
+  if (j->splits)
+    n = j->threads < j->plan.pieces.count ? j->threads : j->plan.pieces.count;
+  else if (want & AMBIT_WANT_WORKERS)
+    n = j->threads;
+  j->context = ambit_arena_alloc(j->arena, n * sizeof *j->context);
+  j->ctx = ambit_arena_alloc(j->arena, n * sizeof *j->ctx);
+  if (!j->context || !j->ctx) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  for (; j->ncontext < n; j->ncontext++) {
+    ambit_context *c = &j->context[j->ncontext];
+    ambit_status status =
+        ambit_context_open(q->registry, j->arithmetic, q->narithmetic_option, q->arithmetic_option, nvar, c, f);
+    if (status != AMBIT_OK) return status;
+    j->ctx[j->ncontext] = c->ctx;
+  }
+  j->problem.arithmetic = j->context->arithmetic;
+  j->problem.actx = j->context->ctx;
+  j->problem.nworker = j->splits ? 1 : j->threads;
+  j->problem.worker = want & AMBIT_WANT_WORKERS ? j->ctx : NULL;
+  return AMBIT_OK;
+}
+
+/* The tapes, and what is cut. */
+static ambit_status build(job *j, uint32_t want, uint32_t seal, ambit_failure *f) {
+  const ambit_simulate_request *q = j->q;
+  const ambit_expr *unknown;
+  size_t ntime = q->ntime;
+  const double *time = j->splits ? ambit_split_plan_instants(j->arena, q->time, &ntime) : q->time;
+  if (!time) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  uint32_t all = j->splits ? want | AMBIT_WANT_INITIAL | AMBIT_WANT_RHS : want;
+  ambit_problem_request request = { q->system, q->initial, ntime, time, all, seal, &unknown, q->nnarrow, q->narrow,
+    q->range };
+  ambit_status status = ambit_problem_build(&request, j->arena, &j->problem, f);
+  if (status != AMBIT_OK) return status;
+  j->problem.wish = q->wish;
+  if (q->prepared) q->prepared(q->prepared_user, j->problem.nu, unknown);
+  if (!j->splits) return AMBIT_OK;
+  j->initial = j->problem.initial;
+  if (!(want & AMBIT_WANT_INITIAL)) j->problem.initial = NULL;
+  return ambit_split_plan_make(&j->problem, j->initial, unknown, q->ncut, q->cut, q->pieces, j->arena, &j->plan, f);
+}
 
 static ambit_status prepare(job *j, ambit_failure *f) {
   const ambit_simulate_request *q = j->q;
@@ -119,59 +106,54 @@ static ambit_status prepare(job *j, ambit_failure *f) {
   status = ambit_registry_arithmetic(q->registry, j->arithmetic, &arithmetic, f);
   if (status != AMBIT_OK) return status;
   uint32_t want = ambit_pair_want(j->solver, j->option);
-  const ambit_expr *unknown;
-  ambit_problem_request request = { q->system, q->initial, q->ntime, q->time, want,
-    arithmetic->set_text ? AMBIT_SEAL_KEEP : 0, &unknown };
-  status = ambit_problem_build(&request, j->arena, &j->problem, f);
-  if (status != AMBIT_OK) return status;
-  j->problem.wish = q->wish;
-  if (q->prepared) q->prepared(q->prepared_user, j->problem.nu, unknown);
-  const ambit_problem *p = &j->problem;
-  uint32_t nvar = want & AMBIT_WANT_INITIAL ? p->nu : p->nx + p->np;
-  return ambit_context_open(
-      q->registry, j->arithmetic, q->narithmetic_option, q->arithmetic_option, nvar, &j->context, f);
+  j->splits = is_split(q);
+  status = build(j, want, arithmetic->set_text ? AMBIT_SEAL_KEEP : 0, f);
+  if (status == AMBIT_OK) status = count_threads(j, f);
+  return status == AMBIT_OK ? open_contexts(j, want, f) : status;
 }
 
-static void explain(const job *j, ambit_status status, const char *fallback, ambit_simulate_result *result) {
-  result->status = status >= AMBIT_OK && status <= AMBIT_BROKEN ? status : AMBIT_BROKEN;
-  const char *own = j->lease->failure.message;
-  if (own[0])
-    snprintf(result->reason, sizeof result->reason, "%s", own);
-  else
-    snprintf(result->reason, sizeof result->reason, "solver `%s` %s", j->q->solver, fallback);
+/* -- the run */
+
+static double wall_seconds(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* The outcome from what the solver says and what the guard saw. */
-static void judge(const job *j, const guard *g, ambit_status said, ambit_simulate_result *result) {
-  double end = j->problem.time[j->problem.ntime - 1];
+static void finish(
+    const job *j, const ambit_guard *g, ambit_status said, const char *own, ambit_simulate_result *result) {
   result->t_reached = g->reached;
   result->steps = g->steps;
-  if (g->broken[0]) {
-    result->status = AMBIT_BROKEN;
-    snprintf(result->reason, sizeof result->reason, "solver `%s` is broken: it gave %s", j->q->solver, g->broken);
-  } else if (g->stopped && g->reached != end) {
-    result->status = AMBIT_STOPPED;
-    snprintf(result->reason, sizeof result->reason, "stopped on request at t = %.9g s", g->reached);
-  } else if (said == AMBIT_OK && g->reached != end) {
-    result->status = AMBIT_BROKEN;
-    snprintf(result->reason, sizeof result->reason,
-        "solver `%s` is broken: it says it is done at t = %.9g s, before the end", j->q->solver, g->reached);
-  } else if (said != AMBIT_OK && !(said == AMBIT_STOPPED && g->reached == end)) {
-    explain(j, said, said == AMBIT_STOPPED ? "stopped without being asked to" : "could not go on and gave no reason",
-        result);
-  }
+  result->status = ambit_guard_judge(g, said, j->q->solver, own, result->reason);
 }
 
-static ambit_status run(job *j, ambit_simulate_result *result, ambit_failure *f) {
+static ambit_status run_pieces(job *j, ambit_guard *g, ambit_simulate_result *result, ambit_failure *f) {
+  ambit_split split = { .problem = &j->problem,
+    .initial = j->initial,
+    .pieces = &j->plan.pieces,
+    .unknown = j->plan.name,
+    .registry = j->q->registry,
+    .solver = j->solver,
+    .solver_name = j->q->solver,
+    .option = j->option,
+    .ncontext = j->ncontext,
+    .context = j->ctx,
+    .sink = &g->sink };
+  ambit_split_outcome outcome;
+  double start = ambit_context_seconds(), wall = wall_seconds();
+  ambit_status status = ambit_split_run(&split, j->arena, &outcome, f);
+  result->cpu_seconds = ambit_context_seconds() - start;
+  result->wall_seconds = wall_seconds() - wall;
+  if (status == AMBIT_OK) finish(j, g, outcome.said, outcome.reason, result);
+  return status;
+}
+
+static ambit_status run_whole(job *j, ambit_guard *g, ambit_simulate_result *result, ambit_failure *f) {
   void *self = NULL;
-  guard g = make_guard(&j->problem, j->q->sink);
-  j->problem.arithmetic = j->context.arithmetic;
-  j->problem.actx = j->context.ctx;
-  result->t_reached = g.reached;
-  result->rigorous = j->solver->needs_rigorous && j->context.arithmetic->rigorous;
   ambit_status status = j->solver->open(&j->lease->host, &j->problem, j->option, &self);
   if (status == AMBIT_UNABLE || status == AMBIT_DOMAIN) {
-    explain(j, status, "could not start and gave no reason", result);
+    result->status = ambit_guard_explain(
+        status, j->q->solver, j->lease->failure.message, "could not start and gave no reason", result->reason);
     return AMBIT_OK;
   }
   if (status != AMBIT_OK) {
@@ -179,13 +161,23 @@ static ambit_status run(job *j, ambit_simulate_result *result, ambit_failure *f)
     snprintf(who, sizeof who, "solver `%s`", j->q->solver);
     return ambit_context_failed(j->lease, status, who, f);
   }
-  double start = ambit_context_seconds();
-  ambit_status said = j->solver->run(self, &g.sink);
+  double start = ambit_context_seconds(), wall = wall_seconds();
+  ambit_status said = j->solver->run(self, &g->sink);
   ambit_allocation_forbid(0);
   result->cpu_seconds = ambit_context_seconds() - start;
+  result->wall_seconds = wall_seconds() - wall;
   j->solver->close(self);
-  judge(j, &g, said, result);
+  finish(j, g, said, j->lease->failure.message, result);
   return AMBIT_OK;
+}
+
+static ambit_status run(job *j, ambit_simulate_result *result, ambit_failure *f) {
+  ambit_guard g = ambit_guard_make(&j->problem, j->q->sink);
+  result->t_reached = g.reached;
+  result->rigorous = j->solver->needs_rigorous && j->problem.arithmetic->rigorous;
+  result->threads = j->splits || j->problem.worker ? j->ncontext : 1;
+  result->pieces = j->splits ? j->plan.pieces.count : 1;
+  return j->splits ? run_pieces(j, &g, result, f) : run_whole(j, &g, result, f);
 }
 
 /* -- the report */
@@ -197,6 +189,7 @@ static void fill_report(const job *j, double built, const ambit_simulate_result 
   report->graph_nodes = ambit_graph_count(j->q->system->graph);
   ambit_report_count(report, j->problem.rhs);
   ambit_report_count(report, j->problem.jacobian);
+  ambit_report_count(report, j->problem.slope);
   ambit_report_count(report, j->problem.invariant);
   ambit_report_count(report, j->problem.invariant_jacobian);
   report->states = j->problem.nx;
@@ -216,7 +209,7 @@ ambit_status ambit_simulate(
   double built = ambit_context_seconds() - start;
   if (status == AMBIT_OK) status = run(&j, result, f);
   if (status == AMBIT_OK && report) fill_report(&j, built, result, report);
-  ambit_context_close(&j.context);
+  for (uint32_t i = 0; i < j.ncontext; i++) ambit_context_close(&j.context[i]);
   ambit_lease_close(j.lease);
   ambit_arena_close(j.arena);
   return status;

@@ -3,6 +3,7 @@
 #define AMBIT_SIMULATE_H
 #include "host/registry.h"
 #include "model/report.h"
+#include "model/split_plan.h"
 #include "graph/system.h"
 #include <ambit/solver.h>
 
@@ -16,10 +17,17 @@ typedef struct ambit_simulate_request {
   const ambit_expr *initial; /* [nx] over unknowns; every state */
   size_t ntime;              /* >= 2 */
   const double *time;
-  uint32_t wish; /* AMBIT_WISH_*: what the sink would like besides */
+  uint32_t threads;     /* at most; 0: as host/processors.h says */
+  size_t ncut;          /* uncertain data to cut (split.h), or names of others */
+  const ambit_cut *cut; /* without cuts and `pieces` the run is one */
+  uint32_t pieces;      /* at most so many by choice of the data to cut; 0: only those of `cut` */
+  uint32_t wish;        /* AMBIT_WISH_*: what the sink would like besides */
   /* or NULL: is told, before the first record, the unknowns that sets (ambit_set) are functions of */
   void (*prepared)(void *user, size_t nu, const ambit_expr *unknown);
   void *prepared_user;
+  size_t nnarrow; /* unknowns that have a narrower range in this run than their own, and that range */
+  const ambit_expr *narrow;
+  const ambit_interval *range;
   ambit_sink *sink; /* sees every record as it is made */
 } ambit_simulate_request;
 
@@ -27,8 +35,9 @@ typedef struct ambit_simulate_result {
   ambit_status status; /* OK = complete, UNABLE, STOPPED, DOMAIN */
   char reason[1024];   /* "" if complete; else why, and which knob to turn */
   double t_reached;
-  double cpu_seconds; /* of the integration itself */
-  uint32_t steps;
+  double cpu_seconds; /* of the integration itself, over all threads */
+  double wall_seconds;
+  uint32_t steps, threads, pieces;
   uint32_t rigorous;
 } ambit_simulate_result;
 

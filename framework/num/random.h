@@ -15,6 +15,11 @@ static inline uint64_t ambit_random_bits(ambit_random *r) {
   return z ^ (z >> 31);
 }
 
+/* as if so many numbers had been taken: the state is a counter */
+static inline void ambit_random_skip(ambit_random *r, uint64_t count) {
+  r->state += count * UINT64_C(0x9e3779b97f4a7c15);
+}
+
 /* a double of the bounded, nonempty x */
 static inline double ambit_random_in(ambit_random *r, ambit_interval x) {
   double u = (double)(ambit_random_bits(r) >> 11) * 0x1p-53; /* [0, 1) */
@@ -23,7 +28,7 @@ static inline double ambit_random_in(ambit_random *r, ambit_interval x) {
 }
 /* Number `draw` of a sample from a box: 0 its midpoint, then in turn a corner and a point of the inside. Near-linear
 ** functions have their extremes at corners, which points of the inside do not come near in many dimensions.
-** out[i * stride], i < n.
+** out[i * stride], i < n. Draw 0 takes no numbers, every other one n.
 */
 static inline void ambit_random_draw(
     ambit_random *r, size_t draw, size_t n, const ambit_interval *range, double *out, size_t stride) {

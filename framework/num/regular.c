@@ -3,8 +3,7 @@
 #include <math.h>
 #include <stdint.h>
 
-/* c := approximate inverse of the midpoint, by Gauss-Jordan; false: none found. c [n*n], then scratch [n*n] */
-static bool invert_middle(size_t n, const ambit_interval *b, double *c) {
+bool ambit_invert_middle(size_t n, const ambit_interval *b, double *c) {
   double *a = c + n * n;
   for (size_t i = 0; i < n; i++)
     for (size_t j = 0; j < n; j++) {
@@ -36,8 +35,7 @@ static bool invert_middle(size_t n, const ambit_interval *b, double *c) {
 
 static ambit_interval point(double x) { return (ambit_interval) { x, x }; }
 
-/* Upper bound of ||1 - C B||_inf; infinite or NaN entries make it infinite. */
-static double distance_from_one(size_t n, const ambit_interval *b, const double *c) {
+double ambit_distance_from_one(size_t n, const ambit_interval *b, const double *c) {
   double norm = 0;
   for (size_t i = 0; i < n; i++) {
     ambit_interval sum = { 0, 0 };
@@ -55,7 +53,7 @@ static double distance_from_one(size_t n, const ambit_interval *b, const double 
 }
 
 bool ambit_is_regular(size_t n, const ambit_interval *b, double *scratch) {
-  return invert_middle(n, b, scratch) && distance_from_one(n, b, scratch) < 1;
+  return ambit_invert_middle(n, b, scratch) && ambit_distance_from_one(n, b, scratch) < 1;
 }
 
 /* of the rows k.. over the columns in the set */

@@ -4,6 +4,7 @@ local core = require "ambit.core"
 local explain_tree = require "ambit.command.explain_tree"
 local scene = require "ambit.command.scene"
 local session = require "ambit.session"
+local suggest = require "ambit.suggest"
 
 local command = { scene = true }
 
@@ -11,7 +12,7 @@ command.usage = [[
 usage: ambit explain [--json] SCENE.lua [ARG ...]
 Runs the scene with its output discarded, then prints which plugins and libraries it loaded, the model tree of every
 mechanism (parts, what hangs on what, coordinates, masses, closed loops), how many quantities were built of those
-available, and the size of every verb's problem.
+available, the size of every verb's problem, and for every simulation the best-suited solver and arithmetic and why.
   --json       one object per line instead]]
 
 local function discard_output()
@@ -58,6 +59,14 @@ local meaning = {
   seconds_run = "s to run", parameters = "uncertain parameters", states = "states", steps = "steps",
 }
 
+-- "suggested: stiff with interval, as here: ..." of a simulate
+local function print_suggestion(write, verb)
+  local s = verb.suggestion
+  if not s then return end
+  write("   %12s  %s with %s%s: %s\n", "best suited", s.solver, suggest.arithmetic(s.solver),
+    s.solver == verb.report.solver and ", as here" or "", s.reason)
+end
+
 local function print_text(write, facts)
   write("loaded plugins:    %s\n", #facts.loaded > 0 and table.concat(facts.loaded, " ") or "none")
   write("not loaded:        %s\n", table.concat(facts.left, " "))
@@ -67,6 +76,7 @@ local function print_text(write, facts)
     write("\n%d. %s (%s)%s%s\n", i, verb.verb, verb.status,
       verb.report.arithmetic and " in " .. verb.report.arithmetic or "",
       verb.report.solver and " by " .. verb.report.solver or "")
+    print_suggestion(write, verb)
     for _, key in ipairs(keys) do
       local value = verb.report[key]
       if meaning[key] and value and value ~= 0 then
@@ -92,7 +102,11 @@ local function write_json(facts)
     table.concat(facts.libraries, " ") })
   for _, m in ipairs(facts.mechanisms) do explain_tree.record(m) end
   for _, verb in ipairs(facts.verbs) do
-    core.record("verb", { "verb", verb.verb, "status", verb.status, "report", pairs_of(verb.report, keys) })
+    local fields = { "verb", verb.verb, "status", verb.status, "report", pairs_of(verb.report, keys) }
+    if verb.suggestion then
+      table.move({ "suggested", verb.suggestion.solver, "because", verb.suggestion.reason }, 1, 4, #fields + 1, fields)
+    end
+    core.record("verb", fields)
   end
   core.record("result", { "verb", "explain", "status", "complete", "cpu_seconds", facts.seconds })
   core.records_close()

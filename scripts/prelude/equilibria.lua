@@ -3,11 +3,13 @@
 --
 -- At rest every rate vanishes. A rate that is nothing but another state (beta1' of beta1: a speed) says that this state
 -- is 0; it is put in, and what is left are the accelerations at speed 0. Invariants (closed loops, the norm of a
--- quaternion) must hold besides.
+-- quaternion) must hold besides. Whether rest is stable is worked out for each point when `point.stability` is read, or
+-- for all of them with stability = true.
 local check = require "ambit.check"
 local core = require "ambit.core"
 local roots = require "ambit.roots"
 local simulate = require "ambit.simulate"
+local stability = require "ambit.stability"
 
 local verb = {}
 
@@ -70,7 +72,10 @@ end
 function verb.equilibria(t)
   check.table(t, "equilibria")
   local system = simulate.system(t, "equilibria")
-  local q = roots.settings(t, "equilibria", { "box", "at" }, 1)
+  local q = roots.settings(t, "equilibria", { "box", "at", "stability" }, 1)
+  if t.stability ~= nil and type(t.stability) ~= "boolean" then
+    check.fail("equilibria: stability: expected true or false, got %s", check.kind(t.stability))
+  end
   local speeds = find_speeds(system)
   local names, ranges = roots.read_box(t.box, "equilibria")
   local searched = check_box(names, system, speeds, "equilibria")
@@ -88,7 +93,11 @@ function verb.equilibria(t)
   for i, name in ipairs(names) do
     for k, state in ipairs(system.states) do if state == name then q.symbols[i] = system.symbols[k] end end
   end
-  return roots.finish(q, "equilibria", roots.run(q))
+  q.more = stability.new { system = system, speeds = speeds, searched = searched, leaves = more_leaves,
+    values = more_values }
+  local found = roots.finish(q, "equilibria", roots.run(q))
+  for _, point in ipairs(t.stability and found.proved or {}) do local _ = point.stability end
+  return found
 end
 
 return verb

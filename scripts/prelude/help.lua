@@ -34,8 +34,24 @@ ode { states = { "x" }, parameters = { a = 1 }, equations = function(s, p, t) re
 evaluate { expression or table of them, at = { name = value }, arithmetic = "interval" }: enclosures, in the same
 shape.]],
   simulate = [[
-simulate { ode, initial = { x = 1 }, t = { 0, 1 }, solver = "lohner", <options of the solver> }: a run with status,
-reason, t_reached, cpu_seconds, step_count, rigorous, x, :at(t), :steps().]],
+simulate { ode, initial = { x = 1 }, t = { 0, 1 }, solver = "lohner", <options of the solver>, split = { x = 8 } or 8,
+threads = 2, keep = "last", dense = true, events = { { g = function(s, p, t) ... end } } }: a run with status, reason,
+t_reached, cpu_seconds, wall_seconds, step_count, rigorous, events, x, :at(t), :steps(). Without solver, the one that
+suits: run.solver, run.solver_reason.]],
+  poincare = [[
+poincare { ode, section = function(s, p, t) ... end, direction = "rising", initial = { x = 1 }, t_max = 10, returns = 1,
+t_start = 0, solver = "lohner" }: the returns to a section, returns[i].t, .x, .set; :set(i), :orbit(): is there a
+periodic orbit?]],
+  hybrid = [[
+hybrid { modes = { fly = { ode, guards = { { g = function(s, p, t) ... end, direction = "falling", to = "fly", reset =
+function(s, p, t) return { v = -s.v } end } } } }, mode = "fly", initial = { y = 1, v = 0 }, t = { 0, 3 } }: a model
+that switches where a guard crosses 0: status, reason, t_reached, x, events, modes, :at(t), :steps().]],
+  verify = [[
+verify { ode, initial = { x = 1 }, t = { 0, 1 }, safe = expression or function(s, p, t), at_end = ..., reach = ...,
+budget = 200 }: proves or refutes that conditions are never positive: status, reason, bound, counterexample, conditions.]],
+  sensitivity = [[
+sensitivity { ode, initial = { x = 1 }, t = { 0, 1 }, wrt = { "x", k = datum } }: a run with derivatives by initial
+values and data: :d(state, by), :d_at(t, state, by), step.d(state, by), :unit(state, by).]],
   sample = "sample { expression or ode, n = 1000, seed = 1, ... }: Monte Carlo; proves nothing.",
   compare = [[
 compare { expression or table of them, at = { name = value }, arithmetics = { "interval", { "affine", symbols =

@@ -24,11 +24,11 @@ check.methods(Ode, Ode)
 
 local ode = {}
 
--- mechanism: the one whose equations of motion these are, if they are of one
-function ode.of_system(system, name, mechanism)
+-- mechanism: the one whose equations of motion these are, if they are of one; parameters: { name = expression }
+function ode.of_system(system, name, mechanism, parameters)
   local names, units, symbols, rates = core.system_parts(system)
   local self = setmetatable({ name = name, system = system, states = names, units = units, symbols = symbols,
-    rates = rates, mechanism = mechanism or false }, Ode)
+    rates = rates, mechanism = mechanism or false, parameters = parameters or {} }, Ode)
   session.add(session.odes, self)
   return self
 end
@@ -48,6 +48,13 @@ local function strict(values, what)
       tostring(key)) end,
     __pairs = function() return next, values end,
   })
+end
+
+-- What a function(s, p, t) of a system is called with.
+function ode.arguments(self)
+  local s = {}
+  for i, name in ipairs(self.states) do s[name] = self.symbols[i] end
+  return strict(s, "states"), strict(self.parameters, "parameters"), core.time()
 end
 
 -- { "x", "v" } or { x = "m", v = "m/s" }: a state with its unit
@@ -108,11 +115,12 @@ function ode.new(t)
     symbols[i] = core.symbol(name, units[i])
     values[name] = symbols[i]
   end
-  local s, p = strict(values, "ode: states"), strict(read_parameters(t.parameters, values), "ode: parameters")
+  local parameters = read_parameters(t.parameters, values)
+  local s, p = strict(values, "ode: states"), strict(parameters, "ode: parameters")
   local result = t.equations
   if type(result) == "function" then result = result(s, p, core.time()) end
   local rates = read_rates(result, names, s, p, core.time())
-  return ode.of_system(core.system(names, units, symbols, rates), t.name or t[1] or "ode")
+  return ode.of_system(core.system(names, units, symbols, rates), t.name or t[1] or "ode", nil, parameters)
 end
 
 return ode

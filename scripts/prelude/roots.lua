@@ -5,6 +5,7 @@ local core = require "ambit.core"
 local evaluate = require "ambit.evaluate"
 local option = require "ambit.option"
 local session = require "ambit.session"
+local slope = require "ambit.roots_slope"
 local shape = require "ambit.shape"
 
 local verb = {}
@@ -104,8 +105,17 @@ local function precedes(names)
   end
 end
 
-local function read_track(track, names, ranges)
-  local proved, undecided = {}, {}
+-- Facts about a point that are worked out when they are asked for: slope, and q.more(point, key).
+local function further(q)
+  return function(point, key)
+    if key == "slope" then return slope(q, point) end
+    return q.more and q.more(point, key)
+  end
+end
+
+-- The lists of what was found: proved, proved for a part of the uncertain data's values, undecided.
+local function read_track(track, names, ranges, more)
+  local lists = { [0] = {}, {}, {} }
   for i = 1, core.track_count(track) do
     local _, _, _, event = core.track_step(track, i)
     local facts = { inside = true }
@@ -114,12 +124,12 @@ local function read_track(track, names, ranges)
       facts.inside = facts.inside and is_inside(x, ranges[k])
       return x
     end)
-    local list = event == 1 and proved or undecided
+    setmetatable(facts, { __index = function(_, key) return more(point, key) end })
+    local list = lists[event]
     list[#list + 1] = point
   end
-  table.sort(proved, precedes(names))
-  table.sort(undecided, precedes(names))
-  return proved, undecided
+  for i = 0, 2 do table.sort(lists[i], precedes(names)) end
+  return lists[1], lists[2], lists[0]
 end
 
 local Roots = { __name = "roots" }
@@ -128,11 +138,15 @@ Roots.__index = Roots
 function Roots.__tostring(self)
   local lines = { ("%s: %d root%s proved, %d box%s undecided"):format(self.status, #self.proved,
     #self.proved == 1 and "" or "s", #self.undecided, #self.undecided == 1 and "" or "es") }
-  for _, point in ipairs(self.proved) do
-    local parts = {}
-    for _, name in ipairs(self.unknowns) do parts[#parts + 1] = ("%s = %s"):format(name, tostring(point[name])) end
-    lines[#lines + 1] = "  " .. table.concat(parts, ", ")
+  local function add(list, note)
+    for _, point in ipairs(list) do
+      local parts = {}
+      for _, name in ipairs(self.unknowns) do parts[#parts + 1] = ("%s = %s"):format(name, tostring(point[name])) end
+      lines[#lines + 1] = "  " .. table.concat(parts, ", ") .. note
+    end
   end
+  add(self.proved, "")
+  add(self.partly, " (for a part of the uncertain data)")
   if self.reason ~= "" then lines[#lines + 1] = self.reason end
   return table.concat(lines, "\n")
 end
@@ -154,11 +168,11 @@ function verb.settings(t, what, own_keys, positional)
   return q
 end
 
--- q: settings, and expressions, names, symbols (expressions), ranges, leaves, values, centre (numbers or nil)
+-- q: settings, and expressions, names, symbols (expressions), ranges, leaves, values, centre (numbers or nil), more
 function verb.run(q)
   local track, facts, report = core.roots(q.solver, q.arithmetic, q.options, q.arithmetic_options, q.expressions,
-    q.symbols, q.names, q.leaves, q.values, q.ranges, q.centre)
-  facts.proved, facts.undecided = read_track(track, q.names, q.ranges)
+    q.symbols, q.names, q.leaves, q.values, q.ranges, q.centre, q.leading)
+  facts.proved, facts.partly, facts.undecided = read_track(track, q.names, q.ranges, further(q))
   facts.unknowns, facts.solver, facts.arithmetic, facts.report = q.names, q.solver, report.arithmetic, report
   return setmetatable(facts, Roots)
 end

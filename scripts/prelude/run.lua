@@ -96,10 +96,19 @@ end
 
 check.methods(methods, Run)
 
+-- Number of the last step; behind it there may be an event that the end of the run left open.
+local function last_step(track)
+  for i = core.track_count(track), 1, -1 do
+    local _, _, kind = core.track_step(track, i)
+    if kind == "step" then return i end
+  end
+  return 0
+end
+
 function Run.__index(self, key)
   if methods[key] then return methods[key] end
   if key ~= "x" then return nil end
-  local n = core.track_count(self.track)
+  local n = last_step(self.track)
   local value = n > 0 and enclosures(self, n, false) or strict(self.initial(), self.states)
   rawset(self, "x", value)
   return value

@@ -58,10 +58,11 @@ end
 
 local function of_system(t)
   local draws, seed = draws_and_seed(t)
-  local q = simulate.request(t, "sample", "gsl", { "n", "seed" })
+  local q = simulate.request(t, "sample", "gsl", { "n", "seed", "threads" })
+  local threads = simulate.threads(t, "sample")
   local values, facts, report = core.sample_system(q.system.system, q.solver, q.arithmetic, q.options,
     q.arithmetic_options,
-    q.initial, q.times, draws, seed)
+    q.initial, q.times, draws, seed, threads)
   facts.values, facts.states, facts.t, facts.report = values, q.system.states, q.times, report
   session.finish("sample", facts, report, { "draws", draws, "seed", seed, "solver", q.solver })
   local result = setmetatable(facts, Sample)

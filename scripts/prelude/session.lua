@@ -7,6 +7,7 @@ local session = {
   verbs = {},                             -- { verb, status, report } in order
   mechanisms = setmetatable({}, weak),    -- by number; only what is still alive
   odes = setmetatable({}, weak),
+  explains = false,                       -- `ambit explain` wants to know which solver would suit
   unable = false,                         -- did a verb end without a proof?
   asked = nil,                            -- a list: `ambit compare` wants to know what is evaluated
   comparisons = {},                       -- what ambit.compare found, in order
@@ -26,6 +27,7 @@ end
 -- For `ambit explain`: from now on nothing is forgotten.
 function session.keep()
   setmetatable(session.mechanisms, nil)
+  session.explains = true
 end
 
 -- What an evaluate is about to compute: { expressions, paths, leaves, values, arithmetic }.

@@ -2,6 +2,7 @@
 -- }.
 local check = require "ambit.check"
 local core = require "ambit.core"
+local event = require "ambit.event"
 local instant = require "ambit.instant"
 local loops = require "ambit.loops"
 local mechanism = require "ambit.mechanism"
@@ -9,8 +10,12 @@ local ode = require "ambit.ode"
 local option = require "ambit.option"
 local run = require "ambit.run"
 local session = require "ambit.session"
+local split = require "ambit.split"
+local suggest = require "ambit.suggest"
 
 local verb = {}
+
+local MOST_THREADS = 256
 
 -- The system that the verb's table starts with; a mechanism stands for its equations of motion.
 function verb.system(t, what)
@@ -43,26 +48,71 @@ function verb.initial(t, system, what)
   return list
 end
 
--- Everything that simulate and the sampling of a system share.
+-- The string keys of t that are not among these.
+local function other_keys(t, known)
+  local is_known, others = {}, {}
+  for _, key in ipairs(known) do is_known[key] = true end
+  for _, key in ipairs(check.sorted(t)) do
+    if type(key) == "string" and not is_known[key] then others[#others + 1] = key end
+  end
+  return others
+end
+
+local function check_options(t, q, known, what)
+  local declaration = option.declaration("solver", q.solver)
+  local all = table.move(known, 1, #known, 1, {})
+  table.move(option.names(declaration), 1, #declaration.parameters, #all + 1, all)
+  check.keys(t, all, ("%s with solver %s"):format(what, q.solver), 1)
+  q.options, q.settings = option.collect(t, declaration)
+end
+
+-- Everything that simulate and the sampling of a system share. default_solver nil: the one that suits.
 function verb.request(t, what, default_solver, own_keys)
   check.table(t, what)
-  local system = verb.system(t, what)
-  local solver = t.solver == nil and default_solver or check.text(t.solver, what .. ": solver")
-  local declaration = option.declaration("solver", solver)
   local known = { "initial", "t", "solver", "arithmetic" }
   table.move(own_keys, 1, #own_keys, #known + 1, known)
-  table.move(option.names(declaration), 1, #declaration.parameters, #known + 1, known)
-  check.keys(t, known, ("%s with solver %s"):format(what, solver), 1)
-  local options, settings = option.collect(t, declaration)
-  local arithmetic, arithmetic_options = nil, {}
+  local q = { system = verb.system(t, what), arithmetic_options = {} }
   if t.arithmetic ~= nil then
-    arithmetic, arithmetic_options = option.arithmetic(t.arithmetic, what .. ": arithmetic")
+    q.arithmetic, q.arithmetic_options = option.arithmetic(t.arithmetic, what .. ": arithmetic")
   end
-  return {
-    system = system, solver = solver, options = options, settings = settings, arithmetic = arithmetic,
-    arithmetic_options = arithmetic_options, initial = verb.initial(t.initial, system, what),
-    times = instant.list(t.t, what .. ": t"),
-  }
+  if t.solver ~= nil then q.solver = check.text(t.solver, what .. ": solver") else q.solver = default_solver end
+  local fitting
+  if q.solver then
+    check_options(t, q, known, what)
+  else
+    fitting = suggest.candidates(other_keys(t, known), known, q.arithmetic, what)
+  end
+  q.initial, q.times = verb.initial(t.initial, q.system, what), instant.list(t.t, what .. ": t")
+  if fitting then
+    q.suggestion = suggest.solver(q, fitting)
+    q.solver = q.suggestion.solver
+    check_options(t, q, known, what)
+  end
+  return q
+end
+
+-- What is said about the run besides: threads, split, keep, dense (and what `simulate` alone knows: events).
+verb.run_keys = { "threads", "split", "keep", "dense" }
+
+-- nil: as many as there are processors
+function verb.threads(t, what)
+  if t.threads == nil then return nil end
+  local threads = check.count(t.threads, what .. ": threads")
+  if threads > MOST_THREADS then check.fail("%s: threads: at most %d, got %d", what, MOST_THREADS, threads) end
+  return threads
+end
+
+function verb.run_options(t, q)
+  local fields = split.read(t.split, q, "simulate: split")
+  fields.threads = verb.threads(t, "simulate")
+  if t.keep ~= nil and t.keep ~= "all" and t.keep ~= "last" then
+    check.fail('simulate: keep: expected "all" or "last", got %s', tostring(t.keep))
+  end
+  if t.dense ~= nil and type(t.dense) ~= "boolean" then
+    check.fail("simulate: dense: expected true or false, got %s", check.kind(t.dense))
+  end
+  fields.last, fields.dense = t.keep == "last", t.dense
+  return fields
 end
 
 local function initial_enclosures(q)
@@ -95,10 +145,12 @@ function verb.solve(q)
   check_loops(q)
   local track, facts, report = core.simulate(q.system.system, q.solver, q.arithmetic, q.options, q.arithmetic_options,
     q.initial,
-    q.times)
+    q.times, q.watch, q.run_options)
   facts.track, facts.states, facts.report = track, q.system.states, report
   facts.solver, facts.arithmetic, facts.t_start, facts.initial = q.solver, report.arithmetic, q.times[1],
     initial_enclosures(q)
+  facts.solver_reason = q.suggestion and q.suggestion.reason or "named in the scene"
+  event.finish(q, facts)
   local result = run.new(facts)
   local hint = facts.status == "unable" and q.system.mechanism and loops.hint(q.system.mechanism, result)
   if hint then facts.reason = facts.reason .. "; " .. hint end
@@ -106,12 +158,16 @@ function verb.solve(q)
 end
 
 function verb.simulate(t)
-  local q = verb.request(t, "simulate", "lohner", {})
+  local keys = table.move(verb.run_keys, 1, #verb.run_keys, 2, { "events" })
+  local q = verb.request(t, "simulate", nil, keys)
+  q.run_options = verb.run_options(t, q)
+  event.request(t.events, q)
   local result = verb.solve(q)
   session.finish("simulate", result, result.report,
     { "solver", q.solver, "arithmetic", result.arithmetic, "options", q.settings, "t_start", q.times[1], "t_end",
       q.times[#q.times] })
   session.remember(result, q)
+  if session.explains then session.verbs[#session.verbs].suggestion = q.suggestion or suggest.advice(q) end
   return result
 end
 

@@ -103,6 +103,38 @@ static inline void model_van_der_pol_box(model *m) {
   m->initial[1] = ambit_graph_unknown(m->graph, "v0", (ambit_interval) { 2.35, 2.45 });
 }
 
+static inline void model_stiff_line(model *m) {
+  static const char *const name[] = { "x" };
+  model_open(m, 1, name);
+  expr away = sub(m, m->state[0], cosine(m, ambit_graph_time(m->graph)));
+  m->rate[0] = mul(m, number(m, -1000), away);
+  m->initial[0] = number(m, 0);
+}
+
+/* heat in a rod of 16 pieces, its ends at sin t and 0 */
+static inline void model_rod(model *m) {
+  static const char *const name[16] = { "u1", "u2", "u3", "u4", "u5", "u6", "u7", "u8", "u9", "u10", "u11", "u12",
+    "u13", "u14", "u15", "u16" };
+  model_open(m, 16, name);
+  for (size_t i = 0; i < 16; i++) {
+    expr before = i ? m->state[i - 1] : sine(m, ambit_graph_time(m->graph));
+    expr after = i + 1 < 16 ? m->state[i + 1] : number(m, 0);
+    expr twice = mul(m, number(m, 2), m->state[i]);
+    m->rate[i] = mul(m, number(m, 100), sub(m, add(m, before, after), twice));
+    m->initial[i] = number(m, i == 0);
+  }
+}
+
+/* x'' = mu (1 - x^2) x' - x with mu = 20, as a first-order system in x and x' */
+static inline void model_stiff_van_der_pol(model *m) {
+  static const char *const name[] = { "x", "x'" };
+  model_open(m, 2, name);
+  const expr *x = m->state;
+  expr damping = mul(m, number(m, 20), sub(m, number(m, 1), square(m, x[0])));
+  m->rate[0] = x[1], m->rate[1] = sub(m, mul(m, damping, x[1]), x[0]);
+  m->initial[0] = number(m, 2), m->initial[1] = number(m, 0);
+}
+
 static inline void model_escape(model *m) {
   static const char *const name[] = { "x" };
   model_open(m, 1, name);

@@ -1,6 +1,7 @@
 /* solver_kit.c -- runs a solver and watches every record. */
 #include "kit/solver_kit.h"
 #include "kit/solver_kit_problems.h"
+#include "kit/solver_kit_values.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -10,8 +11,10 @@
 #define OPTIONS_MAX 64
 #define SAMPLES 5 /* of the uncertain datum, and of times within a step */
 #define RECORDS_MAX 100000u
-#define WILD 0.1  /* how long before that end errors of a solver that proves nothing are no matter */
-#define NEAR 1e-2 /* how close before the end of existence a solver must get */
+#define WILD 0.1     /* how long before that end errors of a solver that proves nothing are no matter */
+#define NEAR 1e-2    /* how close before the end of existence a solver must get */
+#define BESIDE 0.01  /* of the hull's width that a set may stick out of it, ... */
+#define ROUNDED 1e-9 /* ... and of its size */
 
 typedef struct state {
   const solver_kit *kit;
@@ -97,6 +100,70 @@ static void check_truth(state *s, const ambit_record *r) {
   }
 }
 
+/* -- what records say on a wish */
+
+static void check_meets(state *s, double t, uint32_t i, ambit_interval x, double lo, double hi, const char *what) {
+  if (!(x.lo <= hi && x.hi >= lo))
+    find(s, "%s of state %u at t = %a, [%a, %a], does not meet the bounds [%a, %a]", what, i, t, x.lo, x.hi, lo, hi);
+}
+
+static void check_dense(watcher *w, const ambit_record *r) {
+  state *s = w->s;
+  const kit_problem *p = s->p;
+  const char *fault = kit_dense_fault(r);
+  if (fault) find(s, "the dense enclosure to t = %a: %s", r->t_to, fault);
+  if (fault || !r->dense_mid) return;
+  double lo[KIT_STATES], hi[KIT_STATES];
+  for (int j = 0; j <= SAMPLES; j++) {
+    double t = j < SAMPLES ? r->t_from + (double)j / SAMPLES * (r->t_to - r->t_from) : r->t_to;
+    ambit_interval since = ambit_interval_sub((ambit_interval) { t, t }, (ambit_interval) { r->t_from, r->t_from });
+    for (uint32_t i = 0; i < r->nx; i++) {
+      ambit_interval x = kit_dense_value(r, i, since);
+      lo[i] = x.lo, hi[i] = x.hi;
+      if (j == 0 && w->records > 1) check_meets(s, t, i, x, w->lo[i], w->hi[i], "the dense enclosure");
+      if (j == SAMPLES) check_meets(s, t, i, x, r->lo[i], r->hi[i], "the dense enclosure");
+    }
+    for (int k = 0; k <= SAMPLES; k++)
+      check_point(s, t, p->u_lo + (double)k / SAMPLES * (p->u_hi - p->u_lo), lo, hi, "the dense enclosure");
+  }
+}
+
+/* A state is in the set and within the bounds; where invariants have cut the bounds, the set may be larger. */
+static void check_hull(state *s, const ambit_record *r, uint32_t i, ambit_interval x) {
+  double slack = BESIDE * (r->hi[i] - r->lo[i]) + ROUNDED * fmax(fabs(r->lo[i]), fabs(r->hi[i]));
+  check_meets(s, r->t_to, i, x, r->lo[i], r->hi[i], "the set");
+  if (s->problem.ninvariant == 0 && !(x.lo >= r->lo[i] - slack && x.hi <= r->hi[i] + slack))
+    find(s, "the set of state %u at t = %a, [%a, %a], sticks out of [%a, %a]", i, r->t_to, x.lo, x.hi, r->lo[i],
+        r->hi[i]);
+}
+
+static void check_set(state *s, const ambit_record *r) {
+  const kit_problem *p = s->p;
+  const char *fault = kit_set_fault(r, s->problem.nu);
+  if (fault) find(s, "the set at t = %a: %s", r->t_to, fault);
+  double lo[KIT_STATES], hi[KIT_STATES];
+  for (int k = 0; k <= SAMPLES && r->set && !fault; k++) {
+    double u = p->u_lo + (double)k / SAMPLES * (p->u_hi - p->u_lo);
+    for (uint32_t i = 0; i < r->nx; i++) {
+      ambit_interval x = kit_set_value(r->set, i, &u); /* at most one unknown */
+      lo[i] = x.lo, hi[i] = x.hi;
+      check_hull(s, r, i, x);
+    }
+    check_point(s, r->t_to, u, lo, hi, "the set");
+  }
+}
+
+static void check_gifts(watcher *w, const ambit_record *r) {
+  state *s = w->s;
+  uint32_t wish = s->problem.wish, missing = wish & s->kit->gives;
+  if ((!(wish & AMBIT_WISH_DENSE) && r->dense_mid) || (!(wish & AMBIT_WISH_SET) && r->set))
+    find(s, "a dense enclosure or a set that nobody wished for");
+  if (((missing & AMBIT_WISH_DENSE) && !r->dense_mid) || ((missing & AMBIT_WISH_SET) && !r->set))
+    find(s, "no dense enclosure, or no set, in the step to t = %a", r->t_to);
+  check_dense(w, r);
+  check_set(s, r);
+}
+
 static uint64_t mix(uint64_t digest, const void *bytes, size_t n) {
   for (size_t i = 0; i < n; i++) digest = (digest ^ ((const unsigned char *)bytes)[i]) * 0x100000001b3u;
   return digest;
@@ -111,6 +178,7 @@ static int32_t emit(ambit_sink *sink, const ambit_record *r) {
     check_header(w, r);
     check_bounds(w, r);
     check_truth(w->s, r);
+    if (rigorous(w->s)) check_gifts(w, r);
     w->t = r->t_to;
     size_t bytes = w->s->problem.nx * sizeof(double);
     memcpy(w->lo, r->lo, bytes), memcpy(w->hi, r->hi, bytes);
@@ -194,6 +262,16 @@ static void check_run(state *s) {
   if (again.digest != w.digest || again.records != w.records) find(s, "another result the second time");
 }
 
+/* with every wish: what records say besides is true */
+static void check_wishes(state *s) {
+  watcher w = { .s = s };
+  s->problem.wish = AMBIT_WISH_DENSE | AMBIT_WISH_SET;
+  run(s, &w);
+  s->problem.wish = 0;
+  if (w.records > 1 && w.last_count != w.first_count)
+    find(s, "%zu allocations between the first and the last record of a run with wishes", w.last_count - w.first_count);
+}
+
 static void check_stops(state *s) {
   for (uint32_t after = 1; after <= 2; after++) {
     watcher by_record = { .stop_after = after }, by_progress = { .stop_progress_after = after };
@@ -210,13 +288,16 @@ static void run_problem(state *s) {
   ambit_failure f = { 0 };
   ambit_arena *arena = ambit_arena_open();
   kit_model_open(&m, s->p);
-  const ambit_problem_request q = { &m.system, m.initial, s->p->ntime, s->p->time, wanted(s), 0 };
+  const ambit_problem_request q = {
+    .system = &m.system, .initial = m.initial, .ntime = s->p->ntime, .time = s->p->time, .want = wanted(s)
+  };
   if (!arena || ambit_problem_build(&q, arena, &s->problem, &f) != AMBIT_OK)
     find(s, "cannot be built: %s", f.message);
   else {
     s->problem.arithmetic = s->kit->arithmetic;
     s->problem.actx = s->kit->actx;
     check_run(s);
+    check_wishes(s);
     check_stops(s);
   }
   kit_model_close(&m);

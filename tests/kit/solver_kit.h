@@ -3,7 +3,9 @@
 ** It solves small problems with known solutions through the ABI and checks what a host relies on: records in order,
 ** without gaps, with bounds that make sense; every listed time hit exactly; a stop by the sink obeyed at once; nothing
 ** allocated between the first and the last record; failures with a reason; the same answer every time; and, above all,
-** that enclosures contain the solutions. It knows no test framework: what it finds goes to a callback.
+** that enclosures contain the solutions: bounds, tubes, dense enclosures (which meet the bounds at both ends) and sets
+** as functions of the unknowns (which lie within the bounds). It knows no test framework: what it finds goes to a
+** callback.
 */
 #ifndef AMBIT_SOLVER_KIT_H
 #define AMBIT_SOLVER_KIT_H
@@ -18,6 +20,7 @@ typedef struct solver_kit {
   void *actx;
   size_t noption;
   const ambit_option *option;
+  uint32_t gives;              /* AMBIT_WISH_*: what must be in every step if it is wished for */
   double tolerance;            /* of a solver that proves nothing: how far it may be off, relative to 1 + |x| */
   size_t (*allocations)(void); /* by this thread so far; NULL: not checked */
   const void *(*service)(

@@ -147,9 +147,15 @@ const size_t kit_problem_count = sizeof kit_problems / sizeof *kit_problems;
 void kit_model_open(kit_model *m, const kit_problem *p) {
   *m = (kit_model) { .graph = ambit_graph_open() };
   p->build(m);
-  m->system = (ambit_system) {
-    .graph = m->graph, .nx = m->nx, .name = m->name, .unit = m->unit, .state = m->state, .rate = m->rate
-  };
+  m->system = (ambit_system) { .graph = m->graph,
+    .nx = m->nx,
+    .name = m->name,
+    .unit = m->unit,
+    .state = m->state,
+    .rate = m->rate,
+    .ninvariant = m->ninvariant,
+    .invariant = m->invariant,
+    .invariant_name = m->invariant_name };
 }
 
 void kit_model_close(kit_model *m) { ambit_graph_close(m->graph); }

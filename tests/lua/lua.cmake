@@ -39,6 +39,7 @@ ambit_scene(manipulator 0 "interval +.17\\.0[0-9., ]+17\\.1[0-9. ]+[^\n]+ 0\\.[1
 ambit_scene(manipulator_mobile 0 "width 1\\.047 m\n.*width 1\\.041 m\n")
 ambit_scene(double_pendulum 0 "\n0\\.6 .*complete at t = 0\\.6 ")
 ambit_scene(simple_pendulum 0 "\n100 .*complete at t = 100 ")
+ambit_scene(inverse_kinematics 0 "8 postures, 0 undecided\n.*8 postures, 0 undecided\n")
 ambit_scene(lorenz 0 "\n20 .*complete at t = 20 ")
 ambit_scene(van_der_pol 0 "complete at t = 20 .*complete at t = 3 ")
 ambit_scene(leg 0 "1 posture of rest\n.*knee +.-9[0-9.]+, -9[0-9.]+.\n")
@@ -52,3 +53,5 @@ ambit_scene(bricard 0 "follows from the others: ring\\.[1-5]\n.*1\\.958083832335
 ambit_scene(slider_crank_loop 0 "rank over a turn: proved\n.*complete at t = 0\\.6 ")
 ambit_scene(stewart 0 "rank in the workspace: proved\n.*complete at t = 0\\.2 ")
 ambit_scene(ur5 0 "taylor_model is at most [0-4]\\.[0-9] %")
+ambit_scene(bouncing_ball 0 "bounce in t = .*complete at t = 2 after 3 switches")
+ambit_scene(verify_arm 0 "tight_wall: refuted.*g in .0\\.00[0-9]+, 0\\.00.*torque_above: proved.*wall: proved.*goal: proved")

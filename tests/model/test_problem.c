@@ -48,7 +48,9 @@ static void close_scene(scene *s) {
 
 static ambit_status build(scene *s, uint32_t want) {
   static const double time[] = { 0, 1 };
-  const ambit_problem_request q = { &s->system, s->initial, 2, time, want, 0, NULL };
+  const ambit_problem_request q = {
+    .system = &s->system, .initial = s->initial, .ntime = 2, .time = time, .want = want
+  };
   s->failure = (ambit_failure) { 0 };
   return ambit_problem_build(&q, s->arena, &s->problem, &s->failure);
 }

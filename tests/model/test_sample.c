@@ -127,11 +127,35 @@ static void samples_a_system(void **state) {
   assert_int_equal(report.unknowns, 2);
   assert_int_equal(ambit_sample_system(&q, 200, 3, again, &result, NULL, NULL), AMBIT_OK);
   assert_memory_equal(hull, again, sizeof hull);
+  for (q.threads = 1; q.threads <= 5; q.threads += 2) { /* the same draws, whoever makes them */
+    assert_int_equal(ambit_sample_system(&q, 200, 3, again, &result, NULL, NULL), AMBIT_OK);
+    assert_int_equal(result.draws, 200);
+    assert_memory_equal(hull, again, sizeof hull);
+  }
   ambit_sink sink = { sizeof sink, NULL, stop_at_once };
   q.sink = &sink;
+  q.threads = 1;
   assert_int_equal(ambit_sample_system(&q, 200, 3, again, &result, NULL, NULL), AMBIT_OK);
   assert_int_equal(result.status, AMBIT_STOPPED);
   assert_int_equal(result.draws, 1);
+  q.threads = 2;
+  assert_int_equal(ambit_sample_system(&q, 1000000, 3, again, &result, NULL, NULL), AMBIT_OK);
+  assert_int_equal(result.status, AMBIT_STOPPED);
+  assert_true(result.draws < 500000);
+}
+
+static void counts_of_draws_skip_numbers(void **state) {
+  (void)state;
+  static const ambit_interval range[] = { { 0, 1 }, { -2, 2 }, { 5, 5 } };
+  ambit_random through = { 99 };
+  for (size_t draw = 0; draw < 50; draw++) {
+    double one[3], other[3];
+    ambit_random jumped = { 99 };
+    if (draw) ambit_random_skip(&jumped, (draw - 1) * 3);
+    ambit_random_draw(&through, draw, 3, range, one, 1);
+    ambit_random_draw(&jumped, draw, 3, range, other, 1);
+    assert_memory_equal(one, other, sizeof one);
+  }
 }
 
 static void counts_draws_that_fail(void **state) {
@@ -164,6 +188,7 @@ int main(void) {
     cmocka_unit_test_setup_teardown(draws_exactly_as_many_as_asked, set_up, tear_down),
     cmocka_unit_test_setup_teardown(refuses_what_cannot_be_drawn, set_up, tear_down),
     cmocka_unit_test_setup_teardown(samples_a_system, set_up, tear_down),
+    cmocka_unit_test(counts_of_draws_skip_numbers),
     cmocka_unit_test_setup_teardown(counts_draws_that_fail, set_up, tear_down),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -113,8 +113,12 @@ static inline size_t track_check(
   solution_oracle o;
   uint64_t random = 77;
   size_t misses = 0;
-  const ambit_problem_request q = { &m->system, m->initial, ntime, time,
-    AMBIT_WANT_RHS | AMBIT_WANT_SERIES | AMBIT_WANT_INITIAL, AMBIT_SEAL_KEEP };
+  const ambit_problem_request q = { .system = &m->system,
+    .initial = m->initial,
+    .ntime = ntime,
+    .time = time,
+    .want = AMBIT_WANT_RHS | AMBIT_WANT_SERIES | AMBIT_WANT_INITIAL,
+    .seal = AMBIT_SEAL_KEEP };
   if (ambit_problem_build(&q, arena, &p, &f) != AMBIT_OK) fail_msg("%s", f.message);
   assert_true(p.nu <= TRACK_UNKNOWNS);
   solution_open(&o, &p);

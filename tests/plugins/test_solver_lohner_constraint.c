@@ -77,8 +77,12 @@ static size_t follow_samples(const sampler *s, const track *k, const constrained
   ambit_problem p;
   solution_oracle o;
   size_t misses = 0;
-  const ambit_problem_request q = { &c->m.system, c->m.initial, 2, time,
-    AMBIT_WANT_RHS | AMBIT_WANT_SERIES | AMBIT_WANT_INITIAL, AMBIT_SEAL_KEEP };
+  const ambit_problem_request q = { .system = &c->m.system,
+    .initial = c->m.initial,
+    .ntime = 2,
+    .time = time,
+    .want = AMBIT_WANT_RHS | AMBIT_WANT_SERIES | AMBIT_WANT_INITIAL,
+    .seal = AMBIT_SEAL_KEEP };
   if (ambit_problem_build(&q, arena, &p, &f) != AMBIT_OK) fail_msg("%s", f.message);
   solution_open(&o, &p);
   mpfr_t x[4];

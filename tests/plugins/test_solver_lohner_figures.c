@@ -33,7 +33,7 @@ static void double_pendulum_with_an_uncertain_angle(void **unused) {
   track k = track_run(&m, COUNT(p1_time), p1_time, 0, NULL);
   assert_int_equal(k.result.status, AMBIT_UNABLE);
   assert_true(strlen(k.result.reason) > 20);
-  assert_true(k.result.t_reached > 0.69);
+  assert_true(k.result.t_reached > 0.93);
   for (size_t i = 0; i < 4; i++) {
     const track_record *r = track_at(&k, 0.4);
     assert_true(r->hi[i] - r->lo[i] <= widest[i]);
@@ -51,8 +51,10 @@ static void double_pendulum_with_an_uncertain_angle(void **unused) {
 static void every_kind_of_set_holds(void **unused) {
   (void)unused;
   static const ambit_option option[] = { { "set", "qr" }, { "history", "4" }, { "pieces", "1" }, { "pieces", "3" },
-    { "order", "8" }, { "order", "40" }, { "jacobian_order", "4" }, { "tolerance", "1e-6" }, { "step_max", "0.005" } };
-  static const double time[] = { 0, 0.4 };
+    { "order", "4" }, { "order", "40" }, { "jacobian_order", "4" }, { "tolerance", "1e-6" }, { "step_max", "0.005" },
+    { "step", "taylor" }, { "step", "hermite_obreschkoff" } };
+
+  static const double time[] = { 0, 0.2 };
   model m;
   model_wide_double_pendulum(&m);
   for (size_t i = 0; i < COUNT(option); i++) {
@@ -115,8 +117,7 @@ static void van_der_pol_from_a_box(void **unused) {
   model m;
   model_van_der_pol_box(&m);
   track k = track_run(&m, COUNT(time), time, 0, NULL);
-  assert_int_equal(k.result.status, AMBIT_UNABLE);
-  assert_true(k.result.t_reached > 3.29); /* kv */
+  if (k.result.status != AMBIT_OK) fail_msg("%s", k.result.reason); /* kv ends at 3.29, CAPD at 2.4 */
   assert_int_equal(track_check(&k, &m, COUNT(time), time, 9, 1), 0);
   track_close(&k);
   model_close(&m);
@@ -170,6 +171,42 @@ static void model_chain(model *m, size_t masses) {
   m->initial[0] = ambit_graph_unknown(m->graph, "x0", (ambit_interval) { 0.1, 0.11 });
 }
 
+/* the implicit formula on 24 states; stiff ones, where its steps are longer than explicit ones of the same order */
+static void implicit_steps(void **unused) {
+  (void)unused;
+  static const double time[] = { 0, 1 }, stiff_time[] = { 0, 0.1 };
+  static const ambit_option implicit[] = { { "step", "hermite_obreschkoff" }, { "jacobian_order", "8" } },
+                            explicit[] = { { "step", "taylor" }, { "jacobian_order", "8" } };
+  model m;
+  model_chain(&m, 12);
+  track k = track_run(&m, 2, time, 2, implicit);
+  if (k.result.status != AMBIT_OK) fail_msg("%s", k.result.reason);
+  assert_int_equal(track_check(&k, &m, 2, time, 3, 1), 0);
+  track_close(&k);
+  model_close(&m);
+  model_stiff_line(&m);
+  k = track_run(&m, 2, stiff_time, 2, implicit);
+  track other = track_run(&m, 2, stiff_time, 2, explicit);
+  assert_true(k.result.status == AMBIT_OK && other.result.status == AMBIT_OK);
+  assert_true(k.result.steps < other.result.steps);
+  assert_int_equal(track_check(&k, &m, 2, stiff_time, 1, 1), 0);
+  assert_int_equal(track_check(&other, &m, 2, stiff_time, 1, 1), 0);
+  track_close(&k);
+  track_close(&other);
+  model_close(&m);
+  model_stiff_van_der_pol(&m);
+  k = track_run(&m, 2, time, 0, NULL);
+  assert_int_equal(track_check(&k, &m, 2, time, 1, 1), 0);
+  track_close(&k);
+  model_close(&m);
+  model_rod(&m); /* its far end is at rest for 15 derivatives */
+  k = track_run(&m, 2, stiff_time, 0, NULL);
+  if (k.result.status != AMBIT_OK) fail_msg("%s", k.result.reason);
+  assert_int_equal(track_check(&k, &m, 2, stiff_time, 1, 1), 0);
+  track_close(&k);
+  model_close(&m);
+}
+
 static void many_states(void **unused) {
   (void)unused;
   static const double time[] = { 0, 2 };
@@ -209,18 +246,19 @@ static void random_systems(void **unused) {
   (void)unused;
   uint64_t random = 99;
   size_t records = 0;
-  for (int n = 0; n < 24; n++) {
-    const double time[] = { 0, n % 2 ? 2 : -2 };
-    const ambit_option option[] = { { "pieces", n % 3 ? "8" : "1" }, { "history", n % 4 ? "8" : "0" } };
+  for (int n = 0; n < 16; n++) {
+    const double time[] = { 0, n % 2 ? 1 : -1 };
+    const ambit_option option[] = { { "pieces", n % 3 ? "8" : "1" }, { "history", n % 4 ? "8" : "0" },
+      { "step", n % 2 ? "auto" : "hermite_obreschkoff" } };
     model m;
     model_random(&m, &random);
-    track k = track_run(&m, 2, time, 2, option);
+    track k = track_run(&m, 2, time, 3, option);
     records += k.count;
     if (track_check(&k, &m, 2, time, 3, 1)) fail_msg("random system %d", n);
     track_close(&k);
     model_close(&m);
   }
-  assert_true(records > 100);
+  assert_true(records > 30);
 }
 
 /* -- ends */
@@ -250,9 +288,32 @@ static void non_lipschitz_is_unable(void **unused) {
   track k = track_run(&m, 2, time, 0, NULL);
   assert_int_equal(k.result.status, AMBIT_UNABLE);
   assert_int_equal(k.count, 0);
-  assert_non_null(strstr(k.result.reason, "not defined"));
+  assert_non_null(strstr(k.result.reason, "abs(x)"));
+  assert_non_null(strstr(k.result.reason, "not smooth"));
   track_close(&k);
   model_close(&m);
+}
+
+/* max(x, y) is met at t = 1, where x = y, from a point or from a set; before that it is smooth */
+static void kinks_are_named(void **unused) {
+  (void)unused;
+  static const double time[] = { 0, 2 };
+  static const char *const name[] = { "x", "y", "z" };
+  for (int wide = 0; wide < 2; wide++) {
+    model m;
+    model_open(&m, 3, name);
+    m.rate[0] = number(&m, -1), m.rate[1] = number(&m, 1);
+    m.rate[2] = ambit_graph_op(m.graph, AMBIT_OP_MAX, m.state[0], m.state[1]);
+    m.initial[0] = number(&m, 2), m.initial[1] = number(&m, 0), m.initial[2] = number(&m, 0);
+    if (wide) m.initial[1] = ambit_graph_unknown(m.graph, "y0", (ambit_interval) { -0.1, 0.1 });
+    track k = track_run(&m, 2, time, 0, NULL);
+    assert_int_equal(k.result.status, AMBIT_UNABLE);
+    assert_true(k.result.t_reached > 0.9 && k.result.t_reached < 1);
+    if (!strstr(k.result.reason, "max(") || !strstr(k.result.reason, "not smooth")) fail_msg("%s", k.result.reason);
+    assert_int_equal(track_check(&k, &m, 2, time, wide ? 3 : 1, 1), 0);
+    track_close(&k);
+    model_close(&m);
+  }
 }
 
 /* a horizon beyond all numbers of steps ends at once, with a reason */
@@ -293,10 +354,12 @@ int main(void) {
     cmocka_unit_test(backwards_and_back),
     cmocka_unit_test(van_der_pol_from_a_box),
     cmocka_unit_test(parameters_and_time),
+    cmocka_unit_test(implicit_steps),
     cmocka_unit_test(many_states),
     cmocka_unit_test(random_systems),
     cmocka_unit_test(escape_is_followed_far_and_never_passed),
     cmocka_unit_test(non_lipschitz_is_unable),
+    cmocka_unit_test(kinks_are_named),
     cmocka_unit_test(senseless_horizons_end),
     cmocka_unit_test(the_judge_sees_a_shift),
   };

@@ -10,6 +10,7 @@
 
 /* Beside AMBIT_F_*: somewhere in the box the outputs may jump (the cut of atan2) or have a kink (abs, min, max). */
 #define AMBIT_F_KINK 8u
+#define AMBIT_F_KINK_ELSEWHERE 16u /* of inspect_in: the same, but not along the inputs that are asked about */
 
 typedef struct ambit_contractor ambit_contractor;
 
@@ -23,5 +24,8 @@ typedef struct ambit_contract_service {
   /* [ctx] AMBIT_F_* and AMBIT_F_KINK over the box, of all slots; 0: the outputs are defined, bounded and continuous on
   ** it, and continuously differentiable wherever their derivative's formula is bounded */
   uint32_t (*inspect)(ambit_contractor *c, const double *lo, const double *hi);
+  /* [ctx] the same for functions of the first n inputs, the others being fixed somewhere in the box: KINK only for slots
+  ** that depend on one of the n, else KINK_ELSEWHERE */
+  uint32_t (*inspect_in)(ambit_contractor *c, const double *lo, const double *hi, uint32_t n);
 } ambit_contract_service;
 #endif

@@ -18,6 +18,9 @@
 ** AMBIT_WANT_JACOBIAN their Jacobian; absent if the system has none */
 #define AMBIT_WANT_INVARIANT 32u
 #define AMBIT_WANT_SLOPE 64u /* df/dp as a tape, row by row, same inputs as the rhs; valid as the Jacobian is */
+/* one variable more in the arithmetic's context, behind those of the unknowns: the time within a step, number nu of
+** set(); a context without it (an older host's) only gives wider results */
+#define AMBIT_WANT_TIME 128u
 
 /* What a solver solves. ROOTS: f(x, p) = 0 with as many equations as unknowns x; rhs and jacobian are those of f, x0
 ** is the box to be searched, there is no time; invariant: further equations that a root satisfies too, or absent. */
@@ -29,6 +32,9 @@
 ** unknowns. */
 #define AMBIT_WISH_DENSE 1u
 #define AMBIT_WISH_SET 2u
+/* ROOTS: the further equations hold at every root of f that they do not exclude as soon as its enclosure is narrow
+** (redundant ones that single out some of isolated roots): they narrow and exclude, roots are proved by f alone */
+#define AMBIT_WISH_IMPLIED 4u
 
 /* Inputs of rhs, jacobian: x [nx], p [np], then t if uses_time. Inputs of initial: the unknowns [nu];
 ** its outputs: x(t0) [nx], p [np]. An unknown that several data share occurs once: correlation is kept. */
@@ -72,7 +78,9 @@ typedef struct ambit_set {
 #define AMBIT_REC_ROOT 3u
 #define AMBIT_REC_SEARCHED 4u /* the search is over: `ncoef` boxes were looked at; nothing else is set */
 #define AMBIT_ROOT_UNDECIDED 0u
-#define AMBIT_ROOT_UNIQUE 1u /* exactly one root in it, for each value of the parameters */
+/* for each value of the parameters one root in it, and no other but those of reported boxes that meet this one */
+#define AMBIT_ROOT_UNIQUE 1u
+#define AMBIT_ROOT_PARTLY 2u /* the same, but for a part of the values of the parameters only */
 typedef struct ambit_record {
   uint32_t size, kind;
   double t_from, t_to; /* s; t_to < t_from when integrating backwards */

@@ -1,4 +1,4 @@
-/* bound.c -- is every matrix of [A] regular, and how large can solutions of A x = -b be? (upward mode)
+/* bound.c -- is every matrix of [A] regular, how large can solutions of A x = -b be, and rows of it. (upward mode)
 **
 ** <A> is Ostrowski's comparison matrix: the least |A_ii| on the diagonal, minus the largest |A_ij| beside it. If u > 0
 ** and v <= <A> u with v > 0, every A in [A] is an H-matrix, thus regular, and |A^-1 b| <= u max_i |b_i| / v_i (Neumaier
@@ -77,4 +77,29 @@ void krawczyk_bound_solution(const krawczyk *k, span *z) {
   ambit_rounding old = ambit_round_up();
   bound_solution(k, z);
   ambit_rounding_restore(old);
+}
+
+/* the product's upper end, and its lower end negated */
+static span product(double alo, double ahi, span z) {
+  double up = larger(larger(alo * z.lo, alo * z.hi), larger(ahi * z.lo, ahi * z.hi));
+  double down = larger(larger(-alo * z.lo, -alo * z.hi), larger(-ahi * z.lo, -ahi * z.hi));
+  return (span) { down, up };
+}
+
+static AMBIT_WORKER span sum_row(const krawczyk *k, uint32_t i, const span *z) {
+  const double *lo = k->off.lo + (size_t)i * k->n, *hi = k->off.hi + (size_t)i * k->n;
+  span sum = { -k->b[i].lo, k->b[i].hi }; /* lower end negated */
+  for (uint32_t j = 0; j < k->n; j++) {
+    span part = product(lo[j], hi[j], z[j]); /* off is 0 at j == i */
+    sum.lo += part.lo;
+    sum.hi += part.hi;
+  }
+  return (span) { -sum.lo, sum.hi };
+}
+
+span krawczyk_row(const krawczyk *k, uint32_t i, const span *z) {
+  ambit_rounding old = ambit_round_up();
+  span row = sum_row(k, i, z);
+  ambit_rounding_restore(old);
+  return row;
 }

@@ -78,6 +78,8 @@ double box_extent(span x) {
   return (x.hi - x.lo) / size;
 }
 
+double box_middle(span x) { return fmin(fmax(0.5 * x.lo + 0.5 * x.hi, x.lo), x.hi); }
+
 void box_inflate(uint32_t n, span *x) {
   for (uint32_t i = 0; i < n; i++) {
     double more = INFLATION * (x[i].hi - x[i].lo) + 4 * DBL_EPSILON * fmax(fabs(x[i].lo), fabs(x[i].hi)) + 1e-290;

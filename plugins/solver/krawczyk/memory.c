@@ -5,7 +5,11 @@
 
 #define CUTS_PER_UNKNOWN 300 /* depth of the search; beyond it boxes are undecided */
 
-enum { OPTION_TOLERANCE, OPTION_BOXES, OPTION_UNDECIDED, OPTION_ROOTS };
+#define PIECES 64 /* of the parameters' ranges, for a tighter enclosure */
+#define PIECES_MAX 65536
+#define COVER_DEPTH 256
+
+enum { OPTION_TOLERANCE, OPTION_BOXES, OPTION_UNDECIDED, OPTION_ROOTS, OPTION_OPERATOR, OPTION_PIECES };
 
 static ambit_status check_options(const ambit_host *h, const double *o, options *out) {
   static const char *const name[] = { "tolerance", "boxes_max", "undecided_max", "roots_max" };
@@ -15,8 +19,10 @@ static ambit_status check_options(const ambit_host *h, const double *o, options 
     if (!(o[i] >= 1 && o[i] <= (i == OPTION_BOXES ? 4e9 : 1e6)))
       return h->fail(
           h, AMBIT_INVALID, "option `%s` must be 1 to %g, not %g", name[i], i == OPTION_BOXES ? 4e9 : 1e6, o[i]);
+  if (!(o[OPTION_PIECES] >= 0 && o[OPTION_PIECES] <= PIECES_MAX))
+    return h->fail(h, AMBIT_INVALID, "option `parameter_pieces` must be 0 to %d, not %g", PIECES_MAX, o[OPTION_PIECES]);
   *out = (options) { o[OPTION_TOLERANCE], (uint32_t)o[OPTION_BOXES], (uint32_t)o[OPTION_UNDECIDED],
-    (uint32_t)o[OPTION_ROOTS] };
+    (uint32_t)o[OPTION_ROOTS], (uint32_t)o[OPTION_OPERATOR], (uint32_t)o[OPTION_PIECES] };
   return AMBIT_OK;
 }
 
@@ -47,33 +53,43 @@ static boxes take_boxes(rooms *r, uint32_t n, uint32_t room) {
 
 static void take_operator(rooms *r, krawczyk *k) {
   uint32_t n = k->n, np = k->np, longest = n > np ? n : np;
-  span **const vector[] = { &k->mid, &k->f, &k->f_mid, &k->b, &k->shift, &k->z, &k->row, &k->diagonal, &k->estimate,
-    &k->box, &k->left, &k->enclosure, &k->around, &k->searched };
+  span **const vector[] = { &k->f, &k->f_mid, &k->b, &k->shift, &k->z, &k->row, &k->diagonal, &k->hull };
   for (size_t i = 0; i < sizeof vector / sizeof *vector; i++) *vector[i] = take_spans(r, n);
-  span **const parameter[] = { &k->p, &k->p_mid, &k->p_off };
-  for (size_t i = 0; i < sizeof parameter / sizeof *parameter; i++) *parameter[i] = take_spans(r, np);
-  matrix *const square[] = { &k->J, &k->A, &k->off, &k->H };
+  span **const box[] = { &k->mid, &k->estimate, &k->searched, &k->box, &k->left, &k->enclosure, &k->around, &k->common,
+    &k->other };
+  for (size_t i = 0; i < sizeof box / sizeof *box; i++) *box[i] = take_spans(r, k->m);
+  k->p_off = take_spans(r, np);
+  matrix *const square[] = { &k->J, &k->A, &k->off, &k->H, &k->part };
   for (size_t i = 0; i < sizeof square / sizeof *square; i++) *square[i] = take_matrix(r, (size_t)n * n);
   k->S = take_matrix(r, (size_t)n * np);
   k->CS = take_matrix(r, (size_t)n * np);
   k->C = take_doubles(r, (size_t)n * n);
+  k->B = take_doubles(r, (size_t)n * n);
   k->work = take_doubles(r, (size_t)n * n);
   k->in = take_matrix(r, longest);
   k->out = take_matrix(r, longest);
-  k->in_lo = take_doubles(r, n + np);
-  k->in_hi = take_doubles(r, n + np);
+  k->in_lo = take_doubles(r, k->m);
+  k->in_hi = take_doubles(r, k->m);
+  k->weight = take_doubles(r, k->m);
+  k->blur = take_doubles(r, n);
   double **const scalars[] = { &k->scale, &k->margin, &k->best };
   for (size_t i = 0; i < sizeof scalars / sizeof *scalars; i++) *scalars[i] = take_doubles(r, n);
 }
 
 static void take_search(rooms *r, krawczyk *k) {
-  uint64_t depth = (uint64_t)k->n * CUTS_PER_UNKNOWN + 2, all = (uint64_t)k->options.boxes_max + 2;
-  uint32_t room = (uint32_t)(depth < all ? depth : all);
-  k->stack = take_boxes(r, k->n, room);
+  uint64_t depth = (uint64_t)k->m * CUTS_PER_UNKNOWN + 2, all = (uint64_t)k->options.boxes_max + 2;
+  uint32_t room = (uint32_t)(depth < all ? depth : all), pieces = k->options.pieces;
+  k->stack = take_boxes(r, k->m, room);
   k->stack.share = take_doubles(r, room);
-  k->proved = take_boxes(r, k->n, k->options.roots_max);
-  k->region = take_boxes(r, k->n, k->options.roots_max);
-  k->undecided = take_boxes(r, k->n, k->options.undecided_max);
+  k->undecided = take_boxes(r, k->m, k->options.undecided_max);
+  k->proved = take_boxes(r, k->m, k->options.roots_max);
+  k->region = take_boxes(r, k->m, k->options.roots_max);
+  k->branch = take(r, k->options.roots_max, sizeof *k->branch);
+  k->emitted = take(r, k->options.roots_max, sizeof *k->emitted);
+  k->kin = take(r, k->options.roots_max, sizeof *k->kin);
+  if (!k->np) return;
+  k->half = take_boxes(r, k->m, pieces > PIECES ? pieces : PIECES);
+  k->cover = take_boxes(r, k->m, COVER_DEPTH);
 }
 
 /* -- the problem */
@@ -99,12 +115,7 @@ static ambit_status check_problem(const ambit_host *h, const ambit_problem *p) {
 static void copy_boxes(krawczyk *k) {
   const ambit_problem *p = &k->problem;
   for (uint32_t i = 0; i < k->n; i++) k->searched[i] = (span) { p->x0_lo[i], p->x0_hi[i] };
-  for (uint32_t i = 0; i < k->np; i++) {
-    double m = fmin(fmax(0.5 * p->p_lo[i] + 0.5 * p->p_hi[i], p->p_lo[i]), p->p_hi[i]);
-    k->p[i] = (span) { p->p_lo[i], p->p_hi[i] };
-    k->p_mid[i] = (span) { m, m };
-  }
-  if (k->np) k->num->map(AMBIT_OP_SUB, k->np, &k->p_off->lo, &k->p->lo, &k->p_mid->lo, 0);
+  for (uint32_t i = 0; i < k->np; i++) k->searched[k->n + i] = (span) { p->p_lo[i], p->p_hi[i] };
 }
 
 static ambit_status open_tapes(krawczyk *k) {
@@ -129,7 +140,7 @@ ambit_status krawczyk_open(const ambit_host *h, const ambit_problem *p, const do
   krawczyk *k = h->alloc(h, sizeof *k);
   if (!k) return h->fail(h, AMBIT_NOMEM, "out of memory");
   memcpy(&k->problem, p, p->size < sizeof k->problem ? p->size : sizeof k->problem);
-  k->host = h, k->n = p->nx, k->np = p->np;
+  k->host = h, k->n = p->nx, k->np = p->np, k->m = p->nx + p->np;
   k->num = h->service(h, AMBIT_NUM_SERVICE);
   k->contract = h->service(h, AMBIT_CONTRACT_SERVICE);
   if (!k->num || !k->contract) return h->fail(h, AMBIT_INVALID, "the host lends too few services");

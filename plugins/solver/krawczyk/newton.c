@@ -1,75 +1,29 @@
-/* newton.c -- the interval Newton operator over a box X about its midpoint m, preconditioned with C, roughly the
-** inverse of the midpoint of J(X).
+/* newton.c -- an interval Newton operator over a box X about its midpoint m, preconditioned with C, roughly the inverse
+** of the midpoint of J(X).
 **
 ** For x in X and p in P there is a matrix S in J(X) with f(x, p) = f(m, p) + S (x - m), continuous in x (mean value
-** theorem, f being continuously differentiable on X). So a root satisfies A (x - m) = -b with A = C S, b = C f(m, p).
-**   If every matrix in [A] = C J(X) is regular, Z encloses all its solutions, and m + Z lies in X: exactly one root for
-** each p (Moore 1977; Brouwer's theorem for x -> m - A(x)^-1 b). Else roots are in X and m + Z, at most one for each p.
-**   If not: row i solved for its own unknown narrows X (Hansen & Sengupta 1981).
+** theorem, f being continuously differentiable on X for each p). So a root satisfies A (x - m) = -b with A = C S, b = C
+** f(m, p).
+**   If every matrix in [A] = C J(X) is regular, Z encloses its solutions (solution.c), and m + Z lies in X: exactly one
+** root for each p (Moore 1977; Brouwer). Else roots are in X and m + Z, at most one for each p.
+**   If not: rows solved for their own unknown narrow X (Hansen & Sengupta 1981).
+** Before all that f's ranges by its slopes and signs of slopes are looked at: if one has no 0, there is no root.
 */
 #include "krawczyk.h"
 #include <math.h>
 #include <string.h>
 
-#define SWEEPS 8
 #define SHARPENED 12 /* up to this many unknowns, whose Jacobians are worth their time */
-#define SLOW 0.9     /* less narrowing than this is not worth another sweep */
 
-/* -- evaluation */
+/* -- preconditioning */
 
-static void set_input(const krawczyk *k, ambit_lane *lane, uint32_t in, span x) {
-  int32_t variable = x.lo < x.hi ? (int32_t)in : -1;
-  lane->arithmetic->set(lane->ctx, ambit_lane_at(lane, lane->tape->nconst + in), 1, &x.lo, &x.hi, variable);
-  (void)k;
-}
-
-/* outputs at (x, p); 0: not defined everywhere, or not bounded */
-static int evaluate(
-    const krawczyk *k, ambit_lane *lane, const span *x, const span *p, double *lo, double *hi, ptrdiff_t stride) {
-  for (uint32_t i = 0; i < k->n; i++) set_input(k, lane, i, x[i]);
-  for (uint32_t i = 0; i < k->np; i++) set_input(k, lane, k->n + i, p[i]);
-  if (ambit_lane_run(lane) & (AMBIT_F_PARTIAL | AMBIT_F_EMPTY)) return 0;
-  for (uint32_t i = 0; i < lane->tape->nout; i++) {
-    double *l = lo + i * stride, *h = hi + i * stride;
-    ambit_lane_get(lane, i, l, h);
-    if (!(*l <= *h) || !isfinite(*l) || !isfinite(*h)) return 0;
-  }
-  return 1;
-}
-
-static int evaluate_matrix(const krawczyk *k, ambit_lane *lane, const span *x, matrix M) {
-  return evaluate(k, lane, x, k->p, M.lo, M.hi, 1);
-}
-
-static int evaluate_vector(krawczyk *k, const span *x, const span *p, span *f) {
-  return evaluate(k, &k->rhs, x, p, &f->lo, &f->hi, 2);
-}
-
-/* f is defined and continuous over the whole box */
-static int is_smooth(const krawczyk *k, const span *x) {
-  for (uint32_t i = 0; i < k->n; i++) k->in_lo[i] = x[i].lo, k->in_hi[i] = x[i].hi;
-  for (uint32_t i = 0; i < k->np; i++) k->in_lo[k->n + i] = k->p[i].lo, k->in_hi[k->n + i] = k->p[i].hi;
-  return k->contract->inspect(k->shape, k->in_lo, k->in_hi) == 0;
-}
-
-/* -- linear algebra, all of it by ambit.num/1 */
-
-static void map(const krawczyk *k, uint32_t op, span *r, const span *a, const span *b, uint32_t n) {
-  k->num->map(op, n, &r->lo, &a->lo, b ? &b->lo : NULL, 0);
-}
-
-/* r [n] := M v for a matrix of `cols` columns */
-static void multiply(const krawczyk *k, span *r, const double *Mlo, const double *Mhi, uint32_t cols, const span *v) {
-  for (uint32_t j = 0; j < cols; j++) k->in.lo[j] = v[j].lo, k->in.hi[j] = v[j].hi;
-  k->num->matmul(k->n, cols, 1, k->out.lo, k->out.hi, Mlo, Mhi, k->in.lo, k->in.hi);
-  for (uint32_t i = 0; i < k->n; i++) r[i] = (span) { k->out.lo[i], k->out.hi[i] };
-}
-
-/* A := C M, its diagonal and what is off it */
-static void set_matrix(krawczyk *k, matrix M) {
+/* A := C M, its diagonal and what is off it; 0: too large for doubles */
+static int set_matrix(krawczyk *k, matrix M) {
   uint32_t n = k->n;
   size_t entries = (size_t)n * n;
   k->num->matmul(n, n, n, k->A.lo, k->A.hi, k->C, k->C, M.lo, M.hi);
+  for (size_t i = 0; i < entries; i++)
+    if (!isfinite(k->A.lo[i]) || !isfinite(k->A.hi[i])) return 0;
   memcpy(k->off.lo, k->A.lo, entries * sizeof(double));
   memcpy(k->off.hi, k->A.hi, entries * sizeof(double));
   for (uint32_t i = 0; i < n; i++) {
@@ -77,14 +31,13 @@ static void set_matrix(krawczyk *k, matrix M) {
     k->diagonal[i] = (span) { k->A.lo[at], k->A.hi[at] };
     k->off.lo[at] = k->off.hi[at] = 0;
   }
+  return 1;
 }
 
 /* C and A := C J; 0: no inverse */
 static int precondition(krawczyk *k) {
   for (size_t i = 0; i < (size_t)k->n * k->n; i++) k->work[i] = 0.5 * k->J.lo[i] + 0.5 * k->J.hi[i];
-  if (!krawczyk_invert(k->n, k->work, k->C)) return 0;
-  set_matrix(k, k->J);
-  return 1;
+  return krawczyk_invert(k->n, k->work, k->C) && set_matrix(k, k->J);
 }
 
 /* A := C H with slopes H inside J: column j over the first j components of the box and the midpoints of the others
@@ -92,111 +45,146 @@ static int precondition(krawczyk *k) {
 static int sharpen(krawczyk *k, const span *x) {
   uint32_t n = k->n;
   if (n < 2 || n > SHARPENED) return 0;
-  box_copy(n, k->f, k->mid);
+  box_copy(k->m, k->other, k->mid);
   for (uint32_t j = 0; j < n; j++) {
-    k->f[j] = x[j];
-    if (!evaluate_matrix(k, &k->jacobian, k->f, k->J)) return 0;
+    k->other[j] = x[j];
+    if (!krawczyk_matrix(k, &k->jacobian, k->other, k->part)) return 0;
     for (uint32_t i = 0; i < n; i++) {
       size_t at = (size_t)i * n + j;
-      k->H.lo[at] = k->J.lo[at], k->H.hi[at] = k->J.hi[at];
+      k->H.lo[at] = k->part.lo[at], k->H.hi[at] = k->part.hi[at];
     }
   }
-  set_matrix(k, k->H);
+  return set_matrix(k, k->H);
+}
+
+/* -- the residual */
+
+/* f := f(m, P) and S := df/dp(m, P), if f is smooth in p; 0: f is not defined there */
+static int evaluate_middle(krawczyk *k, int smooth) {
+  if (!krawczyk_vector(k, k->mid, k->f)) return 0;
+  for (uint32_t i = 0; i < k->n; i++) k->blur[i] = k->np ? k->f[i].hi - k->f[i].lo : 0;
+  k->has_S = smooth && k->problem.slope && krawczyk_matrix(k, &k->slope, k->mid, k->S);
   return 1;
 }
 
 /* b := C f(m, P), also as C f(m, p_mid) + C df/dp(m, P) (P - p_mid), which keeps what the equations' dependence on the
 ** parameters has in common */
-static int evaluate_residual(krawczyk *k) {
-  if (!evaluate_vector(k, k->mid, k->p, k->f)) return 0;
-  multiply(k, k->b, k->C, k->C, k->n, k->f);
-  if (!k->problem.slope || !evaluate_vector(k, k->mid, k->p_mid, k->f_mid)) return 1;
-  if (!evaluate_matrix(k, &k->slope, k->mid, k->S)) return 1;
+static void set_residual(krawczyk *k) {
+  krawczyk_multiply(k, k->b, k->C, k->C, k->n, k->f);
+  if (!k->has_S) return;
+  box_copy(k->m, k->other, k->mid);
+  for (uint32_t i = k->n; i < k->m; i++) {
+    double p = box_middle(k->mid[i]);
+    k->other[i] = (span) { p, p };
+  }
+  if (!krawczyk_vector(k, k->other, k->f_mid)) return;
+  krawczyk_map(k, AMBIT_OP_SUB, k->p_off, k->mid + k->n, k->other + k->n, k->np);
   k->num->matmul(k->n, k->n, k->np, k->CS.lo, k->CS.hi, k->C, k->C, k->S.lo, k->S.hi);
-  multiply(k, k->f_mid, k->C, k->C, k->n, k->f_mid);
-  multiply(k, k->row, k->CS.lo, k->CS.hi, k->np, k->p_off);
-  map(k, AMBIT_OP_ADD, k->row, k->row, k->f_mid, k->n);
+  krawczyk_multiply(k, k->f_mid, k->C, k->C, k->n, k->f_mid);
+  krawczyk_multiply(k, k->row, k->CS.lo, k->CS.hi, k->np, k->p_off);
+  krawczyk_map(k, AMBIT_OP_ADD, k->row, k->row, k->f_mid, k->n);
   box_meet(k->n, k->b, k->row);
-  return 1;
 }
 
-/* -- the solution of A z = -b */
+/* -- ranges without 0 */
 
-/* y := y and -c / a; 0: empty. Both parts of a quotient by an interval around 0 count. */
-static int meet_quotient(const krawczyk *k, span *y, span c, span a) {
-  span part[2] = { { a.lo, a.lo < 0 && a.hi > 0 ? 0 : a.hi }, { a.lo < 0 && a.hi > 0 ? 0 : a.lo, a.hi } };
-  span sum = { INFINITY, -INFINITY };
-  for (int i = 0; i < 2; i++) {
-    span q;
-    k->num->map(AMBIT_OP_DIV, 1, &q.lo, &c.lo, &part[i].lo, 0);
-    q = (span) { -q.hi, -q.lo };
-    if (q.lo <= q.hi && box_meet(1, &q, y)) box_join(1, &sum, &q);
-  }
-  if (c.lo <= 0 && c.hi >= 0 && a.lo <= 0 && a.hi >= 0) return 1;
-  *y = sum;
-  return sum.lo <= sum.hi;
-}
+static int has_zero(span f) { return f.lo <= 0 && f.hi >= 0; }
 
-/* narrows z by row i solved for z[i], all rows at once; 0: no solution in z */
-static int sweep(const krawczyk *k, span *z) {
-  multiply(k, k->row, k->off.lo, k->off.hi, k->n, z);
-  map(k, AMBIT_OP_ADD, k->row, k->row, k->b, k->n);
+/* the mean value form f(m, P) + J (X - m) of a component has no 0 */
+static int is_excluded_by_slopes(krawczyk *k) {
+  krawczyk_multiply(k, k->row, k->J.lo, k->J.hi, k->n, k->shift);
+  krawczyk_map(k, AMBIT_OP_ADD, k->row, k->row, k->f, k->n);
   for (uint32_t i = 0; i < k->n; i++)
-    if (!meet_quotient(k, &z[i], k->row[i], k->diagonal[i])) return 0;
-  return 1;
+    if (!has_zero(k->row[i])) return 1;
+  return 0;
 }
 
-static int narrow_solution(const krawczyk *k, span *z) {
-  for (uint32_t i = 0; i < SWEEPS; i++) {
-    box_copy(k->n, k->f, z); /* f has been used */
-    if (!sweep(k, z)) return 0;
-    if (box_shrinking(k->n, z, k->f) > SLOW) return 1;
+/* other := the face of x where f_i is least (side 0) or largest (1): components in which it is monotone are at an end;
+** 0: there is none */
+static int set_face(krawczyk *k, const span *x, uint32_t i, int side) {
+  int monotone = 0;
+  for (uint32_t j = 0; j < k->n; j++) {
+    double lo = k->J.lo[(size_t)i * k->n + j], hi = k->J.hi[(size_t)i * k->n + j];
+    if ((lo < 0 && hi > 0) || !(x[j].lo < x[j].hi)) continue;
+    double end = (lo >= 0) == (side == 0) ? x[j].lo : x[j].hi;
+    k->other[j] = (span) { end, end };
+    monotone = 1;
   }
-  return 1;
+  return monotone;
 }
 
-/* x := x and m + z */
-static int meet_solution(const krawczyk *k, span *x) {
-  map(k, AMBIT_OP_ADD, k->row, k->mid, k->z, k->n);
-  return box_meet(k->n, x, k->row);
+/* f_i is positive on the face where it is least, or negative where it is largest */
+static int is_excluded_by_signs(krawczyk *k, const span *x) {
+  for (uint32_t i = 0; i < k->n; i++)
+    for (int side = 0; side < 2; side++) {
+      box_copy(k->m, k->other, x);
+      if (!set_face(k, x, i, side)) break;
+      if (!krawczyk_vector(k, k->other, k->f_mid)) continue;
+      if (side == 0 ? k->f_mid[i].lo > 0 : k->f_mid[i].hi < 0) return 1;
+    }
+  return 0;
 }
 
 /* -- the operator */
 
-/* z and estimate := all solutions, A being regular; 0: there are none */
-static int solve(krawczyk *k) {
-  krawczyk_bound_solution(k, k->z);
-  if (!narrow_solution(k, k->z)) return 0;
-  map(k, AMBIT_OP_ADD, k->estimate, k->mid, k->z, k->n);
-  return 1;
+/* x := x and m + z */
+static int meet_solution(const krawczyk *k, span *x) {
+  krawczyk_map(k, AMBIT_OP_ADD, k->row, k->mid, k->z, k->n);
+  return box_meet(k->n, x, k->row);
+}
+
+/* m + z lies in x; z and x := what rows leave of it */
+static enum verdict narrow_unique(krawczyk *k, span *x) {
+  if (k->options.operation == OPERATOR_HANSEN_SENGUPTA && !krawczyk_sweep(k, k->z)) return VERDICT_NONE;
+  return meet_solution(k, x) ? VERDICT_UNIQUE : VERDICT_NONE;
+}
+
+static int has_rows(const krawczyk *k) {
+  return k->options.operation == OPERATOR_AUTO || k->options.operation == OPERATOR_HANSEN_SENGUPTA;
 }
 
 /* Sharper slopes serve existence; that the root is alone was seen with the Jacobian. */
 static enum verdict regular_case(krawczyk *k, span *x) {
-  if (!solve(k)) return VERDICT_NONE;
-  if (!box_is_inside(k->n, k->estimate, x) && sharpen(k, x) && krawczyk_is_regular(k) && !solve(k)) return VERDICT_NONE;
-  if (box_is_inside(k->n, k->estimate, x)) {
-    box_copy(k->n, x, k->estimate);
-    return VERDICT_UNIQUE;
-  }
-  if (!box_meet(k->n, k->z, k->shift) || !narrow_solution(k, k->z)) return VERDICT_NONE;
+  if (!krawczyk_solve(k)) return VERDICT_NONE;
+  if (!box_is_inside(k->n, k->estimate, x) && sharpen(k, x) && krawczyk_is_regular(k) && !krawczyk_solve(k))
+    return VERDICT_NONE;
+  if (box_is_inside(k->n, k->estimate, x)) return narrow_unique(k, x);
+  if (!box_meet(k->n, k->z, k->shift)) return VERDICT_NONE;
+  if (has_rows(k) && !krawczyk_sweep(k, k->z)) return VERDICT_NONE;
   return meet_solution(k, x) ? VERDICT_AT_MOST : VERDICT_NONE;
 }
 
 static enum verdict general_case(krawczyk *k, span *x) {
-  box_copy(k->n, k->z, k->shift);
-  if (!narrow_solution(k, k->z)) return VERDICT_NONE;
+  if (k->options.operation == OPERATOR_NEWTON) return VERDICT_UNKNOWN;
+  if (k->options.operation == OPERATOR_KRAWCZYK) {
+    krawczyk_solve(k);
+    if (!box_meet(k->n, k->z, k->shift)) return VERDICT_NONE;
+  } else {
+    box_copy(k->n, k->z, k->shift);
+    if (!krawczyk_sweep(k, k->z)) return VERDICT_NONE;
+  }
   return meet_solution(k, x) ? VERDICT_UNKNOWN : VERDICT_NONE;
 }
 
 enum verdict krawczyk_newton(krawczyk *k, span *x) {
-  if (!box_is_bounded(k->n, x) || !is_smooth(k, x)) return VERDICT_UNKNOWN;
-  if (!evaluate_matrix(k, &k->jacobian, x, k->J) || !precondition(k)) return VERDICT_UNKNOWN;
+  k->has_J = k->has_S = 0;
+  k->gap = (gap) { 0, 0, 0 };
+  if (!box_is_bounded(k->n, x)) return VERDICT_UNKNOWN;
+  uint32_t flags = krawczyk_inspect(k, x);
+  if (flags & ~AMBIT_F_KINK_ELSEWHERE) return VERDICT_UNKNOWN;
+  k->has_J = krawczyk_matrix(k, &k->jacobian, x, k->J);
+  if (!k->has_J) return VERDICT_UNKNOWN;
+  box_copy(k->m, k->mid, x);
   for (uint32_t i = 0; i < k->n; i++) {
-    double m = fmin(fmax(0.5 * x[i].lo + 0.5 * x[i].hi, x[i].lo), x[i].hi);
+    double m = box_middle(x[i]);
     k->mid[i] = (span) { m, m };
   }
-  if (!evaluate_residual(k)) return VERDICT_UNKNOWN;
-  map(k, AMBIT_OP_SUB, k->shift, x, k->mid, k->n);
-  return krawczyk_is_regular(k) ? regular_case(k, x) : general_case(k, x);
+  krawczyk_map(k, AMBIT_OP_SUB, k->shift, x, k->mid, k->n);
+  if (!evaluate_middle(k, flags == 0)) return k->has_J = 0, VERDICT_UNKNOWN;
+  if (is_excluded_by_slopes(k)) return VERDICT_NONE;
+  int invertible = precondition(k);
+  if (invertible) set_residual(k);
+  if (invertible && krawczyk_is_regular(k)) return regular_case(k, x);
+  if (is_excluded_by_signs(k, x)) return VERDICT_NONE;
+  return invertible ? general_case(k, x) : VERDICT_UNKNOWN;
 }

@@ -13,6 +13,7 @@
 #include <ambit/solver.h>
 
 #define PIECES_MAX 16
+#define LOHNER_WIDTH 10 /* times its magnitude: how wide a state may get, if `width_max` says nothing */
 
 /* Generators w_c d_c, oldest first, in groups of n columns; a group has a level (history.c). */
 typedef struct history {
@@ -39,8 +40,12 @@ enum why {
   WHY_STOPPED
 };
 
+/* How slopes get over a step (step.c) */
+enum formula { FORMULA_AUTO, FORMULA_TAYLOR, FORMULA_HERMITE_OBRESCHKOFF };
+
 typedef struct options {
-  uint32_t order, slope_order, history, pieces;
+  uint32_t order, slope_order, slope_order_max; /* slope orders: to start with, and most */
+  uint32_t history, pieces, formula;
   double tolerance, step_max, step_min, width_max;
 } options;
 
@@ -68,6 +73,20 @@ typedef struct constraint {
   int lost;                      /* it loses rank */
 } constraint;
 
+/* the Hermite-Obreschkoff formula (hermite.c) */
+typedef struct corrector {
+  uint32_t r;                      /* order at both ends */
+  ambit_jet *end_jet, *tube_jet;   /* derivatives over the end of the step, to order r; over the step, to 2 r + 1 */
+  double *weight, *loose;          /* [r + 1] c_i +- loose */
+  double *from_mid, *from_rad;     /* [nx x ndir] P */
+  double *to_mid, *to_rad;         /* [nx x ndir] Q_xi, Q */
+  double *error;                   /* [nx x ndir] bound of E by directions */
+  double *guess_mid, *guess_rad;   /* [nx x ndir] the Taylor slopes at the end */
+  double *inverse, *work, *defect; /* [nx x nx] A; scratch; |I - A Q| */
+  double *dmid, *drad;             /* [ndir] scratch */
+  double *added;                   /* [nx] what error and defect add to the set */
+} corrector;
+
 typedef struct lohner {
   const ambit_host *host;
   ambit_problem problem;
@@ -84,14 +103,18 @@ typedef struct lohner {
   history history;
   double *rest, *radius; /* [nx] bounds of |G e|, and of |C xi + G e + low| */
   double *size;          /* [nx] how large each state is, for tolerances */
+  double *unit, *grown;  /* [nx] sizes of states, and of the set, in a step, also of what is zero (step.c) */
   double *limit;         /* [nx] widest that each state may be */
 
   /* -- the step */
   double t, t_next;
   span step;
   int at_instant;                             /* the step ends on an instant of the problem */
+  int corrected;                              /* slopes at the end are those of the corrector */
+  int wide;                                   /* slopes varied over the set in the last step */
   int lenient;                                /* about states that start from zero (step.c) */
-  double guess;                               /* next step length to try */
+  uint32_t slope_order, next_slope_order;     /* of this step, and of the next */
+  double guess, longest;                      /* next step length to try; what its slopes are likely to allow */
   uint32_t next;                              /* the instant ahead */
   double *series_mid, *series_rad;            /* [nx x (order + 1)] of the centre */
   double *slope_mid, *slope_rad;              /* [nx x (slope_order + 1) x ndir] over the box */
@@ -106,13 +129,20 @@ typedef struct lohner {
   double *seed, *no_radius;      /* [ndir] */
   double *added;                 /* [nx] new box of the step */
   double *piece_from, *piece_to; /* [options.pieces x nc] ranges of xi */
+  double *all_from, *all_to;     /* [nc] the whole cube of xi */
   double *curvature;             /* [nc] how much slopes vary */
   uint32_t pieces, *cuts;        /* of this step; [nc] into how many parts each xi is cut */
 
   /* -- the record */
   double *lo, *hi, *tube_lo, *tube_hi; /* [nx] */
-  uint32_t culprit;                    /* the state that is too wide */
+  double *about, *scale;               /* [nu] xi of an unknown is (u - about) / scale */
+  double *dense_mid, *dense_rad;       /* [nx x (order + 1)]; NULL: not wished for, as the next ones */
+  double *set_coefficient, *set_rest;  /* [nx x (nu + 1)] [nx] */
+  ambit_set set;
+  uint32_t culprit; /* the state that is too wide */
+  const char *kink; /* why there is no step, or NULL */
 
+  corrector corrector;
   constraint constraint;
 } lohner;
 
@@ -125,17 +155,25 @@ enum why lohner_start(lohner *s); /* the set at time[0]; WHY_NOTHING or WHY_APAR
 ambit_status lohner_run(void *self, ambit_sink *sink);
 
 /* step.c */
-enum why lohner_find_step(lohner *s); /* series, a length, and its proof */
+double lohner_share_of_time(const lohner *s); /* that of the step in the run, 1 if it is a large one */
+enum why lohner_find_step(lohner *s);         /* series, a length, and its proof */
 
 /* series.c: coefficients of jets, values of polynomials */
 uint32_t lohner_centre_series(lohner *s);
 uint32_t lohner_box_series(lohner *s, const double *from, const double *to); /* from, to [nc]: part of xi's box */
 void lohner_put_centre(const lohner *s, ambit_jet *jet);
 void lohner_put_box(lohner *s, ambit_jet *jet, const double *from, const double *to); /* with seeds of slopes */
-ball lohner_increment(const lohner *s, uint32_t i);              /* of the centre over the step, with its excess */
-void lohner_transfer(const lohner *s, double *mid, double *rad); /* slopes at the end of the step */
-void lohner_tube(lohner *s);                                     /* bounds over the whole step */
-double lohner_reach(const lohner *s, uint32_t j);                /* bound of the coordinate of direction j */
+ball lohner_increment(const lohner *s, uint32_t i);               /* of the centre over the step, with its excess */
+void lohner_transfer(const lohner *s, double *mid, double *rad);  /* slopes at the end of the step */
+void lohner_tube(lohner *s);                                      /* bounds over the whole step */
+double lohner_reach(const lohner *s, uint32_t j);                 /* bound of the coordinate of direction j */
+void lohner_put_parameter(lohner *s, ambit_jet *jet, uint32_t i); /* its whole range, with seeds of slopes */
+ball lohner_slope_over_step(const lohner *s, uint32_t i, uint32_t j);
+/* hermite.c; not open if formula is FORMULA_TAYLOR */
+ambit_status lohner_open_corrector(lohner *s);
+void lohner_close_corrector(lohner *s);
+/* better slopes at the end of the step, from the box series, its proof and the tube; 0: none */
+int lohner_correct(lohner *s);
 /* set.c */
 void lohner_pieces(lohner *s); /* slopes at the end of the step for the pieces of the set; destroys the box series */
 /* [-low, high]: what a row S of slopes, mid +- rad, and the point row `matrix` make different, (S - M) v, for xi in
@@ -146,6 +184,15 @@ void lohner_move(lohner *s); /* the set, from the start of the step to its end *
 /* new midpoint of state i: the old one, a step and a shift; *rest: what is not in it */
 void lohner_shift(const lohner *s, uint32_t i, double step, ball shift, double *centre, double *low, double *rest);
 void lohner_hull(lohner *s); /* rest, radius, lo, hi of the set */
+
+/* dense.c */
+int lohner_open_wishes(lohner *s); /* 0: out of memory */
+void lohner_dense(lohner *s);      /* the enclosure over the step, from the series and its proof */
+void lohner_grant(lohner *s, ambit_record *r);
+
+/* kink.c */
+/* the operation whose kink the set meets, or, if not `met`, comes near to; NULL: none. After lohner_find_step failed */
+const char *lohner_kink(const lohner *s, int met);
 
 /* invariant.c */
 ambit_status lohner_open_invariants(lohner *s);

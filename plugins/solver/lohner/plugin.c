@@ -5,7 +5,9 @@
 static const ambit_param param[] = {
   { "order", "1", "integer", "0", "order of the Taylor series of the midpoint, 4 to 60; 0: chosen from the tolerance" },
   { "jacobian_order", "1", "integer", "0",
-      "order of the slopes over the set, 3 to `order`; 0: chosen from order and tolerance" },
+      "order of the slopes over the set, 3 to `order`; 0: chosen from order and tolerance, and raised where slopes "
+      "limit "
+      "the step" },
   { "tolerance", "1", "", "1e-18", "truncation error that one step may add to a state, relative to the state's size" },
   { "set", "1", "auto|qr|history", "auto",
       "how the set is kept: qr, one orthogonal frame (Lohner's); history, also the boxes of past steps; auto: history "
@@ -15,10 +17,15 @@ static const ambit_param param[] = {
       "boxes of past steps that are kept before the older half is condensed; 1 to 3 count as 4; 0: as set = qr" },
   { "pieces", "1", "integer", "8",
       "parts, 1 to 16, into which uncertain data are cut to bound how slopes vary; the set stays whole" },
+  { "step", "1", "auto|taylor|hermite_obreschkoff", "auto",
+      "formula for the slopes over a step: Taylor, explicit; Hermite-Obreschkoff, implicit; auto: Taylor, and "
+      "Hermite-Obreschkoff where slopes of the highest order limit the step" },
   { "step_max", "s", "", "inf", "longest step" },
   { "step_min", "s", "", "0", "shortest step that is tried before the run gives up; 0: 2^-40 of the time span" },
-  { "width_max", "1", "", "10",
-      "the run ends when a state is wider than this times its initial magnitude (at least times 1)" },
+  { "width_max", "1", "", "0",
+      "the run ends when a state is wider than this times its initial magnitude (at least times 1); 0: than 10 times "
+      "the "
+      "largest magnitude that its midpoint has had (at least 10)" },
   { NULL, NULL, NULL, NULL, NULL },
 };
 

@@ -15,9 +15,9 @@ static AMBIT_WORKER int32_t deliver(ambit_sink *sink, const ambit_record *r, dou
   return stop;
 }
 
-static int32_t emit(const lohner *s, ambit_sink *sink, double t_from) {
+static int32_t emit(lohner *s, ambit_sink *sink, double t_from) {
   const ambit_problem *p = &s->problem;
-  const ambit_record r = { .size = sizeof r,
+  ambit_record r = { .size = sizeof r,
     .kind = AMBIT_REC_STEP,
     .t_from = t_from,
     .t_to = s->t,
@@ -28,6 +28,7 @@ static int32_t emit(const lohner *s, ambit_sink *sink, double t_from) {
     .tube_lo = s->tube_lo,
     .tube_hi = s->tube_hi,
     .order = s->options.order };
+  lohner_grant(s, &r);
   double done = (s->t - p->time[0]) / (p->time[p->ntime - 1] - p->time[0]);
   return deliver(sink, &r, smaller(larger(done, 0), 1));
 }
@@ -42,12 +43,15 @@ static int is_good(const lohner *s, uint32_t i) {
 static enum why advance(lohner *s) {
   enum why why = lohner_find_step(s);
   if (why != WHY_NOTHING) return why;
-  lohner_tube(s);
+  lohner_dense(s);
   lohner_pieces(s);
   lohner_move(s);
   lohner_hull(s);
   if (lohner_contract(s, s->t_next, s->pieces) != WHY_NOTHING) return WHY_APART;
   for (uint32_t i = 0; i < s->nx; i++) {
+    /* speeds that start from zero are large by nature; midpoints of an exploding set are not to be trusted */
+    if (s->options.width_max == 0 && s->radius[i] <= fabs(s->centre[i]))
+      s->limit[i] = larger(s->limit[i], LOHNER_WIDTH * fabs(s->centre[i]));
     s->size[i] = larger(FORGET * s->size[i], larger(fabs(s->lo[i]), fabs(s->hi[i])));
     s->culprit = i;
     if (!is_good(s, i)) return WHY_WIDE;
@@ -70,6 +74,7 @@ static enum why integrate(lohner *s, ambit_sink *sink) {
 
 static AMBIT_WORKER enum why work(lohner *s, ambit_sink *sink) {
   enum why why = integrate(s, sink);
+  s->kink = why == WHY_CENTRE || why == WHY_BOX || why == WHY_NO_STEP ? lohner_kink(s, why != WHY_NO_STEP) : NULL;
   s->constraint.lost = why != WHY_NOTHING && why != WHY_APART && why != WHY_STOPPED && lohner_loses_rank(s);
   return why;
 }
@@ -103,6 +108,14 @@ static ambit_status explain_apart(const lohner *s) {
       s->t_next, name);
 }
 
+static ambit_status explain_kink(const lohner *s) {
+  return s->host->fail(s->host, AMBIT_UNABLE,
+      "at t = %.9g s the enclosure, up to %.3g wide, comes to where %s is not smooth, and Taylor series end; end "
+      "before "
+      "it, or put a smooth law in its place",
+      s->t, width(s), s->kink);
+}
+
 static ambit_status explain(const lohner *s, enum why why) {
   const ambit_host *h = s->host;
   char rank[160];
@@ -112,6 +125,7 @@ static ambit_status explain(const lohner *s, enum why why) {
   case WHY_APART: return explain_apart(s);
   default: say_rank(s, sizeof rank, rank);
   }
+  if (s->kink) return explain_kink(s);
   switch (why) {
   case WHY_CENTRE:
     return h->fail(h, AMBIT_UNABLE,

@@ -44,6 +44,15 @@ static ball box_of(double centre, uint32_t nc, const double *row, const double *
   return ball_of(low, high);
 }
 
+static void put_parameter(lohner *s, ambit_jet *jet, uint32_t i, const double *from, const double *to) {
+  const double *row = s->fixed_column + (size_t)i * s->nc;
+  ball box = box_of(s->fixed[i], s->nc, row, from, to, 0);
+  for (uint32_t j = 0; j < s->ndir; j++) s->seed[j] = j < s->nc ? row[j] : 0;
+  s->jet->put(jet, s->nx + i, 0, box.mid, box.rad, s->seed, s->no_radius);
+}
+
+void lohner_put_parameter(lohner *s, ambit_jet *jet, uint32_t i) { put_parameter(s, jet, i, s->all_from, s->all_to); }
+
 void lohner_put_box(lohner *s, ambit_jet *jet, const double *from, const double *to) {
   uint32_t nc = s->nc;
   for (uint32_t i = 0; i < s->nx; i++) {
@@ -52,16 +61,11 @@ void lohner_put_box(lohner *s, ambit_jet *jet, const double *from, const double 
     for (uint32_t j = 0; j < s->ndir; j++) s->seed[j] = j < nc ? row[j] : j - nc == i;
     s->jet->put(jet, i, 0, box.mid, box.rad, s->seed, s->no_radius);
   }
-  for (uint32_t i = 0; i < s->np; i++) {
-    const double *row = s->fixed_column + (size_t)i * nc;
-    ball box = box_of(s->fixed[i], nc, row, from, to, 0);
-    for (uint32_t j = 0; j < s->ndir; j++) s->seed[j] = j < nc ? row[j] : 0;
-    s->jet->put(jet, s->nx + i, 0, box.mid, box.rad, s->seed, s->no_radius);
-  }
+  for (uint32_t i = 0; i < s->np; i++) put_parameter(s, jet, i, from, to);
 }
 
 uint32_t lohner_box_series(lohner *s, const double *from, const double *to) {
-  uint32_t q = s->options.slope_order;
+  uint32_t q = s->slope_order;
   lohner_put_box(s, s->box_jet, from, to);
   uint32_t flags = put_time_and_solve(s, s->box_jet, q);
   for (uint32_t i = 0; i < s->nx && !flags; i++)
@@ -95,7 +99,7 @@ static void horner(const span *t, size_t n, double *restrict m, double *restrict
 }
 
 void lohner_transfer(const lohner *s, double *mid, double *rad) {
-  size_t n = s->ndir, q = s->options.slope_order;
+  size_t n = s->ndir, q = s->slope_order;
   for (uint32_t i = 0; i < s->nx; i++) {
     const double *a = s->slope_mid + (size_t)i * (q + 1) * n, *b = s->slope_rad + (size_t)i * (q + 1) * n;
     double *m = mid + (size_t)i * n, *r = rad + (size_t)i * n;
@@ -143,17 +147,27 @@ static bounds range(const lohner *s, size_t n, const double *mid, const double *
   return (bounds) { b.low / 3 + rest, b.high / 3 + rest };
 }
 
+static bounds slope_range(const lohner *s, uint32_t i, uint32_t j) {
+  size_t n = s->ndir, q = s->slope_order, at = (size_t)i * (q + 1) * n + j;
+  return range(s, q + 1, s->slope_mid + at, s->slope_rad + at, n);
+}
+
+ball lohner_slope_over_step(const lohner *s, uint32_t i, uint32_t j) {
+  bounds b = slope_range(s, i, j);
+  ball r = ball_of(b.low, b.high);
+  return (ball) { r.mid, r.rad + s->slope_excess[(size_t)i * s->ndir + j] };
+}
+
 void lohner_tube(lohner *s) {
-  size_t p = s->options.order, q = s->options.slope_order, n = s->ndir;
+  size_t p = s->options.order, n = s->ndir;
   for (uint32_t i = 0; i < s->nx; i++) {
     size_t at = (size_t)i * (p + 1);
     bounds b = range(s, p + 1, s->series_mid + at, s->series_rad + at, 1);
     double rest = s->excess[i];
     for (size_t j = 0; j < n; j++) {
-      size_t slope = (size_t)i * (q + 1) * n + j;
       double reach = lohner_reach(s, (uint32_t)j);
       if (reach == 0) continue;
-      bounds d = range(s, q + 1, s->slope_mid + slope, s->slope_rad + slope, n);
+      bounds d = slope_range(s, i, (uint32_t)j);
       rest += (larger(d.low, d.high) + s->slope_excess[(size_t)i * n + j]) * reach;
     }
     s->tube_lo[i] = -(b.low + rest);

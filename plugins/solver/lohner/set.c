@@ -11,16 +11,20 @@
 #include "lohner.h"
 #include <string.h>
 
+#define ROUNDED 0x1p-30
 #define CURVED 0x1p-10 /* share of the set's radius from which on slopes count as varying */
 
 /* -- pieces */
 
-/* how much column j's slopes vary, relative to the set */
+/* How much the slopes of direction j vary over the set, relative to it; what is beyond their orders is no variation. */
 static double curvature(const lohner *s, uint32_t j) {
-  double most = 0;
+  const double *rad = s->corrected ? s->corrector.guess_rad : s->transfer_rad;
+  double most = 0, reach = lohner_reach(s, j);
   for (uint32_t i = 0; i < s->nx; i++) {
-    double rad = s->transfer_rad[(size_t)i * s->ndir + j];
-    if (rad > most * s->radius[i]) most = rad / s->radius[i];
+    size_t at = (size_t)i * s->ndir + j;
+    double varies = (rad[at] - s->slope_excess[at]) * reach;
+    double size = s->radius[i] + ROUNDED * s->unit[i]; /* of a state that is known exactly, too */
+    if (varies > most * size) most = varies / size;
   }
   return most;
 }
@@ -28,13 +32,16 @@ static double curvature(const lohner *s, uint32_t j) {
 /* doubles the number of parts where slopes vary most, as long as it pays; the number of pieces */
 static uint32_t choose_cuts(lohner *s) {
   uint32_t pieces = 1;
-  for (uint32_t j = 0; j < s->nc; j++) {
-    s->cuts[j] = 1;
-    s->curvature[j] = curvature(s, j);
+  double least = CURVED * lohner_share_of_time(s);
+  s->wide = 0;
+  for (uint32_t j = 0; j < s->ndir; j++) {
+    double varies = curvature(s, j);
+    s->wide |= varies > least;
+    if (j < s->nc) s->cuts[j] = 1, s->curvature[j] = varies;
   }
-  while (2 * pieces <= s->options.pieces) {
+  while (!s->corrected && 2 * pieces <= s->options.pieces) {
     uint32_t worst = s->nc;
-    double most = CURVED;
+    double most = least;
     for (uint32_t j = 0; j < s->nc; j++)
       if (s->curvature[j] / s->cuts[j] > most) most = s->curvature[j] / s->cuts[j], worst = j;
     if (worst == s->nc) break;
@@ -59,7 +66,7 @@ static void place_pieces(lohner *s) {
 
 void lohner_pieces(lohner *s) {
   size_t entries = (size_t)s->nx * s->ndir, bytes = entries * sizeof(double);
-  lohner_transfer(s, s->transfer_mid, s->transfer_rad);
+  if (!s->corrected) lohner_transfer(s, s->transfer_mid, s->transfer_rad);
   s->pieces = choose_cuts(s);
   place_pieces(s);
   if (s->pieces == 1) return;

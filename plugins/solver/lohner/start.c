@@ -22,6 +22,7 @@ enum {
   OPTION_SET,
   OPTION_HISTORY,
   OPTION_PIECES,
+  OPTION_FORMULA,
   OPTION_STEP_MAX,
   OPTION_STEP_MIN,
   OPTION_WIDTH_MAX
@@ -47,15 +48,15 @@ static ambit_status check_options(const ambit_host *h, const double *o) {
   if (!(o[OPTION_STEP_MAX] > 0)) return refuse(h, "step_max", "greater than 0", o[OPTION_STEP_MAX]);
   if (!(o[OPTION_STEP_MIN] >= 0 && o[OPTION_STEP_MIN] <= o[OPTION_STEP_MAX]))
     return refuse(h, "step_min", "0 (automatic) to step_max", o[OPTION_STEP_MIN]);
-  if (!(o[OPTION_WIDTH_MAX] > 0)) return refuse(h, "width_max", "greater than 0", o[OPTION_WIDTH_MAX]);
+  if (!(o[OPTION_WIDTH_MAX] >= 0)) return refuse(h, "width_max", "0 (automatic) or greater", o[OPTION_WIDTH_MAX]);
   return AMBIT_OK;
 }
 
 /* Orders: with errors going like (h/R)^p, R the radius of convergence, a step to tolerance e has h/R = e^(1/p), and
 ** work per unit of time goes like p^a / (h/R); that is least at p = ln(1/e) / a, flat around it; measured, 1/a =
-** 0.6. Slopes over the box need only be as sharp as the set's own growth: (h/R)^(q+1) about 1e-6. */
+** 0.54. Slopes over the box need only be as sharp as the set's own growth: (h/R)^(q+1) about 1e-6. */
 static uint32_t automatic_order(double tolerance) {
-  double order = log(1 / tolerance) * 0.6;
+  double order = log(1 / tolerance) * 0.54;
   return order < 4 ? 4 : order > 40 ? 40 : (uint32_t)order;
 }
 
@@ -67,6 +68,7 @@ static uint32_t automatic_slope_order(uint32_t order, double tolerance) {
 static options choose_options(const ambit_problem *p, const double *o) {
   options r = { .history = (uint32_t)o[OPTION_HISTORY],
     .pieces = (uint32_t)o[OPTION_PIECES],
+    .formula = (uint32_t)o[OPTION_FORMULA],
     .step_max = o[OPTION_STEP_MAX],
     .step_min = o[OPTION_STEP_MIN],
     .width_max = o[OPTION_WIDTH_MAX] };
@@ -76,6 +78,7 @@ static options choose_options(const ambit_problem *p, const double *o) {
   r.slope_order =
       o[OPTION_SLOPE_ORDER] != 0 ? (uint32_t)o[OPTION_SLOPE_ORDER] : automatic_slope_order(r.order, counted);
   if (r.order < r.slope_order) r.order = r.slope_order; /* the centre's series serve the slopes */
+  r.slope_order_max = o[OPTION_SLOPE_ORDER] != 0 ? r.slope_order : r.order;
   int classical = o[OPTION_SET] == SET_QR || (o[OPTION_SET] == SET_AUTO && p->nx > LARGEST_FOR_HISTORY);
   if (classical)
     r.history = 0;
@@ -118,10 +121,11 @@ static void close_origin(const lohner *s, origin *o) {
 }
 
 /* g and its slopes at u = mid + radius xi; AMBIT_F_* */
-static AMBIT_WORKER uint32_t evaluate_origin(const lohner *s, origin *o) {
+static AMBIT_WORKER uint32_t evaluate_origin(lohner *s, origin *o) {
   const ambit_problem *p = &s->problem;
   for (uint32_t i = 0; i < p->nu; i++) {
     ball u = ball_of(-p->u_lo[i], p->u_hi[i]);
+    s->about[i] = u.mid, s->scale[i] = u.rad;
     for (uint32_t j = 0; j < p->nu; j++) o->seed[j] = i == j ? u.rad : 0;
     s->jet->put(o->centre, i, 0, u.mid, 0, NULL, NULL);
     s->jet->put(o->box, i, 0, u.mid, u.rad, o->seed, o->no_radius);
@@ -167,22 +171,24 @@ static void keep_origin(lohner *s, const origin *o) {
 
 static int allocate_vectors(lohner *s) {
   size_t nx = s->nx, np = s->np, nc = s->nc, nd = s->ndir, nin = s->problem.rhs->nin, p = s->options.order,
-         q = s->options.slope_order, m = s->options.pieces;
+         q = s->options.slope_order_max, m = s->options.pieces;
   const struct {
     double **array;
     size_t count;
   } list[] = { { &s->start, nx }, { &s->start_rest, nx }, { &s->start_column, nx * nc }, { &s->fixed, np },
     { &s->fixed_column, np * nc }, { &s->centre, nx }, { &s->low, nx }, { &s->column, nx * nc }, { &s->new_centre, nx },
-    { &s->new_low, nx }, { &s->rest, nx }, { &s->radius, nx }, { &s->size, nx }, { &s->limit, nx },
-    { &s->series_mid, nx * (p + 1) }, { &s->series_rad, nx * (p + 1) }, { &s->slope_mid, nx * (q + 1) * nd },
-    { &s->slope_rad, nx * (q + 1) * nd }, { &s->excess, nx }, { &s->box_excess, nx }, { &s->slope_excess, nx * nd },
-    { &s->slope_guess, nx * nd }, { &s->tail_in, nin }, { &s->dtail_in, nin * nd }, { &s->tail_out, nx },
-    { &s->dtail_out, nx * nd }, { &s->transfer_mid, m * nx * nd }, { &s->transfer_rad, m * nx * nd },
-    { &s->whole_mid, nx * nd }, { &s->whole_rad, nx * nd }, { &s->matrix, nx * nd }, { &s->seed, nd },
-    { &s->no_radius, nd }, { &s->added, nx }, { &s->curvature, nc }, { &s->piece_from, m * nc },
-    { &s->piece_to, m * nc }, { &s->lo, nx }, { &s->hi, nx }, { &s->tube_lo, nx }, { &s->tube_hi, nx } };
+    { &s->new_low, nx }, { &s->rest, nx }, { &s->radius, nx }, { &s->size, nx }, { &s->unit, nx }, { &s->grown, nx },
+    { &s->limit, nx }, { &s->series_mid, nx * (p + 1) }, { &s->series_rad, nx * (p + 1) },
+    { &s->slope_mid, nx * (q + 1) * nd }, { &s->slope_rad, nx * (q + 1) * nd }, { &s->excess, nx },
+    { &s->box_excess, nx }, { &s->slope_excess, nx * nd }, { &s->slope_guess, nx * nd }, { &s->tail_in, nin },
+    { &s->dtail_in, nin * nd }, { &s->tail_out, nx }, { &s->dtail_out, nx * nd }, { &s->transfer_mid, m * nx * nd },
+    { &s->transfer_rad, m * nx * nd }, { &s->whole_mid, nx * nd }, { &s->whole_rad, nx * nd }, { &s->matrix, nx * nd },
+    { &s->seed, nd }, { &s->no_radius, nd }, { &s->added, nx }, { &s->curvature, nc }, { &s->all_from, nc },
+    { &s->all_to, nc }, { &s->piece_from, m * nc }, { &s->piece_to, m * nc }, { &s->lo, nx }, { &s->hi, nx },
+    { &s->tube_lo, nx }, { &s->tube_hi, nx } };
   for (size_t i = 0; i < sizeof list / sizeof *list; i++)
     if (!(*list[i].array = room(s->host, list[i].count, sizeof(double)))) return 0;
+  for (size_t j = 0; j < nc; j++) s->all_from[j] = -1, s->all_to[j] = 1;
   s->cuts = room(s->host, nc, sizeof *s->cuts);
   return s->cuts && history_open(s->host, &s->history, s->nx, s->options.history);
 }
@@ -193,10 +199,13 @@ static ambit_status open_series(lohner *s) {
       s->jet->open(s->host, p->rhs, p->arithmetic, p->actx, s->options.order, 0, NULL, &s->centre_jet);
   if (status != AMBIT_OK) return status;
   return s->jet->open(
-      s->host, p->rhs, p->arithmetic, p->actx, s->options.slope_order, s->ndir, s->centre_jet, &s->box_jet);
+      s->host, p->rhs, p->arithmetic, p->actx, s->options.slope_order_max, s->ndir, s->centre_jet, &s->box_jet);
 }
 
 static ambit_status open_set(lohner *s, origin *o) {
+  s->about = room(s->host, s->problem.nu, sizeof(double));
+  s->scale = room(s->host, s->problem.nu, sizeof(double));
+  if (!s->about || !s->scale) return no_memory(s->host);
   ambit_rounding old = ambit_round_up();
   uint32_t flags = evaluate_origin(s, o);
   ambit_rounding_restore(old);
@@ -206,9 +215,10 @@ static ambit_status open_set(lohner *s, origin *o) {
         "of the data");
   s->nc = count_columns(s, o);
   s->ndir = s->nc + s->nx;
-  if (!allocate_vectors(s)) return no_memory(s->host);
+  if (!allocate_vectors(s) || !lohner_open_wishes(s)) return no_memory(s->host);
   keep_origin(s, o);
   ambit_status status = open_series(s);
+  if (status == AMBIT_OK && s->options.formula != FORMULA_TAYLOR) status = lohner_open_corrector(s);
   return status == AMBIT_OK ? lohner_open_invariants(s) : status;
 }
 
@@ -237,6 +247,7 @@ void lohner_close(void *self) {
   lohner *s = self;
   if (s->centre_jet) s->jet->close(s->centre_jet);
   if (s->box_jet) s->jet->close(s->box_jet);
+  lohner_close_corrector(s);
   lohner_close_invariants(s);
 }
 
@@ -251,12 +262,15 @@ enum why lohner_start(lohner *s) {
   s->t = s->t_next = p->time[0];
   lohner_hull(s);
   /* of the set as given: the hull of a cut set may be far smaller than the set that is kept (meet_hull) */
-  for (uint32_t i = 0; i < s->nx; i++)
-    s->limit[i] = s->options.width_max * larger(1, larger(fabs(s->lo[i]), fabs(s->hi[i])));
+  double factor = s->options.width_max > 0 ? s->options.width_max : LOHNER_WIDTH;
+  for (uint32_t i = 0; i < s->nx; i++) s->limit[i] = factor * larger(1, larger(fabs(s->lo[i]), fabs(s->hi[i])));
   if (lohner_contract(s, s->t, 1) != WHY_NOTHING) return WHY_APART;
   lohner_note_rank(s);
   for (uint32_t i = 0; i < s->nx; i++) s->size[i] = larger(fabs(s->lo[i]), fabs(s->hi[i]));
   s->next = 1;
+  s->wide = 0;
+  s->longest = INFINITY;
+  s->next_slope_order = s->options.slope_order;
   s->guess = smaller(fabs(p->time[1] - p->time[0]), s->options.step_max);
   if (s->options.step_min == 0) s->options.step_min = RESOLUTION * fabs(p->time[p->ntime - 1] - p->time[0]);
   return WHY_NOTHING;

@@ -16,9 +16,12 @@
 #define LOW_WATER 0.02 /* a longer step is worth another tail below this share */
 #define GROWTH 3.0
 #define SHRINK 0.8
+#define BLUNT 0.5 /* slopes limit the step to this share of what the centre allows: raise their order */
+#define SHARP 1.5 /* lower it */
+#define BEND 0.3
 #define TINY 0x1p-1000  /* so that zero is its own proof */
 #define SLOPPY 0x1p-10  /* most that the excess of slopes may add to the set in a step, relative, ... */
-#define SLOPPY_STEPS 64 /* ... in a run of so many steps; of longer runs less, so that the sum stays bounded */
+#define MANY_STEPS 64   /* ... in a run of so many steps; of longer runs less, so that the sum stays bounded */
 #define WIDE_SHARE 1e-9 /* of a wide set's radius that truncation may add */
 
 /* -- the length */
@@ -81,12 +84,43 @@ static double noise(const lohner *s, uint32_t i) {
   return H * (rad[1] + H * (rad[2] + H * rad[3]));
 }
 
+/* in which some state changes by its own size; at least the step */
+static double natural_time(const lohner *s) {
+  double least = INFINITY;
+  for (uint32_t i = 0; i < s->nx; i++) {
+    const double *mid = s->series_mid + (size_t)i * (s->options.order + 1u);
+    if (s->size[i] > 0) least = smaller(least, smaller(s->size[i] / fabs(mid[1]), sqrt(s->size[i] / fabs(mid[2]))));
+  }
+  return least < INFINITY ? larger(least, s->step.length) : s->step.length;
+}
+
+/* Sizes of states that are zero, and stay so for their first derivatives (the far end of a chain), have no size of
+** their own; before the run ends for that (`lenient`), they get what the others could make of them in their time. */
+static void fill(const lohner *s, double *size) {
+  int more = s->lenient;
+  double time = more ? natural_time(s) : 0;
+  for (uint32_t sweep = 0; sweep < s->nx && more; sweep++) {
+    more = 0;
+    for (uint32_t i = 0; i < s->nx; i++) {
+      if (size[i] > 0) continue;
+      const double *rate = s->slope_mid + ((size_t)i * (s->slope_order + 1u) + 1) * s->ndir + s->nc;
+      for (uint32_t j = 0; j < s->nx; j++) size[i] = larger(size[i], time * fabs(rate[j]) * size[j]);
+      more |= size[i] > 0;
+    }
+  }
+}
+
+static void choose_units(lohner *s) {
+  for (uint32_t i = 0; i < s->nx; i++) s->unit[i] = larger(s->size[i], swing(s, i));
+  fill(s, s->unit);
+}
+
 /* truncation error over what is allowed, the worst component */
 static double truncation(lohner *s) {
   double worst = 0;
   if (!centre_excess(s, NULL)) return INFINITY;
   for (uint32_t i = 0; i < s->nx; i++) {
-    double allowed = s->options.tolerance * larger(s->size[i], swing(s, i)) + WIDE_SHARE * s->radius[i];
+    double allowed = s->options.tolerance * s->unit[i] + WIDE_SHARE * s->radius[i];
     if (s->lenient) allowed += noise(s, i);
     double ratio = s->excess[i] / (allowed + TINY);
     if (!(ratio <= worst)) worst = ratio; /* NaN too */
@@ -113,16 +147,14 @@ static void guess(int attempt, size_t n, const double *excess, double *eps) {
   for (size_t k = 0; k < n; k++) eps[k] = (attempt ? AGAIN : GUESS) * excess[k] + floor;
 }
 
-static double unit_of(const lohner *s, uint32_t i) { return larger(s->size[i], swing(s, i)); }
-
 static void guess_in_units(const lohner *s, int attempt, size_t n, const double *excess, double *eps) {
   static const double share[TRIES_OF_PROOF] = { 0, 1e-9, 1e-6, 1e-4, 1e-2, 0.1 };
   for (size_t j = 0; j < n; j++) {
     double largest = 0;
     for (uint32_t i = 0; i < s->nx; i++)
-      if (unit_of(s, i) > 0) largest = larger(largest, excess[i * n + j] / unit_of(s, i));
+      if (s->unit[i] > 0) largest = larger(largest, excess[i * n + j] / s->unit[i]);
     for (uint32_t i = 0; i < s->nx; i++) {
-      double floor = share[attempt] * largest * unit_of(s, i) + TINY;
+      double floor = share[attempt] * largest * s->unit[i] + TINY;
       eps[i * n + j] = (attempt ? AGAIN : GUESS) * excess[i * n + j] + floor;
     }
   }
@@ -151,7 +183,7 @@ static int centre_is_proved(lohner *s) {
 
 /* value and slope excesses from guesses; NULL: zero */
 static int slope_excess(lohner *s, const double *eps, const double *deps) {
-  uint32_t q = s->options.slope_order, n = s->ndir;
+  uint32_t q = s->slope_order, n = s->ndir;
   double H = s->step.length, top = power(H, q);
   for (uint32_t i = 0; i < s->nx; i++) {
     double mid, rad;
@@ -183,65 +215,130 @@ static int slopes_are_proved(lohner *s) {
   return 0;
 }
 
-/* What the excess of slopes adds to the set is small beside the set, or beside what the step makes of it: a
-** component that starts as a point grows by its first two derivatives. One that starts from zero and feels others by
-** its third derivative only has neither; before the run ends for that, its swing counts as its size (`lenient`). */
-static int slopes_are_sharp(const lohner *s) {
-  uint32_t n = s->ndir, q = s->options.slope_order;
+double lohner_share_of_time(const lohner *s) {
   const double *time = s->problem.time;
-  double H = s->step.length, span = fabs(time[s->problem.ntime - 1] - time[0]);
-  double share = SLOPPY * smaller(1, SLOPPY_STEPS * H / span);
+  return smaller(1, MANY_STEPS * s->step.length / fabs(time[s->problem.ntime - 1] - time[0]));
+}
+
+/* What the excess of slopes, added[i], adds to the set, over what is allowed: little beside the set, or beside what the
+** step makes of it (a component that starts as a point grows by its first two derivatives). One
+** that starts from zero and feels others by its third derivative only has none of these (see `fill`). The worst
+** component. */
+static double bluntness(lohner *s, const double *added) {
+  uint32_t n = s->ndir, q = s->slope_order;
+  double H = s->step.length, worst = 0, share = SLOPPY * lohner_share_of_time(s);
   for (uint32_t i = 0; i < s->nx; i++) {
     const double *slope = s->slope_mid + (size_t)i * (q + 1u) * n;
-    double added = 0, grown = s->radius[i];
-    for (uint32_t j = 0; j < n; j++) {
-      added += s->slope_excess[(size_t)i * n + j] * lohner_reach(s, j);
-      grown += H * (fabs(slope[n + j]) + H * fabs(slope[2u * n + j])) * lohner_reach(s, j);
-    }
-    double allowed = s->options.tolerance * (s->lenient ? larger(s->size[i], swing(s, i)) : s->size[i]);
-    if (s->lenient) allowed += noise(s, i);
-    if (!(added <= share * grown + allowed + TINY)) return 0;
+    s->grown[i] = s->radius[i];
+    for (uint32_t j = 0; j < n; j++)
+      s->grown[i] += H * (fabs(slope[n + j]) + H * fabs(slope[2u * n + j])) * lohner_reach(s, j);
   }
-  return 1;
+  fill(s, s->grown);
+  for (uint32_t i = 0; i < s->nx; i++) {
+    double allowed = s->options.tolerance * (s->lenient ? s->unit[i] : s->size[i]);
+    if (s->lenient) allowed += noise(s, i);
+    double ratio = added[i] / (share * s->grown[i] + allowed + TINY);
+    if (!(ratio <= worst)) worst = ratio; /* NaN too */
+  }
+  return worst >= 0 ? worst : INFINITY;
+}
+
+static double taylor_bluntness(lohner *s) {
+  for (uint32_t i = 0; i < s->nx; i++) {
+    s->added[i] = 0;
+    for (uint32_t j = 0; j < s->ndir; j++) s->added[i] += s->slope_excess[(size_t)i * s->ndir + j] * lohner_reach(s, j);
+  }
+  return bluntness(s, s->added);
+}
+
+/* slopes at the end of the step by one of the formulas; sets `corrected` */
+static double find_slopes(lohner *s) {
+  uint32_t formula = s->options.formula;
+  double ratio = formula == FORMULA_HERMITE_OBRESCHKOFF ? INFINITY : taylor_bluntness(s);
+  s->corrected = 0;
+  lohner_tube(s);
+  if (ratio <= 1 || formula == FORMULA_TAYLOR) return ratio;
+  if (formula == FORMULA_AUTO && (s->wide || s->slope_order < s->options.slope_order_max)) return ratio;
+  if (!lohner_correct(s)) return INFINITY;
+  s->corrected = 1;
+  return bluntness(s, s->corrector.added);
 }
 
 /* -- both */
 
-/* the next length to try for a ratio of error to tolerance that goes like its power p + 1 */
-static double rescaled(const lohner *s, double ratio) {
-  double factor = ratio > 0 ? pow(AIM / ratio, 1.0 / (s->options.order + 1.0)) : GROWTH;
+/* the next length to try for a ratio of error to what is allowed that goes like its power order + 1 */
+static double rescaled(const lohner *s, double ratio, uint32_t order) {
+  double factor = ratio > 0 ? pow(AIM / ratio, 1.0 / (order + 1.0)) : GROWTH;
   if (!(factor > 0.1)) factor = 0.1;
   return s->step.length * smaller(factor, GROWTH);
 }
 
+/* An automatic order of the slopes follows the step that the midpoint's series allows; not over wide sets, for which
+** long steps do not pay: what slopes vary by grows with them. */
+static void adapt_slope_order(lohner *s, double by_centre, double by_slopes) {
+  const options *o = &s->options;
+  if (s->wide) by_slopes = INFINITY;
+  if (by_slopes < BLUNT * by_centre && s->slope_order < o->slope_order_max) s->next_slope_order++;
+  if (by_slopes > SHARP * by_centre && s->slope_order > o->slope_order) s->next_slope_order--;
+}
+
+/* Over wide sets: what slopes vary by at the end of the step, over what they would if that grew with time only, less
+** one. It goes about like the length of the step; as long as it is small, several steps lose no more than one. */
+static double bend(const lohner *s) {
+  uint32_t n = s->ndir, q = s->slope_order;
+  double whole = 0, first = 0;
+  for (uint32_t i = 0; i < s->nx; i++)
+    for (uint32_t j = 0; j < n; j++) {
+      const double *rad = s->slope_rad + (size_t)i * (q + 1u) * n + j;
+      double sum = 0, weight = lohner_reach(s, j) / (s->unit[i] + TINY);
+      for (uint32_t k = q; k > 0; k--) sum = (sum + rad[(size_t)k * n]) * s->step.length;
+      whole += sum * weight;
+      first += rad[n] * s->step.length * weight;
+    }
+  return whole / first - 1;
+}
+
+static void plan_next(lohner *s, int cut_short, double length, double ratio, double slope_ratio) {
+  double by_centre = rescaled(s, ratio, s->options.order), by_slopes = rescaled(s, slope_ratio, s->slope_order);
+  if (!cut_short) adapt_slope_order(s, by_centre, by_slopes);
+  double bends = s->wide ? bend(s) : 0;
+  if (bends > 0) by_slopes = smaller(by_slopes, s->step.length * smaller(BEND / bends, GROWTH));
+  s->guess = smaller(by_centre, by_slopes);
+  if (cut_short) s->guess = larger(length, s->guess);
+  s->longest = larger(s->guess, by_slopes);
+}
+
 static enum why search(lohner *s) {
-  double most = s->options.step_max, length = smaller(larger(s->guess, s->options.step_min), most);
+  double most = smaller(s->longest, s->options.step_max), length = smaller(larger(s->guess, s->options.step_min), most);
   for (int i = 0; i < TRIES; i++) {
     if (!plan(s, length) || (s->step.length < s->options.step_min && !s->at_instant)) return WHY_NO_STEP;
-    double ratio = truncation(s);
+    choose_units(s);
+    double ratio = truncation(s), slope_ratio;
     if (ratio > 1) { /* never again as long: an infinite ratio would otherwise shrink and grow in turn */
       most = smaller(most, SHRINK * s->step.length);
-      length = smaller(rescaled(s, ratio), most);
+      length = smaller(rescaled(s, ratio, s->options.order), most);
       continue;
     }
     int cut_short = s->at_instant || s->step.length < 0.99 * length;
     if (ratio < LOW_WATER && !cut_short && length < most) {
-      length = ratio > 0 ? smaller(rescaled(s, ratio), most) : most;
+      length = ratio > 0 ? smaller(rescaled(s, ratio, s->options.order), most) : most;
       continue;
     }
-    if (centre_is_proved(s) && slopes_are_proved(s) && slopes_are_sharp(s)) {
-      s->guess = cut_short ? larger(length, rescaled(s, ratio)) : rescaled(s, ratio);
+    if (!centre_is_proved(s) || !slopes_are_proved(s))
+      most = length = SHRINK * s->step.length;
+    else if ((slope_ratio = find_slopes(s)) <= 1) {
+      plan_next(s, cut_short, length, ratio, slope_ratio);
       return WHY_NOTHING;
-    }
-    most = length = SHRINK * s->step.length;
+    } else
+      most = length = smaller(SHRINK * s->step.length, rescaled(s, slope_ratio, s->slope_order));
   }
   return WHY_NO_STEP;
 }
 
 enum why lohner_find_step(lohner *s) {
-  if (lohner_centre_series(s)) return WHY_CENTRE;
-  for (uint32_t j = 0; j < s->nc; j++) s->piece_from[j] = -1, s->piece_to[j] = 1;
-  if (lohner_box_series(s, s->piece_from, s->piece_to)) return WHY_BOX;
+  s->slope_order = s->next_slope_order;
+  uint32_t centre = lohner_centre_series(s), box = lohner_box_series(s, s->all_from, s->all_to);
+  if (centre || box) return centre ? WHY_CENTRE : WHY_BOX;
   s->lenient = 0;
   if (search(s) == WHY_NOTHING) return WHY_NOTHING;
   s->lenient = 1;

@@ -1,0 +1,100 @@
+/* guard.c -- watches records, and judges a run by what it saw. */
+#include "model/guard.h"
+#include "model/allocation.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static bool bounds_make_sense(uint32_t n, const double *lo, const double *hi) {
+  for (uint32_t i = 0; i < n; i++)
+    if (!(lo[i] <= hi[i])) return false;
+  return true;
+}
+
+/* NULL: the step is sound in form */
+static const char *find_fault(const ambit_guard *g, const ambit_record *r) {
+  if (r->size < offsetof(ambit_record, ndense)) return "a record of the wrong size";
+  if (r->kind != AMBIT_REC_STEP) return NULL;
+  if (r->nx != g->nx || !r->lo || !r->hi) return "a step without an enclosure of every state";
+  if (!bounds_make_sense(r->nx, r->lo, r->hi)) return "a step with an empty or NaN enclosure";
+  if (r->tube_lo && r->tube_hi && !bounds_make_sense(r->nx, r->tube_lo, r->tube_hi))
+    return "a step with an empty or NaN tube";
+  if (!(g->direction * (r->t_from - g->reached) <= 0)) return "a step that leaves a gap in time";
+  if (!(g->direction * (r->t_to - g->reached) >= 0) || !isfinite(r->t_to))
+    return "a step against the direction of time";
+  return NULL;
+}
+
+static int32_t pass(ambit_guard *g, int32_t stop) {
+  g->stopped = g->stopped || stop;
+  ambit_allocation_forbid(1); /* from the first record on */
+  return stop;
+}
+
+static int32_t emit(ambit_sink *s, const ambit_record *given) {
+  ambit_guard *g = (ambit_guard *)(void *)s;
+  ambit_allocation_forbid(0);              /* what the receiver does is its own affair */
+  ambit_record whole = { 0 }, *r = &whole; /* a solver may be older than this kernel, and its records shorter */
+  memcpy(r, given, given->size < sizeof *r ? given->size : sizeof *r);
+  const char *fault = find_fault(g, r);
+  if (fault) {
+    snprintf(g->broken, sizeof g->broken, "%s", fault);
+    return pass(g, 1);
+  }
+  if (r->kind == AMBIT_REC_STEP) {
+    g->steps++;
+    g->reached = r->t_to;
+  }
+  return pass(g, g->outer && g->outer->emit ? g->outer->emit(g->outer, r) : 0);
+}
+
+static int32_t progress(ambit_sink *s, double done, const char *message) {
+  ambit_guard *g = (ambit_guard *)(void *)s;
+  if (!g->outer || !g->outer->progress) return 0;
+  ambit_allocation_forbid(0);
+  int32_t stop = g->outer->progress(g->outer, done, message);
+  g->stopped = g->stopped || stop;
+  if (g->steps) ambit_allocation_forbid(1);
+  return stop;
+}
+
+ambit_guard ambit_guard_make(const ambit_problem *p, ambit_sink *outer) {
+  return (ambit_guard) {
+    .sink = { sizeof(ambit_sink), emit, progress },
+    .outer = outer,
+    .nx = p->nx,
+    .direction = p->time[p->ntime - 1] < p->time[0] ? -1 : 1,
+    .reached = p->time[0],
+    .end = p->time[p->ntime - 1],
+  };
+}
+
+ambit_status ambit_guard_explain(
+    ambit_status said, const char *solver, const char *own, const char *fallback, char reason[AMBIT_MESSAGE_MAX]) {
+  if (own[0])
+    snprintf(reason, AMBIT_MESSAGE_MAX, "%s", own);
+  else
+    snprintf(reason, AMBIT_MESSAGE_MAX, "solver `%s` %s", solver, fallback);
+  return said >= AMBIT_OK && said <= AMBIT_BROKEN ? said : AMBIT_BROKEN;
+}
+
+ambit_status ambit_guard_judge(
+    const ambit_guard *g, ambit_status said, const char *solver, const char *own, char reason[AMBIT_MESSAGE_MAX]) {
+  reason[0] = '\0';
+  if (g->broken[0]) {
+    snprintf(reason, AMBIT_MESSAGE_MAX, "solver `%s` is broken: it gave %s", solver, g->broken);
+    return AMBIT_BROKEN;
+  }
+  if (g->stopped && g->reached != g->end) {
+    snprintf(reason, AMBIT_MESSAGE_MAX, "stopped on request at t = %.9g s", g->reached);
+    return AMBIT_STOPPED;
+  }
+  if (said == AMBIT_OK && g->reached != g->end) {
+    snprintf(reason, AMBIT_MESSAGE_MAX, "solver `%s` is broken: it says it is done at t = %.9g s, before the end",
+        solver, g->reached);
+    return AMBIT_BROKEN;
+  }
+  if (said == AMBIT_OK || (said == AMBIT_STOPPED && g->reached == g->end)) return AMBIT_OK;
+  return ambit_guard_explain(said, solver, own,
+      said == AMBIT_STOPPED ? "stopped without being asked to" : "could not go on and gave no reason", reason);
+}

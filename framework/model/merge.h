@@ -1,0 +1,37 @@
+/* merge.h -- where the pieces of a split meet: hulls by interval of time, which of them are complete, whether to go on.
+**
+** All functions may be called from any thread, except forward, which belongs to one thread at a time.
+*/
+#ifndef AMBIT_MERGE_H
+#define AMBIT_MERGE_H
+#include "base/arena.h"
+#include "base/status.h"
+#include <ambit/solver.h>
+#include <stdbool.h>
+
+typedef struct ambit_merge ambit_merge;
+
+/* For the intervals between the instants of p; in the arena. */
+ambit_status ambit_merge_open(ambit_arena *arena, const ambit_problem *p, uint32_t pieces, ambit_merge **m);
+void ambit_merge_close(ambit_merge *m); /* NULL is allowed */
+
+/* What one piece gives for one interval: ends and tubes, lo and hi [nx]; has_tube: of all its steps */
+typedef struct ambit_merge_part {
+  double *lo, *hi, *tube_lo, *tube_hi;
+  uint32_t flags, order;
+  bool has_tube;
+} ambit_merge_part;
+
+void ambit_merge_put(ambit_merge *m, uint32_t interval, const ambit_merge_part *part);
+/* The piece holds no solution at all, so it adds nothing to the intervals behind the completed ones. */
+void ambit_merge_put_nothing(ambit_merge *m, uint32_t completed, const char *reason);
+/* The piece could not go on behind `completed` intervals. */
+void ambit_merge_fail(ambit_merge *m, uint32_t piece, uint32_t completed, ambit_status status, const char *reason);
+/* Nothing that this piece can still do matters: somebody asked to stop, or another piece got less far. */
+bool ambit_merge_is_over(ambit_merge *m, uint32_t piece, uint32_t completed);
+
+/* Hands the intervals that all pieces have completed to the sink, and the progress; nonzero: stop. */
+int32_t ambit_merge_forward(ambit_merge *m, ambit_sink *sink);
+/* When all have ended: OK, or the status and reason of the piece that got least far. */
+ambit_status ambit_merge_outcome(ambit_merge *m, char reason[AMBIT_MESSAGE_MAX]);
+#endif

@@ -1,0 +1,134 @@
+-- Poincare maps: sets that return to a section, when, and what follows about periodic orbits.
+local ambit = require "ambit"
+
+local van_der_pol = ambit.ode {
+  states = { "x", "y" }, equations = function(s) return { x = s.y, y = (1 - s.x ^ 2) * s.y - s.x } end,
+}
+local PERIOD = 6.6632868593231301897 -- of the limit cycle for mu = 1 (Bourke, Mathematical Gazette 1974, and others)
+
+local oscillator = ambit.ode { states = { "x", "v" }, equations = function(s) return { x = s.v, v = -s.x } end }
+
+local function refused(part, t)
+  local good, message = pcall(ambit.poincare, t)
+  assert.is_false(good)
+  assert.is_truthy(message:find(part, 1, true), ("%q expected, got: %s"):format(part, message))
+end
+
+local function limit_cycle(radius, more)
+  local t = {
+    van_der_pol, section = function(s) return s.y end, direction = "falling", t_max = 8, tolerance = 1e-14,
+    initial = { x = ambit.around(2.008619860874843, radius), y = 0 },
+  }
+  for key, value in pairs(more or {}) do t[key] = value end
+  return ambit.poincare(t)
+end
+
+describe("poincare", function()
+  it("proves the limit cycle of Van der Pol and encloses its period", function()
+    for _, radius in ipairs { 1e-3, 1e-6, 1e-11 } do
+      local map = limit_cycle(radius)
+      assert.equal("complete", map.status)
+      local orbit = map:orbit()
+      assert.is_true(orbit.proved)
+      assert.is_true(orbit.period:contains(PERIOD))
+      assert.is_true(orbit.period:width() < 4 * radius)
+      assert.is_true(orbit.x.x:contains(2.0086198608748431365))
+      assert.is_true(map.returns[1].certain)
+      assert.equal("falling", map.returns[1].direction)
+    end
+  end)
+
+  it("does not prove an orbit that is not there", function()
+    local map = limit_cycle(1e-3, { initial = { x = ambit.around(2.1, 1e-3), y = 0 } })
+    assert.equal("complete", map.status)
+    local orbit = map:orbit()
+    assert.is_false(orbit.proved)
+    assert.is_truthy(orbit.reason:find "not inside")
+    local off = limit_cycle(1e-3, { initial = { x = ambit.around(2.0086, 1e-3), y = "0.01" } }):orbit()
+    assert.is_false(off.proved)
+    local same = ambit.around(2.0086, 1e-3)
+    local tied = limit_cycle(1e-3, { initial = { x = same, y = same - same } }):orbit()
+    assert.is_true(tied.proved or tied.reason ~= nil)
+  end)
+
+  it("follows several returns without losing what the states have in common", function()
+    local map = ambit.poincare {
+      oscillator, section = function(s) return s.v end, direction = "rising", returns = 4, t_max = 30,
+      initial = { x = ambit.between("-1.0001", -1), v = 0 },
+    }
+    assert.equal(4, #map.returns)
+    for i, r in ipairs(map.returns) do
+      assert.is_true(r.t.lo <= 2 * math.pi * i + 1e-14 and 2 * math.pi * i - 1e-14 <= r.t.hi)
+      assert.is_true(r.t:width() < 1e-6)
+      assert.is_true(r.x.x.lo <= -1.0001 and -1 <= r.x.x.hi and r.x.x:width() < 1.1e-4)
+      assert.is_true(r.x.v:contains(0) and r.x.v:width() < 1e-7)
+    end
+  end)
+
+  it("cuts steps where a wide set leaves a crossing undecided", function()
+    local map = ambit.poincare {
+      oscillator, section = function(s) return s.v end, direction = "rising", t_max = 8,
+      initial = { x = ambit.between(-2, -1), v = 0 },
+    }
+    assert.equal("complete", map.status)
+    assert.is_true(map.returns[1].t:contains(2 * math.pi) and map.returns[1].t:width() < 0.1)
+    assert.is_true(map.returns[1].x.x.lo <= -2 and -1 <= map.returns[1].x.x.hi and map.returns[1].x.x:width() < 1.1)
+  end)
+
+  it("is sharp for wide sets with a solver of high order in the data", function()
+    local map = ambit.poincare {
+      oscillator, section = function(s) return s.v end, direction = "rising", t_max = 8, solver = "taylor_model",
+      initial = { x = ambit.between("-1.5", -1), v = 0 },
+    }
+    assert.equal("complete", map.status)
+    assert.is_true(map.returns[1].t:contains(2 * math.pi) and map.returns[1].t:width() < 1e-5)
+    assert.is_true(map.returns[1].x.x.lo <= -1.5 and -1 <= map.returns[1].x.x.hi)
+    assert.is_true(map.returns[1].x.x:width() < 0.501)
+  end)
+
+  it("knows systems and sections that depend on time", function()
+    local forced = ambit.ode { states = { "x" }, equations = function(_, _, t) return { x = ambit.cos(t) } end }
+    local map = ambit.poincare {
+      forced, section = function(s, _, t) return 2 * s.x - 1 + 0 * t end, returns = 3, t_max = 10, initial = { x = 0 },
+    }
+    for i, k in ipairs { 1, 5, 13 } do
+      local t = k * math.pi / 6
+      assert.is_true(map.returns[i].t.lo <= t + 1e-14 and t - 1e-14 <= map.returns[i].t.hi)
+      assert.is_true(map.returns[i].t:width() < 1e-10)
+    end
+    assert.is_truthy(map:orbit().reason:find "depends on time")
+    local later = ambit.poincare { forced, section = function(s) return 2 * s.x - 1 end, t_start = math.pi, t_max = 10,
+      initial = { x = 0 } }
+    assert.is_true(math.abs(later.returns[1].t:mid() - 13 * math.pi / 6) < 1e-12)
+  end)
+
+  it("says which return it cannot prove", function()
+    local graze = ambit.poincare { oscillator, section = function(s) return s.x + 1 end, initial = { x = 1, v = 0 },
+      t_max = 5 }
+    assert.equal("unable", graze.status)
+    assert.is_truthy(graze.reason:find "return 1: event `section` in t = .*graze")
+    local late = ambit.poincare { oscillator, section = function(s) return s.v end, direction = "rising", returns = 2,
+      initial = { x = -1, v = 0 }, t_max = 10 }
+    assert.equal("unable", late.status)
+    assert.equal(1, #late.returns)
+    assert.is_truthy(late.reason:find "return 2: some solutions do not return")
+  end)
+
+  it("gives the image as a set to go on from", function()
+    local map = limit_cycle(1e-6)
+    local next_one = ambit.poincare { van_der_pol, section = function(s) return s.y end, direction = "falling",
+      t_max = 8, initial = map:set(), tolerance = 1e-14 }
+    assert.is_true(next_one.returns[1].t:contains(PERIOD))
+    assert.is_true(next_one.returns[1].x.x:width() < map.returns[1].x.x:width())
+  end)
+
+  it("refuses what it cannot use", function()
+    local function section(s) return s.v end
+    refused("t_max is missing", { oscillator, section = section, initial = { x = 1, v = 0 } })
+    refused("section: expected a formula", { oscillator, initial = { x = 1, v = 0 }, t_max = 1 })
+    refused("did you mean `t_max`", { oscillator, section = section, initial = { x = 1, v = 0 }, t = 1, t_max = 1 })
+    refused("later than the start", { oscillator, section = section, initial = { x = 1, v = 0 }, t_max = -1 })
+    refused("returns: expected a positive integer", { oscillator, section = section, initial = { x = 1, v = 0 },
+      t_max = 1, returns = 0 })
+  end)
+end)
