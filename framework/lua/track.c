@@ -49,15 +49,19 @@ static void forget_last(ambit_track *track) {
 
 static bool append_dense(ambit_track *track, ambit_track_step *step, const ambit_record *r) {
   if (!(track->keep & AMBIT_TRACK_DENSE) || !r->ndense || !r->dense_mid || !r->dense_rad) return true;
-  size_t n = track->nx * r->ndense;
-  double *dense = ambit_vector_reserve(track->dense, &track->room_dense, track->count_dense + 2 * n, sizeof *dense);
+  size_t n = track->nx * r->ndense, columns = r->dense_column ? track->nx * r->ncolumn * r->ncoef_column : 0;
+  size_t end = track->count_dense + 2 * n + columns;
+  double *dense = ambit_vector_reserve(track->dense, &track->room_dense, end, sizeof *dense);
   if (!dense) return false;
   track->dense = dense;
   step->ndense = r->ndense;
+  step->ncolumn = columns ? r->ncolumn : 0;
+  step->ncoef_column = r->ncoef_column;
   step->dense = track->count_dense;
-  memcpy(dense + track->count_dense, r->dense_mid, n * sizeof *dense);
-  memcpy(dense + track->count_dense + n, r->dense_rad, n * sizeof *dense);
-  track->count_dense += 2 * n;
+  memcpy(dense + step->dense, r->dense_mid, n * sizeof *dense);
+  memcpy(dense + step->dense + n, r->dense_rad, n * sizeof *dense);
+  if (columns) memcpy(dense + step->dense + 2 * n, r->dense_column, columns * sizeof *dense);
+  track->count_dense = end;
   return true;
 }
 
@@ -132,8 +136,11 @@ static int dense(lua_State *L) {
     .tube_lo = s->tube ? v + 2 * nx : NULL,
     .tube_hi = s->tube ? v + 3 * nx : NULL,
     .ndense = s->ndense,
+    .ncolumn = s->ncolumn,
+    .ncoef_column = s->ncoef_column,
     .dense_mid = track->dense + s->dense,
-    .dense_rad = track->dense + s->dense + n };
+    .dense_rad = track->dense + s->dense + n,
+    .dense_column = track->dense + s->dense + 2 * n };
   ambit_lua_push_enclosure(L, ambit_dense_state(&r, (uint32_t)state, (ambit_interval) { t, t }), s->flags);
   return 1;
 }

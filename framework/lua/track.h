@@ -16,8 +16,9 @@ typedef struct ambit_track_step {
   double t_from, t_to;
   uint32_t kind, event, flags, order;
   bool tube;
-  uint32_t ndense; /* coefficients of the dense enclosure of each state; 0: none */
-  size_t dense;    /* where they are: mid [nx x ndense], rad [nx x ndense] */
+  /* sizes of the dense enclosure (ambit_record), 0: none; where it is: middles, radii, columns */
+  uint32_t ndense, ncolumn, ncoef_column;
+  size_t dense;
 } ambit_track_step;
 
 typedef struct ambit_track {

@@ -4,9 +4,6 @@
 #include "num/interval.h"
 #include <ambit/solver.h>
 
-/* Encloses sum_{k < n} (mid[k] +- rad[k]) s^k for all s of a bounded interval. */
-ambit_interval ambit_dense_value(uint32_t n, const double *mid, const double *rad, ambit_interval s);
-
 /* Where state i of a step record is while t is in the part `when` of the step: the dense enclosure, if there is one,
 ** intersected with the tube. Entire if the record has neither. */
 ambit_interval ambit_dense_state(const ambit_record *r, uint32_t i, ambit_interval when);

@@ -12,6 +12,12 @@ ambit_interval kit_dense_value(const ambit_record *r, uint32_t i, ambit_interval
   const double *mid = r->dense_mid + (size_t)i * r->ndense, *rad = r->dense_rad + (size_t)i * r->ndense;
   ambit_interval x = point(0);
   for (uint32_t k = r->ndense; k-- > 0;) x = ambit_interval_add(ambit_interval_mul(x, s), around(mid[k], rad[k]));
+  for (uint32_t c = 0; c < r->ncolumn; c++) {
+    const double *column = r->dense_column + ((size_t)i * r->ncolumn + c) * r->ncoef_column;
+    ambit_interval y = point(0);
+    for (uint32_t k = r->ncoef_column; k-- > 0;) y = ambit_interval_add(ambit_interval_mul(y, s), point(column[k]));
+    x = ambit_interval_add(x, around(0, ambit_interval_mag(y)));
+  }
   return x;
 }
 
@@ -37,6 +43,9 @@ const char *kit_dense_fault(const ambit_record *r) {
   for (size_t k = 0; k < (size_t)r->nx * r->ndense; k++)
     if (!isfinite(r->dense_mid[k]) || !(r->dense_rad[k] >= 0 && r->dense_rad[k] < INFINITY))
       return "a coefficient is not finite, or a radius negative";
+  if (r->ncolumn && (!r->dense_column || r->ncoef_column > r->ndense)) return "its columns are missing or too long";
+  for (size_t k = 0; k < (size_t)r->nx * r->ncolumn * r->ncoef_column; k++)
+    if (!isfinite(r->dense_column[k])) return "a coefficient of a column is not finite";
   return NULL;
 }
 

@@ -78,6 +78,20 @@ static inline void model_hires(model *m) {
   m->initial[0] = number(m, 1), m->initial[7] = decimal(m, "0.0057");
 }
 
+/* the heat equation by the method of lines: 24 points on (0, 1), u = 0 at both ends, u = x (1 - x) at first */
+static inline void model_heat(model *m) {
+  static const char *const name[] = { "u1", "u2", "u3", "u4", "u5", "u6", "u7", "u8", "u9", "u10", "u11", "u12", "u13",
+    "u14", "u15", "u16", "u17", "u18", "u19", "u20", "u21", "u22", "u23", "u24" };
+  model_open(m, 24, name);
+  for (int i = 0; i < 24; i++) {
+    expr sum = mul(m, number(m, -2), m->state[i]);
+    if (i > 0) sum = add(m, sum, m->state[i - 1]);
+    if (i < 23) sum = add(m, sum, m->state[i + 1]);
+    m->rate[i] = mul(m, number(m, 625), sum);
+    m->initial[i] = number(m, 0.0016 * (i + 1) * (24 - i));
+  }
+}
+
 /* Field & Noyes' Oregonator */
 static inline void model_oregonator(model *m) {
   static const char *const name[] = { "y1", "y2", "y3" };

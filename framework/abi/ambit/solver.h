@@ -89,9 +89,11 @@ typedef struct ambit_record {
   const double *tube_lo, *tube_hi; /* [nx] over the whole step, or NULL */
   uint32_t order, ncoef;           /* order used (0 = none) */
   /* AMBIT_WISH_DENSE: for s from 0 to t_to - t_from (s and the difference as real numbers),
-  ** x_i(t_from + s) in sum_{k < ndense} (dense_mid[i * ndense + k] +- dense_rad[i * ndense + k]) s^k; or NULL */
-  uint32_t ndense, pad;
-  const double *dense_mid, *dense_rad;
+  ** x_i(t_from + s) in sum_{k < ndense} (dense_mid[i * ndense + k] +- dense_rad[i * ndense + k]) s^k
+  **   +- sum_{c < ncolumn} |sum_{k < ncoef_column} dense_column[(i * ncolumn + c) * ncoef_column + k] s^k|; or NULL.
+  ** Columns (ncoef_column <= ndense; there may be none) keep how what is uncertain grows and shrinks in the step. */
+  uint32_t ndense, ncolumn, ncoef_column, pad;
+  const double *dense_mid, *dense_rad, *dense_column;
   const ambit_set *set; /* AMBIT_WISH_SET: the set at t_to, inside [lo, hi]; or NULL */
 } ambit_record;
 

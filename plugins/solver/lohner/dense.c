@@ -1,8 +1,8 @@
 /* dense.c -- what a record says besides its bounds, on the problem's wish.
 **
 ** Dense enclosure: x(t + s) = sum_k x_k s^k +- excess + sum_j (sum_k s_jk s^k +- slope_excess_j) v_j for each state of
-** the set (series.c), so coefficient k is x_k +- sum_j |s_jk| |v_j|; what is beyond the orders is added to coefficient
-** 0. Set: centre + low + C xi + z, with xi_j = (u_j - mid_j) / radius_j for the unknowns of the problem (start.c); low,
+** the set (series.c), |v_j| <= r_j: middle x_k, a column s_jk r_j for each direction, and radii for what is rounded and
+** for the radii of slopes; what is beyond the orders is added to coefficient 0. Set: centre + low + C xi + z, with xi_j = (u_j - mid_j) / radius_j for the unknowns of the problem (start.c); low,
 ** z and the columns of what is no unknown are its rest.
 */
 #include "lohner.h"
@@ -44,32 +44,36 @@ static int open_set(lohner *s) {
 
 int lohner_open_wishes(lohner *s) {
   size_t n = (size_t)s->nx * (s->options.order + 1u);
-  if (wished(s, AMBIT_WISH_DENSE) && (!doubles(s->host, n, &s->dense_mid) || !doubles(s->host, n, &s->dense_rad)))
+  if (wished(s, AMBIT_WISH_DENSE) && (!doubles(s->host, n, &s->dense_mid) || !doubles(s->host, n, &s->dense_rad) ||
+                                         !doubles(s->host, n * s->ndir, &s->dense_column)))
     return 0;
   return !wished(s, AMBIT_WISH_SET) || open_set(s);
 }
 
 /* -- the enclosure over the step */
 
-/* of all |sum_j s_jk v_j| */
-static double spread(const lohner *s, uint32_t i, uint32_t k) {
-  size_t at = ((size_t)i * (s->slope_order + 1u) + k) * s->ndir;
-  double sum = 0;
-  for (uint32_t j = 0; j < s->ndir; j++)
-    sum += (fabs(s->slope_mid[at + j]) + s->slope_rad[at + j]) * lohner_reach(s, j);
-  return sum;
+/* Column j of state i; what rounding and the radii of slopes add goes into rad. */
+static void put_column(const lohner *s, uint32_t i, uint32_t j, double *column, double *rad) {
+  double reach = lohner_reach(s, j);
+  for (uint32_t k = 0; k <= s->slope_order; k++) {
+    size_t at = ((size_t)i * (s->slope_order + 1u) + k) * s->ndir + j;
+    double high = s->slope_mid[at] * reach, low = -(-s->slope_mid[at] * reach);
+    column[k] = high;
+    rad[k] += high - low + s->slope_rad[at] * reach;
+  }
+  rad[0] += s->slope_excess[(size_t)i * s->ndir + j] * reach;
 }
 
 void lohner_dense(lohner *s) {
   if (!s->dense_mid) return;
   uint32_t p = s->options.order, q = s->slope_order;
   for (uint32_t i = 0; i < s->nx; i++) {
-    size_t at = (size_t)i * (p + 1u);
-    memcpy(s->dense_mid + at, s->series_mid + at, (p + 1u) * sizeof(double));
-    for (uint32_t k = 0; k <= p; k++) s->dense_rad[at + k] = s->series_rad[at + k] + (k <= q ? spread(s, i, k) : 0);
-    s->dense_rad[at] += s->excess[i];
+    double *rad = s->dense_rad + (size_t)i * (p + 1u);
+    memcpy(s->dense_mid + (size_t)i * (p + 1u), s->series_mid + (size_t)i * (p + 1u), (p + 1u) * sizeof(double));
+    memcpy(rad, s->series_rad + (size_t)i * (p + 1u), (p + 1u) * sizeof(double));
+    rad[0] += s->excess[i];
     for (uint32_t j = 0; j < s->ndir; j++)
-      s->dense_rad[at] += s->slope_excess[(size_t)i * s->ndir + j] * lohner_reach(s, j);
+      put_column(s, i, j, s->dense_column + ((size_t)i * s->ndir + j) * (q + 1u), rad);
   }
 }
 
@@ -96,5 +100,8 @@ void lohner_grant(lohner *s, ambit_record *r) {
   r->ndense = s->dense_mid ? s->options.order + 1u : 0;
   r->dense_mid = s->dense_mid;
   r->dense_rad = s->dense_rad;
+  r->ncolumn = s->dense_mid ? s->ndir : 0;
+  r->ncoef_column = s->slope_order + 1u;
+  r->dense_column = s->dense_column;
   r->set = describe(s);
 }

@@ -137,6 +137,7 @@ typedef struct lohner {
   double *lo, *hi, *tube_lo, *tube_hi; /* [nx] */
   double *about, *scale;               /* [nu] xi of an unknown is (u - about) / scale */
   double *dense_mid, *dense_rad;       /* [nx x (order + 1)]; NULL: not wished for, as the next ones */
+  double *dense_column;                /* [nx x ndir x (slope_order + 1)] */
   double *set_coefficient, *set_rest;  /* [nx x (nu + 1)] [nx] */
   ambit_set set;
   uint32_t culprit; /* the state that is too wide */
