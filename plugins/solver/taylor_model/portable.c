@@ -1,0 +1,3 @@
+/* portable.c -- the product for every machine. */
+#define VARIANT sum_convolve_portable
+#include "multiply.h"

@@ -1,0 +1,173 @@
+/* run.c -- from step to step while there is one piece, then from instant to instant; and what a run that could not go
+** on has to say. */
+#include "flow.h"
+#include <stdio.h>
+
+/* -- records; the sink's world is round-to-nearest */
+
+static double done(const flow *f) {
+  const double *time = f->problem.time;
+  double share = (f->t - time[0]) / (time[f->problem.ntime - 1] - time[0]);
+  return smaller(larger(share, 0), 1);
+}
+
+static AMBIT_WORKER int32_t tell(ambit_sink *sink, const ambit_record *r, double share) {
+  ambit_rounding old = ambit_round_nearest();
+  int32_t stop = r ? sink->emit(sink, r) : 0;
+  if (!stop && sink->progress) stop = sink->progress(sink, share, NULL);
+  ambit_rounding_restore(old);
+  return stop;
+}
+
+int32_t flow_ask(flow *f) { return tell(f->sink, NULL, done(f)); }
+
+int32_t flow_emit(flow *f, double t_from, int dense) {
+  uint32_t wish = f->problem.wish;
+  const worker *w = &f->worker[0];
+  ambit_record r = { .size = sizeof r,
+    .kind = AMBIT_REC_STEP,
+    .t_from = t_from,
+    .t_to = f->t,
+    .nx = f->nx,
+    .rigorous = 1,
+    .lo = f->lo,
+    .hi = f->hi,
+    .tube_lo = f->tube_lo,
+    .tube_hi = f->tube_hi,
+    .order = f->options.time_order };
+  if (dense && (wish & AMBIT_WISH_DENSE)) {
+    flow_describe(f, w);
+    r.ndense = f->options.time_order + 1u, r.dense_mid = f->dense_mid, r.dense_rad = f->dense_rad;
+  }
+  if (dense && (wish & AMBIT_WISH_SET)) r.set = flow_describe_set(f, &f->piece[0]);
+  return tell(f->sink, &r, done(f));
+}
+
+static void clear_bounds(const flow *f, double *lo, double *hi) {
+  for (uint32_t i = 0; i < f->nx; i++) lo[i] = INFINITY, hi[i] = -INFINITY;
+}
+
+/* the hull of all pieces; 0: too wide */
+static int merge(flow *f) {
+  clear_bounds(f, f->lo, f->hi), clear_bounds(f, f->tube_lo, f->tube_hi);
+  for (uint32_t n = 0; n < f->npiece; n++)
+    for (uint32_t i = 0; i < f->nx; i++) {
+      const piece *p = &f->piece[n];
+      f->lo[i] = smaller(f->lo[i], p->lo[i]), f->hi[i] = larger(f->hi[i], p->hi[i]);
+      f->tube_lo[i] = smaller(f->tube_lo[i], p->tube_lo[i]), f->tube_hi[i] = larger(f->tube_hi[i], p->tube_hi[i]);
+    }
+  for (uint32_t i = 0; i < f->nx; i++) {
+    f->piece[0].culprit = i, f->failed = 0;
+    int finite = f->tube_lo[i] > -INFINITY && f->tube_hi[i] < INFINITY;
+    if (!finite || !(f->hi[i] - f->lo[i] <= f->limit[i])) return 0;
+  }
+  return 1;
+}
+
+/* -- one piece */
+
+static enum why go_alone(flow *f) {
+  worker *w = &f->worker[0];
+  piece *p = &f->piece[0];
+  while (f->next < f->problem.ntime && f->npiece == 1) {
+    double t_from = f->t;
+    clear_bounds(f, p->tube_lo, p->tube_hi);
+    enum why why = flow_step(w, p, f->problem.time[f->next]);
+    if (why != WHY_NOTHING) {
+      p->why = why, f->failed = 0;
+      if (why != WHY_WIDE && flow_split(f, 0)) return WHY_NOTHING;
+      if (p->tolerant || (why != WHY_DEFECT && why != WHY_NO_STEP)) return why;
+      p->tolerant = 1;
+      continue;
+    }
+    flow_hull(w, p);
+    f->t = p->t;
+    if (!merge(f)) return WHY_WIDE;
+    f->next += f->t == f->problem.time[f->next];
+    if (flow_emit(f, t_from, 1)) return WHY_STOPPED;
+  }
+  return WHY_NOTHING;
+}
+
+/* -- many */
+
+/* as far apart as `outputs` says, but not so close that they would cut steps short */
+static void choose_instant(flow *f) {
+  const ambit_problem *p = &f->problem;
+  double span = p->time[p->ntime - 1] - p->time[0], grid = span / f->options.outputs, goal = p->time[f->next];
+  for (uint32_t n = 0; n < f->npiece; n++)
+    if (f->piece[n].guess > 0.5 * fabs(grid)) grid = grid > 0 ? 2 * f->piece[n].guess : -2 * f->piece[n].guess;
+  f->t_to = f->t + grid;
+  if (f->t_to == f->t || fabs(goal - f->t) < 1.5 * fabs(grid)) f->t_to = goal;
+}
+
+static enum why go_together(flow *f) {
+  while (f->next < f->problem.ntime) {
+    double t_from = f->t;
+    choose_instant(f);
+    enum why why = flow_advance_pieces(f);
+    if (why != WHY_NOTHING) return why;
+    f->t = f->t_to;
+    if (!merge(f)) return WHY_WIDE;
+    f->next += f->t == f->problem.time[f->next];
+    if (flow_emit(f, t_from, 0)) return WHY_STOPPED;
+  }
+  return WHY_NOTHING;
+}
+
+static AMBIT_WORKER enum why work(flow *f) {
+  flow_start(f);
+  enum why why = go_alone(f);
+  return why == WHY_NOTHING ? go_together(f) : why;
+}
+
+/* -- reasons */
+
+static const char *kink_name(uint32_t op) {
+  return op == AMBIT_OP_ABS ? "abs" : op == AMBIT_OP_MIN ? "min" : op == AMBIT_OP_MAX ? "max" : "a function";
+}
+
+static ambit_status explain(const flow *f, enum why why) {
+  const ambit_host *h = f->host;
+  const piece *p = &f->piece[f->failed];
+  char pieces[80] = "";
+  double width = 0;
+  for (uint32_t n = 0; n < f->ns; n++)
+    for (uint32_t i = 0; i < f->nx; i++) width = larger(width, 2 * p->rad[(size_t)n * (f->nx + f->np) + i]);
+  if (f->npiece > 1) snprintf(pieces, sizeof pieces, " (in one of %u pieces)", f->npiece);
+  switch (why) {
+  case WHY_NOTHING: return AMBIT_OK;
+  case WHY_STOPPED: return AMBIT_STOPPED;
+  case WHY_KINK:
+    return h->fail(h, AMBIT_UNABLE,
+        "at t = %.9g s the right-hand side meets the kink of `%s`%s, where it is not smooth; end before it, or make "
+        "two "
+        "models of it and switch between them",
+        p->t, kink_name(p->culprit), pieces);
+  case WHY_SERIES:
+    return h->fail(h, AMBIT_UNABLE,
+        "at t = %.9g s the right-hand side is not defined, not smooth or too large somewhere in the set%s; narrow the "
+        "initial set, raise `order`, or end before it",
+        p->t, pieces);
+  case WHY_WIDE:
+    return h->fail(h, AMBIT_UNABLE,
+        "the enclosure of `%s` grew wider than %.4g at t = %.9g s%s; narrow the initial set, raise `order` or "
+        "`pieces_max`, or allow more by `width_max`",
+        f->problem.name[p->culprit], f->limit[p->culprit], p->t, pieces);
+  default:
+    return h->fail(h, AMBIT_UNABLE,
+        "at t = %.9g s no step of at least %.3g s could be proved, with a box up to %.3g wide%s: a solution may escape "
+        "or leave the domain of the right-hand side near here; if not, raise `pieces_max` (%u now) or `order`, or "
+        "lower `step_min`",
+        p->t, f->options.step_min, width, pieces, f->options.pieces_max);
+  }
+}
+
+ambit_status flow_run(void *self, ambit_sink *sink) {
+  flow *f = self;
+  f->sink = sink;
+  ambit_rounding outside = ambit_round_up();
+  enum why why = work(f);
+  ambit_rounding_restore(outside);
+  return explain(f, why);
+}
