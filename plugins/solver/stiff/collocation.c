@@ -1,0 +1,177 @@
+/* collocation.c -- Newton's method for the Radau system (collocation.h).
+**
+** The residual is computed in long double, so that the solution is good to its precision although corrections are not.
+** The first guess is that of a linearly implicit Euler method from node to node. The matrix is factored again as long
+** as corrections do not shrink fast.
+*/
+#include "collocation.h"
+#include <string.h>
+
+#define ITERATIONS 25
+#define ACCURATE 1e-12L      /* of a correction, relative: beyond it Newton's method has failed */
+#define SHARE 0.1            /* of a state's size that counts as moving */
+#define SHARE_OF_FRAMES 1e-3 /* the same for frames */
+#define SHRINKS 0.03         /* a factor is kept while each correction is this much smaller than the last */
+
+int collocation_open(const ambit_host *h, collocation *q) {
+  size_t n = q->nx, m = n + q->np, N = q->N;
+  q->x = h->alloc(h, m * sizeof *q->x);
+  q->Z = h->alloc(h, N * n * sizeof *q->Z);
+  q->c = h->alloc(h, (N + 1) * n * sizeof *q->c);
+  q->size = h->alloc(h, m * sizeof *q->size);
+  q->unit = h->alloc(h, n * sizeof *q->unit);
+  q->scale = h->alloc(h, m * sizeof *q->scale);
+  q->A = h->alloc(h, N * n * N * n * sizeof *q->A);
+  q->residual = h->alloc(h, N * n * sizeof *q->residual);
+  q->J = h->alloc(h, N * n * n * sizeof *q->J);
+  q->f = h->alloc(h, n * sizeof *q->f);
+  q->row = h->alloc(h, N * n * sizeof *q->row);
+  return q->x && q->Z && q->c && q->size && q->unit && q->scale && q->A && q->residual && q->J && q->f && q->row;
+}
+
+static void put(const collocation *q, real *r, const long double *y, long double t) {
+  memcpy(real_input(r, 0), y, q->nx * sizeof *y);
+  memcpy(real_input(r, q->nx), q->x + q->nx, q->np * sizeof *y);
+  if (q->uses_time) *real_input(r, q->nx + q->np) = t;
+  real_run(r);
+}
+
+static void rate(collocation *q, const long double *y, long double t) {
+  put(q, q->rhs, y, t);
+  for (uint32_t i = 0; i < q->nx; i++) q->f[i] = real_output(q->rhs, i);
+}
+
+static void slope(collocation *q, const long double *y, long double t, double *J) {
+  put(q, q->jacobian, y, t);
+  for (uint32_t i = 0; i < q->nx * q->nx; i++) J[i] = (double)real_output(q->jacobian, i);
+}
+
+/* (I - dt J) step = dt f from node to node */
+static int predict(collocation *q, double t, double half) {
+  uint32_t n = q->nx, row[N_MAX];
+  long double y[N_MAX];
+  square A;
+  double b[N_MAX];
+  memcpy(y, q->x, n * sizeof *y);
+  for (uint32_t i = 0; i < q->N; i++) {
+    double dt = half * (double)(q->node[i + 1] - q->node[i]);
+    long double at = t + half * (q->node[i + 1] + 1);
+    rate(q, y, at);
+    slope(q, y, at, q->J);
+    for (uint32_t k = 0; k < n * n; k++) A[k] = (k % (n + 1) == 0) - dt * q->J[k];
+    for (uint32_t k = 0; k < n; k++) b[k] = dt * (double)q->f[k];
+    if (!lu_factor(n, A, row)) return 0;
+    lu_solve(n, A, row, 1, b);
+    for (uint32_t k = 0; k < n; k++) {
+      y[k] += b[k];
+      q->Z[i * n + k] = y[k] - q->x[k];
+    }
+  }
+  return 1;
+}
+
+static int measure(collocation *q) {
+  for (uint32_t a = 0; a < q->nx; a++) {
+    long double most = fabsl(q->x[a]), moved = 0;
+    for (uint32_t i = 0; i < q->N; i++) {
+      moved = fmaxl(moved, fabsl(q->Z[i * q->nx + a]));
+      most = fmaxl(most, fabsl(q->x[a] + q->Z[i * q->nx + a]));
+    }
+    if (!(most < 1e100L)) return 0;
+    q->size[a] = most > 1e-100L ? (double)most : 1e-100;
+    q->unit[a] = (double)moved + SHARE * q->size[a];
+    q->scale[a] = (double)moved + SHARE_OF_FRAMES * q->size[a];
+  }
+  return 1;
+}
+
+/* residual half f - D Z, in units, and the Jacobians at the nodes */
+static void judge(collocation *q, double t, double half, int with_slopes) {
+  uint32_t n = q->nx, N = q->N;
+  long double y[N_MAX];
+  for (uint32_t i = 0; i < N; i++) {
+    long double at = t + half * (q->node[i + 1] + 1);
+    for (uint32_t a = 0; a < n; a++) y[a] = q->x[a] + q->Z[i * n + a];
+    rate(q, y, at);
+    if (with_slopes) slope(q, y, at, q->J + (size_t)i * n * n);
+    for (uint32_t a = 0; a < n; a++) {
+      long double sum = half * q->f[a];
+      for (uint32_t j = 0; j < N; j++) sum -= q->D[i][j + 1] * q->Z[j * n + a];
+      q->residual[i * n + a] = (double)(sum / q->unit[a]);
+    }
+  }
+}
+
+static int factor(collocation *q, double half) {
+  uint32_t n = q->nx, N = q->N;
+  size_t m = (size_t)n * N;
+  memset(q->A, 0, m * m * sizeof *q->A);
+  for (uint32_t i = 0; i < N; i++)
+    for (uint32_t a = 0; a < n; a++) {
+      double *line = q->A + (i * n + a) * m;
+      for (uint32_t j = 0; j < N; j++) line[j * n + a] += (double)q->D[i][j + 1];
+      for (uint32_t b = 0; b < n; b++)
+        line[i * n + b] -= half * q->J[((size_t)i * n + a) * n + b] * (q->unit[b] / q->unit[a]);
+    }
+  return lu_factor(m, q->A, q->row);
+}
+
+/* the largest correction, relative */
+static double correct(collocation *q) {
+  uint32_t n = q->nx, N = q->N;
+  double most = 0;
+  lu_solve((size_t)n * N, q->A, q->row, 1, q->residual);
+  for (uint32_t i = 0; i < N; i++)
+    for (uint32_t a = 0; a < n; a++) {
+      double step = q->residual[i * n + a];
+      q->Z[i * n + a] += (long double)step * q->unit[a];
+      if (!(fabs(step) <= most)) most = fabs(step);
+    }
+  return most;
+}
+
+static void to_chebyshev(collocation *q) {
+  uint32_t n = q->nx, N = q->N;
+  q->error = 0;
+  for (uint32_t a = 0; a < n; a++) {
+    for (uint32_t k = 0; k < N; k++) {
+      long double sum = 0;
+      for (uint32_t j = 0; j < N; j++) sum += q->V[k][j] * q->Z[j * n + a];
+      q->c[(k + 1) * n + a] = sum;
+    }
+    double last = (double)fabsl(q->c[N * n + a]), before = (double)fabsl(q->c[(N - 1) * n + a]);
+    q->error = fmax(q->error, fmax(last, 0.3 * before) / q->unit[a]);
+  }
+}
+
+int collocation_solve(collocation *q, double t, double h) {
+  double half = 0.5 * h, last = INFINITY;
+  int fresh = 1;
+  if (!predict(q, t, half)) return 0;
+  for (int i = 0; i < ITERATIONS; i++) {
+    if (!measure(q)) return 0;
+    judge(q, t, half, fresh);
+    if (fresh && !factor(q, half)) return 0;
+    double now = correct(q);
+    if (!(now < 1e6)) return 0;
+    int done = now < 1e-18 || (now < 1e-15 && now > 0.1 * last) || (i > 8 && now < 1e-12 && now > 0.5 * last);
+    fresh = now > SHRINKS * last;
+    last = now;
+    if (done) break;
+  }
+  if (!(last <= ACCURATE)) return 0;
+  to_chebyshev(q);
+  return 1;
+}
+
+void collocation_value(const collocation *q, long double tau, long double *y) {
+  for (uint32_t a = 0; a < q->nx; a++) {
+    long double before = 1, now = tau, sum = q->x[a], sign = -1;
+    for (uint32_t k = 1; k <= q->N; k++, sign = -sign) {
+      sum += q->c[k * q->nx + a] * (now - sign);
+      long double next = 2 * tau * now - before;
+      before = now, now = next;
+    }
+    y[a] = sum;
+  }
+}

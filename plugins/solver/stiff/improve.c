@@ -1,0 +1,72 @@
+/* improve.c -- a piece's polynomial with a smaller defect; approximate, in round-to-nearest.
+**
+** With d the defect of P and e = P* - P the error of the polynomial, e' = (eta/2) J e - d; in the frame U, where that
+** matrix is nearly 0 for slow and L for fast directions, z = U^-1 e has polynomial solutions
+**   z_s = -integral of (C d)_s from s = -1,   z_f = sum_q L^-(q+1) (C d)_f^(q),
+** and P + U z has a defect that is smaller by what is left of the approximations. In double-double this goes on below
+** the rounding of the collocation's long double.
+*/
+#include "stiff.h"
+#include <string.h>
+
+#define DEGREE_MAX NODES_MAX
+
+/* (C d)_i, coefficient k */
+static void through(const stiff *s, uint32_t k, double *r) {
+  uint32_t n = s->n, w = s->q.N + 1;
+  for (uint32_t i = 0; i < n; i++) {
+    r[i] = 0;
+    for (uint32_t a = 0; a < s->nx; a++) r[i] += s->frame.C[i * n + a] * s->defect[a * w + k];
+  }
+}
+
+static void solve_slow(uint32_t g, uint32_t top, double d[][N_MAX], double z[][N_MAX]) {
+  for (uint32_t k = 0; k < top; k++)
+    for (uint32_t i = 0; i < g; i++) {
+      z[k + 1][i] -= d[k][i] / (k + 1);
+      z[0][i] += (k % 2 ? 1 : -1) * d[k][i] / (k + 1);
+    }
+}
+
+/* as far as the terms become smaller */
+static int solve_fast(const stiff *s, uint32_t top, double d[][N_MAX], double z[][N_MAX]) {
+  uint32_t n = s->n, g = s->frame.split.slow, f = n - g;
+  square L, inverse, X, Y;
+  if (f == 0) return 1;
+  frame_apply_slopes(s, 0, n, s->frame.U[0], X);
+  matrix_multiply(n, n, n, s->frame.C, X, Y);
+  for (uint32_t i = 0; i < f * f; i++) L[i] = Y[(g + i / f) * n + g + i % f];
+  if (!matrix_inverse(f, L, inverse)) return 0;
+  for (uint32_t k = 0; k <= top; k++) {
+    double now[N_MAX], next[N_MAX], factor = 1, before = INFINITY;
+    memcpy(now, d[k] + g, f * sizeof *now);
+    for (uint32_t q = 0; q <= k; q++) {
+      matrix_multiply(f, f, 1, inverse, now, next);
+      double size = fabs(factor) * matrix_row_sum_norm(1, f, next);
+      if (!(size < before)) break;
+      before = size;
+      for (uint32_t i = 0; i < f; i++) z[k - q][g + i] += factor * next[i];
+      memcpy(now, next, f * sizeof *now);
+      factor *= k - q;
+    }
+  }
+  return 1;
+}
+
+void improve_piece(stiff *s) {
+  uint32_t n = s->n, top = s->q.N;
+  double d[DEGREE_MAX + 1][N_MAX], z[DEGREE_MAX + 2][N_MAX] = { { 0 } };
+  for (uint32_t k = 0; k <= top; k++) through(s, k, d[k]);
+  solve_slow(s->frame.split.slow, top, d, z);
+  if (!solve_fast(s, top, d, z)) return;
+  for (uint32_t i = 0; i < s->nx; i++)
+    for (uint32_t k = 0; k <= top; k++) {
+      double sum = 0;
+      for (uint32_t l = 0; l <= k && l <= s->frame.order; l++)
+        for (uint32_t a = 0; a < n; a++) sum += s->frame.U[l][i * n + a] * z[k - l][a];
+      if (!(fabs(sum) < INFINITY)) continue;
+      s->shift[i] += fabs(sum);
+      poly_set(&s->P[i], k, dd_add(poly_get(&s->P[i], k), (dd) { sum, 0 }));
+    }
+  for (uint32_t i = 0; i < s->nx; i++) s->shift[i] *= 1 + 0x1p-40;
+}

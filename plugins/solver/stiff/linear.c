@@ -1,0 +1,116 @@
+/* linear.c -- unverified linear algebra (linear.h). */
+#include "linear.h"
+#include <math.h>
+#include <string.h>
+
+/* x -= factor y */
+static inline void subtract(size_t n, double *restrict x, double factor, const double *restrict y) {
+  for (size_t k = 0; k < n; k++) x[k] -= factor * y[k];
+}
+
+int lu_factor(size_t n, double *A, uint32_t *row) {
+  for (size_t k = 0; k < n; k++) {
+    size_t best = k;
+    for (size_t i = k + 1; i < n; i++)
+      if (fabs(A[i * n + k]) > fabs(A[best * n + k])) best = i;
+    row[k] = (uint32_t)best;
+    double pivot = A[best * n + k];
+    if (!(fabs(pivot) > 0 && fabs(pivot) < INFINITY)) return 0;
+    for (size_t j = 0; best != k && j < n; j++) {
+      double swap = A[k * n + j];
+      A[k * n + j] = A[best * n + j], A[best * n + j] = swap;
+    }
+    for (size_t i = k + 1; i < n; i++) {
+      if (A[i * n + k] == 0) continue;
+      A[i * n + k] /= pivot;
+      subtract(n - k - 1, A + i * n + k + 1, A[i * n + k], A + k * n + k + 1);
+    }
+  }
+  return 1;
+}
+
+void lu_solve(size_t n, const double *A, const uint32_t *row, size_t m, double *b) {
+  for (size_t k = 0; k < n; k++)
+    for (size_t j = 0; row[k] != k && j < m; j++) {
+      double swap = b[k * m + j];
+      b[k * m + j] = b[row[k] * m + j], b[row[k] * m + j] = swap;
+    }
+  for (size_t i = 1; i < n; i++)
+    for (size_t k = 0; k < i; k++) subtract(m, b + i * m, A[i * n + k], b + k * m);
+  for (size_t i = n; i-- > 0;) {
+    for (size_t k = i + 1; k < n; k++) subtract(m, b + i * m, A[i * n + k], b + k * m);
+    for (size_t j = 0; j < m; j++) b[i * m + j] /= A[i * n + i];
+  }
+}
+
+int matrix_inverse(size_t n, const double *A, double *inverse) {
+  square factors;
+  uint32_t row[N_MAX];
+  memcpy(factors, A, n * n * sizeof *A);
+  if (!lu_factor(n, factors, row)) return 0;
+  for (size_t i = 0; i < n * n; i++) inverse[i] = i % (n + 1) == 0;
+  lu_solve(n, factors, row, n, inverse);
+  return 1;
+}
+
+void matrix_multiply(size_t rows, size_t inner, size_t cols, const double *a, const double *b, double *r) {
+  for (size_t i = 0; i < rows; i++) {
+    for (size_t j = 0; j < cols; j++) r[i * cols + j] = 0;
+    for (size_t k = 0; k < inner; k++) subtract(cols, r + i * cols, -a[i * inner + k], b + k * cols);
+  }
+}
+
+double matrix_row_sum_norm(size_t rows, size_t cols, const double *a) {
+  double most = 0;
+  for (size_t i = 0; i < rows; i++) {
+    double sum = 0;
+    for (size_t j = 0; j < cols; j++) sum += fabs(a[i * cols + j]);
+    if (!(sum <= most)) most = sum; /* NaN is kept */
+  }
+  return most;
+}
+
+static double product(size_t n, size_t m, const double *A, size_t i, size_t j, const double *scale) {
+  double sum = 0;
+  for (size_t k = 0; k < n; k++) sum += (A[k * m + i] / scale[k]) * (A[k * m + j] / scale[k]);
+  return sum;
+}
+
+/* Gram-Schmidt, twice */
+int orthonormalise(size_t n, size_t m, double *A, const double *scale, double *R) {
+  for (size_t i = 0; R && i < m * m; i++) R[i] = 0;
+  for (size_t j = 0; j < m; j++) {
+    double before = sqrt(product(n, m, A, j, j, scale));
+    for (int pass = 0; pass < 2; pass++)
+      for (size_t i = 0; i < j; i++) {
+        double share = product(n, m, A, i, j, scale);
+        for (size_t k = 0; k < n; k++) A[k * m + j] -= share * A[k * m + i];
+        if (R) R[i * m + j] += share;
+      }
+    double length = sqrt(product(n, m, A, j, j, scale));
+    if (!(length > 1e-15 * before)) return 0;
+    for (size_t k = 0; k < n; k++) A[k * m + j] /= length;
+    if (R) R[j * m + j] = length;
+  }
+  return 1;
+}
+
+double scaled_condition(size_t n, const double *A, const double *scale) {
+  square S, inverse;
+  double norm = 0, other = 0;
+  for (size_t j = 0; j < n; j++) {
+    double length = sqrt(product(n, n, A, j, j, scale));
+    for (size_t i = 0; i < n; i++) S[i * n + j] = A[i * n + j] / scale[i] / length;
+  }
+  if (!matrix_inverse(n, S, inverse)) return INFINITY;
+  for (size_t i = 0; i < n * n; i++) norm += S[i] * S[i], other += inverse[i] * inverse[i];
+  double condition = sqrt(norm * other);
+  return condition >= 0 ? condition : INFINITY;
+}
+
+void join_columns(size_t n, size_t ma, const double *a, size_t mb, const double *b, double *r) {
+  for (size_t i = 0; i < n; i++) {
+    memcpy(r + i * (ma + mb), a + i * ma, ma * sizeof *a);
+    memcpy(r + i * (ma + mb) + ma, b + i * mb, mb * sizeof *b);
+  }
+}

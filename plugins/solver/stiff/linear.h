@@ -1,0 +1,33 @@
+/* linear.h -- unverified linear algebra on small dense matrices, by rows: what it returns may be anything without harm,
+** proofs only use it as a guess. Round-to-nearest. */
+#ifndef STIFF_LINEAR_H
+#define STIFF_LINEAR_H
+#include <stddef.h>
+#include <stdint.h>
+
+#define N_MAX 32 /* states and parameters */
+
+typedef double square[N_MAX * N_MAX]; /* any matrix of at most N_MAX rows and columns; the pitch is what is stated */
+
+/* In-place LU factors with row exchanges of A [n x n]; 0: singular. */
+int lu_factor(size_t n, double *A, uint32_t *row);
+/* b := A^-1 b for factors of A, m columns: b [n x m] */
+void lu_solve(size_t n, const double *A, const uint32_t *row, size_t m, double *b);
+int matrix_inverse(size_t n, const double *A, double *inverse);
+/* r [rows x cols] := a [rows x inner] b [inner x cols] */
+void matrix_multiply(size_t rows, size_t inner, size_t cols, const double *a, const double *b, double *r);
+/* r += x a, `count` entries */
+static inline void matrix_add_scaled(size_t count, double *r, double x, const double *a) {
+  for (size_t i = 0; i < count; i++) r[i] += x * a[i];
+}
+double matrix_row_sum_norm(size_t rows, size_t cols, const double *a);
+
+/* Columns i of A [n x m] become orthonormal in the scaled product sum_i x_i y_i / scale_i^2, in order; R [m x m], if
+** not
+** NULL, is what they are multiplied with to get A back. 0: dependent. */
+int orthonormalise(size_t n, size_t m, double *A, const double *scale, double *R);
+/* ||A|| ||A^-1|| in the Frobenius norm, rows divided by `scale` and columns normalised; infinite if singular */
+double scaled_condition(size_t n, const double *A, const double *scale);
+/* r [n x (ma + mb)] := [a b] */
+void join_columns(size_t n, size_t ma, const double *a, size_t mb, const double *b, double *r);
+#endif

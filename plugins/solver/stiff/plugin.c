@@ -1,0 +1,33 @@
+/* plugin.c -- the entry of the plugin and its options. */
+#include "stiff.h"
+#include <string.h>
+
+static const ambit_param param[] = {
+  { "nodes", "1", "integer", "0",
+      "collocation nodes of a step, 4 to 20, which is the degree of its polynomial; 0: chosen from the tolerance" },
+  { "tolerance", "1", "", "1e-16", "size of the last coefficients of a step's polynomial, relative to the state's" },
+  { "step_max", "s", "", "inf", "longest step" },
+  { "step_min", "s", "", "0", "shortest step that is tried before the run gives up; 0: 2^-48 of the time reached" },
+  { "width_max", "1", "", "10",
+      "the run ends when a state is wider than this times its largest magnitude so far (at least times 1)" },
+  { NULL, NULL, NULL, NULL, NULL },
+};
+
+static const ambit_solver solver = {
+  .size = sizeof solver,
+  .want = AMBIT_WANT_RHS | AMBIT_WANT_SERIES | AMBIT_WANT_JACOBIAN | AMBIT_WANT_INITIAL | AMBIT_WANT_SLOPE,
+  .needs_rigorous = 1,
+  .param = param,
+  .open = stiff_open,
+  .run = stiff_run,
+  .close = stiff_close,
+};
+
+static const void *get(const char *interface_id) { return strcmp(interface_id, AMBIT_SOLVER) == 0 ? &solver : NULL; }
+
+const ambit_plugin ambit_entry = { sizeof ambit_entry, AMBIT_ABI, "solver.stiff", "1.0",
+  "Proves where the solutions of a stiff initial-value problem are, with steps as long as the solution is smooth: "
+  "collocation without proof, then a rigorous defect, and errors bounded by a comparison system in frames that "
+  "separate "
+  "fast from slow directions.",
+  get };

@@ -1,0 +1,147 @@
+/* run.c -- from step to step, into the sink; and what a run that could not go on has to say. */
+#include "stiff.h"
+#include <string.h>
+
+/* -- the hull of the set */
+
+static AMBIT_WORKER void hull_up(stiff *s) {
+  const carried *c = &s->carried;
+  uint32_t n = s->n;
+  for (uint32_t i = 0; i < s->nx; i++) {
+    double norm[N_MAX], radius = s->end_error[i];
+    bound_blocks(n, c->block, c->blocks, c->B + i * n, norm);
+    for (uint32_t b = 0; b < c->blocks; b++) radius += norm[b] * c->w[b];
+    iv end = iv_of_dd(s->end[i]);
+    s->lo[i] = -(end.low + radius);
+    s->hi[i] = end.high + radius;
+    s->set_middle[i] = iv_middle(end);
+    s->set_rest[i] = larger(s->hi[i] - s->set_middle[i], s->set_middle[i] - s->lo[i]);
+  }
+}
+
+static AMBIT_WORKER void start_up(stiff *s) { start_set(s); }
+
+static void hull(stiff *s) {
+  ambit_rounding nearest = ambit_round_up();
+  hull_up(s);
+  ambit_rounding_restore(nearest);
+}
+
+static void start(stiff *s) {
+  ambit_rounding nearest = ambit_round_up();
+  start_up(s);
+  ambit_rounding_restore(nearest);
+}
+
+/* -- records */
+
+static int32_t emit(const stiff *s, ambit_sink *sink, double t_from) {
+  const ambit_problem *p = &s->problem;
+  const ambit_set set = { sizeof set, p->nu, 1, 0, s->about, s->scale, s->exponent, s->set_middle, s->set_rest };
+  int dense = (p->wish & AMBIT_WISH_DENSE) && dense_is_good(s);
+  const ambit_record r = { .size = sizeof r,
+    .kind = AMBIT_REC_STEP,
+    .t_from = t_from,
+    .t_to = s->t,
+    .nx = s->nx,
+    .rigorous = 1,
+    .lo = s->lo,
+    .hi = s->hi,
+    .tube_lo = s->tube_lo,
+    .tube_hi = s->tube_hi,
+    .order = s->q.N,
+    .ndense = dense ? s->q.N + 1 : 0,
+    .dense_mid = dense ? s->dense_mid : NULL,
+    .dense_rad = dense ? s->dense_rad : NULL,
+    .set = p->wish & AMBIT_WISH_SET ? &set : NULL };
+  double done = (s->t - p->time[0]) / (p->time[p->ntime - 1] - p->time[0]);
+  int32_t stop = sink->emit(sink, &r);
+  if (!stop && sink->progress) stop = sink->progress(sink, fmin(fmax(done, 0), 1), NULL);
+  return stop;
+}
+
+/* -- steps */
+
+/* the limit follows the middle of the enclosure: a state that is small at first may become large */
+static int is_good(stiff *s, uint32_t i) {
+  s->limit[i] = fmax(s->limit[i], s->options.width_max * fabs(s->end[i].hi));
+  return s->hi[i] - s->lo[i] <= s->limit[i] && isfinite(s->lo[i]) && isfinite(s->hi[i]) && isfinite(s->tube_lo[i]) &&
+         isfinite(s->tube_hi[i]);
+}
+
+/* a length to begin with, from rates and speeds at the start; the first steps make it better */
+static double first_length(const stiff *s) {
+  const double *time = s->problem.time;
+  double span = fabs(time[s->problem.ntime - 1] - time[0]), rate = 0;
+  for (uint32_t i = 0; i < s->nx; i++) rate = fmax(rate, s->first_rate[i]);
+  return rate > 0 ? fmin(span, 0.05 / rate) : span;
+}
+
+static enum why integrate(stiff *s, ambit_sink *sink) {
+  start(s);
+  s->t = s->problem.time[0];
+  s->next = 1, s->level = 1, s->careful = 0, s->last_why = WHY_NOTHING;
+  hull(s);
+  for (uint32_t i = 0; i < s->nx; i++) s->limit[i] = s->options.width_max;
+  s->guess = first_length(s);
+  for (uint32_t i = 0; i < s->nx; i++) s->q.x[i] = dd_long(s->end[i]);
+  while (s->next < s->problem.ntime) {
+    double t_from = s->t;
+    enum why why = step_make(s);
+    if (why != WHY_NOTHING) return why;
+    hull(s);
+    for (uint32_t i = 0; i < s->nx; i++) {
+      s->culprit = i;
+      if (!is_good(s, i)) return WHY_WIDE;
+    }
+    s->t = s->t_next;
+    s->next += (uint32_t)s->at_instant;
+    if (emit(s, sink, t_from)) return WHY_STOPPED;
+  }
+  return WHY_NOTHING;
+}
+
+/* -- reasons */
+
+static const char *reason(enum why why) {
+  switch (why) {
+  case WHY_NEWTON: return "Newton's method for the collocation polynomial does not converge";
+  case WHY_ROUGH: return "the solution is not smooth enough";
+  case WHY_UNDEFINED: return "the right-hand side is not defined, not smooth or too large on the enclosure";
+  case WHY_SPLIT: return "fast and slow directions cannot be told apart";
+  case WHY_FRAME: return "the directions of errors change too fast";
+  default: return "errors grow too fast";
+  }
+}
+
+static double width(const stiff *s) {
+  double most = 0;
+  for (uint32_t i = 0; i < s->nx; i++) most = fmax(most, s->hi[i] - s->lo[i]);
+  return most;
+}
+
+static ambit_status explain(const stiff *s, enum why why) {
+  const ambit_host *h = s->host;
+  switch (why) {
+  case WHY_NOTHING: return AMBIT_OK;
+  case WHY_STOPPED: return AMBIT_STOPPED;
+  case WHY_WIDE:
+    return h->fail(h, AMBIT_UNABLE,
+        "the enclosure of `%s` grew wider than %.4g in the step from t = %.9g s; split the initial set, or allow more "
+        "by "
+        "`width_max`",
+        s->problem.name[s->culprit], s->limit[s->culprit], s->t);
+  default:
+    return h->fail(h, AMBIT_UNABLE,
+        "at t = %.9g s no step could be proved, the last try was %.3g s long, with an enclosure up to %.3g wide: %s; a "
+        "solution may escape near here; if not, split the uncertain data, lower `step_min` or change `tolerance`",
+        s->t, s->h.hi, width(s), reason(s->last_why));
+  }
+}
+
+ambit_status stiff_run(void *self, ambit_sink *sink) {
+  ambit_rounding outside = ambit_round_nearest();
+  enum why why = integrate(self, sink);
+  ambit_rounding_restore(outside);
+  return explain(self, why);
+}

@@ -1,0 +1,23 @@
+/* spectrum.h -- eigenvalues and eigenvectors of small real matrices, by GSL; approximate. */
+#ifndef STIFF_SPECTRUM_H
+#define STIFF_SPECTRUM_H
+#include "linear.h"
+#include <ambit/solver.h>
+
+enum { SINGLE, PAIR, SECOND }; /* a real eigenvector; real and imaginary part of a complex one */
+
+/* Eigenvalues ascend by real part. Columns of V: eigenvectors, of unit length when divided by the scale. */
+typedef struct spectrum {
+  int ok;
+  double real[N_MAX];
+  uint32_t kind[N_MAX];
+  square V;
+} spectrum;
+
+typedef struct eigen_memory eigen_memory;
+
+eigen_memory *eigen_open(size_t n); /* NULL: no memory */
+void eigen_close(eigen_memory *e);
+/* of J [n x n], computed for S^-1 J S with S = diag(scale) */
+void eigen_find(eigen_memory *e, size_t n, const double *J, const double *scale, spectrum *r);
+#endif

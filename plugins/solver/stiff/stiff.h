@@ -1,0 +1,176 @@
+/* stiff.h -- what the files of the stiff plugin share.
+**
+** A step: collocation gives a polynomial (collocation.h), which is cut into pieces, each with its own exact
+** polynomial P
+** of its own time s in [-1, 1]; on each piece the solution is P(s) + B(s) z(s) with a moving frame B and |z_b| <= w_b
+** for
+** blocks b of components, carried from piece to piece (prove.c). States are followed by parameters, which are states
+** that do not move: n = nx + np. Proofs: docs/numerics/stiff.md.
+*/
+#ifndef STIFF_H
+#define STIFF_H
+#include "bound.h"
+#include "collocation.h"
+#include "metzler.h"
+#include "splitting.h"
+
+#define LEVELS 5
+#define PIECES_MAX 64
+#define SLOPE_ORDER 8 /* of J along a piece */
+#define FRAME_ORDER (SLOPE_ORDER + 3)
+
+/* Why a piece or a run could not go on. */
+enum why {
+  WHY_NOTHING,
+  WHY_NEWTON,
+  WHY_ROUGH,     /* the polynomial is not accurate enough */
+  WHY_UNDEFINED, /* f or its slopes are not defined or not smooth on the tube */
+  WHY_SPLIT,
+  WHY_FRAME,
+  WHY_GROWTH, /* errors grow too fast to be bounded on the piece */
+  WHY_SHORT,
+  WHY_WIDE,
+  WHY_STOPPED
+};
+
+typedef struct options {
+  uint32_t nodes;
+  double tolerance, step_max, step_min, width_max;
+} options;
+
+/* U(s) = sum_l U_l s^l and what goes with it; B(s) = U(s) diag(G0, I) */
+typedef struct frame {
+  split split;
+  uint32_t order;
+  square U[FRAME_ORDER + 1];
+  square C;  /* about U_0^-1 */
+  square G;  /* diag(G0, I) */
+  square Gi; /* about its inverse */
+  /* -- verified, in upward mode */
+  iv start[N_MAX * N_MAX], end[N_MAX * N_MAX]; /* B(-1), B(1) */
+  square size, reach;                          /* >= |U(s)|, >= |B(s)| */
+  square E;                                    /* >= |(C U(s))^-1 - I| */
+  square G_size, Gi_size;                      /* >= |diag(G0, I)|, |diag(G0, I)^-1| */
+  square EG;                                   /* Gi G = I - K, EG >= K + K^2 + ... */
+} frame;
+
+/* (eta/2) J along the piece, entry by entry: coefficients 0 .. count-1 and a remainder */
+typedef struct slopes {
+  uint32_t *count;     /* [nx x n] */
+  double *coefficient; /* [nx x n x (SLOPE_ORDER + 1)] */
+  double *tail;        /* [nx x n] */
+} slopes;
+
+typedef struct stiff {
+  const ambit_host *host;
+  ambit_problem problem;
+  const ambit_num_service *num;
+  options options;
+  uint32_t nx, np, n;
+  series rhs, jacobian, slope; /* slope: only with parameters */
+  real rhs_real, jacobian_real, slope_real;
+  collocation q;
+  eigen_memory *eigen;
+  dd *table; /* Chebyshev polynomials of the step's time as powers of a piece's (pieces.c) */
+
+  /* -- the start: start + start_column xi +- start_rest, xi in [-1, 1]^nu */
+  dd *start;             /* [n] */
+  double *start_column;  /* [n x nu] */
+  double *start_rest;    /* [n] */
+  double *about, *scale; /* [nu] unknown j is about_j + scale_j xi_j */
+
+  /* -- the set: end +- (end_error, B w) */
+  dd *end;           /* [n] of the last polynomial, or the start */
+  double *end_error; /* [n] */
+  carried carried, saved;
+  dd *saved_end;
+  double *saved_error;
+
+  /* -- the step */
+  double t, t_next, guess;
+  dd h;
+  uint32_t level, next; /* 2^(level + 2) pieces; the instant ahead */
+  int careful;          /* steps that are not made much longer yet */
+  int at_instant;
+  spectrum *spectrum; /* [PIECES_MAX + 1] */
+  double *rate;       /* [(PIECES_MAX + 1) x n x n] (eta/2) J at the ends of pieces */
+
+  /* -- the piece */
+  poly *P;              /* [n] */
+  dd half;              /* eta / 2, exact */
+  frame frame, refined; /* refined: scratch of refine.c */
+  slopes slopes;
+  double *box;             /* [n] radius of the tube that slopes are over */
+  double *defect;          /* [nx x (N + 1)] coefficients of P' - (eta/2) f(P), and what else is in it */
+  double *defect_tail;     /* [nx] */
+  double *gap, *gap_error; /* [n] where the last polynomial ended, less P(-1) */
+  double *radius;          /* [n] bounds the error on the whole piece */
+  double *shift;           /* [n] bounds how far P is from where slopes were computed */
+
+  /* -- the record */
+  double *lo, *hi, *tube_lo, *tube_hi; /* [nx] */
+  double *limit, *first_rate;          /* [nx] */
+  dd *dense_sum;                       /* [nx x (N + 1)] */
+  double *dense_mid, *dense_rad;       /* [nx x (N + 1)] */
+  uint32_t *exponent;                  /* [nu] zeros: the set's only term is constant */
+  double *set_middle, *set_rest;       /* [nx] */
+  uint32_t culprit;
+  enum why last_why; /* of the last rejected step */
+} stiff;
+
+/* start.c */
+ambit_status start_read(stiff *s); /* at open: start, its columns and rest */
+void start_set(stiff *s);          /* end and carried, in upward mode */
+
+/* open.c */
+ambit_status stiff_open(const ambit_host *h, const ambit_problem *p, const double *option, void **self);
+void stiff_close(void *self);
+
+/* run.c */
+ambit_status stiff_run(void *self, ambit_sink *sink);
+
+/* step.c, in round-to-nearest */
+enum why step_make(stiff *s); /* the set and the tube, from t to t_next, which it chooses */
+
+/* pieces.c */
+void pieces_fill(dd *table, uint32_t N);
+size_t pieces_table_size(uint32_t N);
+/* P := the step's polynomial on piece j of 2^(level + 2), in its own time */
+void pieces_cut(stiff *s, uint32_t level, uint32_t j);
+
+/* evaluate.c, in round-to-nearest: what f and J are along the piece. 0: not defined */
+int evaluate_defect(stiff *s, uint32_t j, uint32_t pieces);
+void evaluate_gap(stiff *s); /* from where the last piece ended to where this one starts */
+void evaluate_end(stiff *s); /* end := P(1) */
+int evaluate_slopes(stiff *s, uint32_t j, uint32_t pieces); /* over the tube P +- box */
+void evaluate_rates(stiff *s, uint32_t pieces);             /* rates and spectra at the ends of pieces; approximate */
+
+/* frame.c */
+int frame_choose(stiff *s, uint32_t j); /* in round-to-nearest; approximate */
+/* refine.c: makes errors of the frame's directions keep apart better; approximate */
+void frame_refine(stiff *s);
+/* r [n x cols] := coefficient l of (eta/2) J, times X */
+void frame_apply_slopes(const stiff *s, uint32_t l, uint32_t cols, const double *X, double *r);
+int frame_verify(stiff *s); /* in upward mode, as is all below */
+
+/* dense.c, only on the wish for it */
+void dense_start(stiff *s);             /* the polynomial of the step, from the collocation */
+void dense_piece(stiff *s, uint32_t j); /* its radius, from each proved piece */
+int dense_is_good(const stiff *s);      /* 0: it cannot be written in doubles */
+
+/* improve.c: P with a smaller defect, from the last one */
+void improve_piece(stiff *s);
+
+/* prove.c */
+enum why prove_piece(stiff *s, uint32_t j, uint32_t pieces); /* carried: from s = -1 to s = 1 */
+
+/* rates.c */
+/* what multiplies errors: U^-1 ((eta/2) J U - U') in middle +- radius, then in blocks */
+typedef struct matrix_bounds {
+  iv middle[N_MAX * N_MAX];
+  square radius;
+} matrix_bounds;
+
+void rates_bound(const stiff *s, matrix_bounds *r);
+void rates_in_blocks(const stiff *s, const matrix_bounds *r, double *M); /* [blocks x blocks], a Metzler matrix */
+#endif
