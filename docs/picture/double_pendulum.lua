@@ -14,8 +14,12 @@ local function start(first)
   return { beta1 = first, beta2 = -11 * pi / 20, ["beta1'"] = "0.43", ["beta2'"] = "0.67" }
 end
 
+local END, PARTS = 3, 120
+local times = {}
+for k = 0, PARTS do times[k + 1] = END * k / PARTS end
+
 local run = ambit.simulate {
-  m:dynamics(), initial = start(around(3 * pi / 4, "1%")), t = { 0, 0.7 }, solver = "lohner", step_max = 0.005,
+  m:dynamics(), initial = start(around(3 * pi / 4, "1%")), t = times, solver = "taylor_model", order = 12,
 }
 local boxes = assert(io.open(folder .. "/boxes.dat", "w"))
 for step in run:steps() do
@@ -25,10 +29,8 @@ end
 boxes:close()
 
 local samples = assert(io.open(folder .. "/samples.dat", "w"))
-for i = -6, 6 do
-  local first = 3 * math.pi / 4 * (1 + i / 600)
-  local times = { 0 }
-  for k = 1, 35 do times[#times + 1] = k / 50 end
+for i = -3, 3 do
+  local first = 3 * math.pi / 4 * (1 + i / 300)
   local sample = ambit.simulate { m:dynamics(), initial = start(first), t = times, solver = "gsl" }
   for _, t in ipairs(times) do
     if t > 0 then
