@@ -6,6 +6,7 @@
 ** holds only where the original is defined and differentiable (graph.h).
 */
 #include "graph/fold.h"
+#include "graph/kink.h"
 #include "graph/walk.h"
 #include <stdlib.h>
 
@@ -87,7 +88,9 @@ static ambit_expr chain(ambit_graph *g, const ambit_walk *walk, ambit_expr *d, a
       const char *kink = not_smooth(x.op);
       bool fixed = da == AMBIT_ZERO && db == AMBIT_ZERO;
       if (kink && !fixed) {
-        ambit_fail(f, AMBIT_INVALID, "%s has no derivative where it switches: it cannot be differentiated", kink);
+        const char *writer = ambit_graph_writer(g, e);
+        ambit_fail(f, AMBIT_INVALID, "%s%s%s has no derivative where it switches: it cannot be differentiated", kink,
+          writer ? " of " : "", writer ? writer : "");
         return AMBIT_NO_EXPR;
       }
       d[i] = fixed ? AMBIT_ZERO : differential(g, e, x, da, db);

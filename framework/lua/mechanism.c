@@ -1,5 +1,6 @@
 /* mechanism.c -- mechanisms as Lua values: adding parts, pulling quantities, the variables. */
 #include "lua/mechanism.h"
+#include "graph/kink.h"
 #include "lua/core.h"
 #include <string.h>
 
@@ -76,6 +77,12 @@ static int add(lua_State *L) {
   if (ambit_mechanism_add(m, &spec, &part, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
   lua_pushinteger(L, part);
   return 1;
+}
+
+/* written_by(mechanism, who or nil): formulas are that element's from now on, for messages about kinks */
+static int written_by(lua_State *L) {
+  ambit_graph_written_by(ambit_mechanism_graph(self(L)), lua_isnoneornil(L, 2) ? NULL : kept_text(L, 2));
+  return 0;
 }
 
 /* pull(mechanism, part, port, quantity, count) -> {expression, ...}; part < 0: of the mechanism */
@@ -167,8 +174,8 @@ static int speeds(lua_State *L) {
 void ambit_lua_open_mechanism(lua_State *L, ambit_lua *core) {
   static const luaL_Reg meta[] = { { "__gc", close }, { NULL, NULL } };
   static const luaL_Reg functions[] = { { "mechanism", mechanism }, { "add", add }, { "pull", pull },
-    { "part_name", part_name }, { "pulled", pulled }, { "part_pulled", part_pulled }, { "part_count", count },
-    { "coordinates", coordinates }, { "speeds", speeds }, { NULL, NULL } };
+    { "written_by", written_by }, { "part_name", part_name }, { "pulled", pulled }, { "part_pulled", part_pulled },
+    { "part_count", count }, { "coordinates", coordinates }, { "speeds", speeds }, { NULL, NULL } };
   static const struct {
     const char *name;
     lua_Integer value;

@@ -3,6 +3,7 @@
 #include "lua/request.h"
 #include "lua/system.h"
 #include "model/eigen.h"
+#include "model/equations.h"
 #include "model/roots.h"
 #include "num/solve.h"
 #include <string.h>
@@ -97,6 +98,19 @@ static int approach(lua_State *L) {
   return 3;
 }
 
+/* are_smooth({equation}, {unknown}, {name}, {leaf}, {value}, {box}, as functions of the data too?) -> boolean */
+static int are_smooth(lua_State *L) {
+  lua_settop(L, 7);
+  ambit_equations q = equations(L, 1);
+  const ambit_interval *box = boxes(L, 6, q.nx);
+  bool smooth;
+  ambit_failure f = { 0 };
+  if (ambit_equations_are_smooth(&q, AMBIT_LUA(L)->registry, box, lua_toboolean(L, 7), &smooth, &f) != AMBIT_OK)
+    ambit_lua_raise(L, &f);
+  lua_pushboolean(L, smooth);
+  return 1;
+}
+
 /* -- matrices of enclosures, by rows */
 
 static void push_eigenvalues(lua_State *L, size_t n, const ambit_eigenvalue *value) {
@@ -158,7 +172,7 @@ static int solve(lua_State *L) {
 }
 
 void ambit_lua_open_roots(lua_State *L, ambit_lua *core) {
-  static const luaL_Reg functions[] = { { "roots", roots }, { "approach", approach }, { "spectrum", spectrum },
-    { "is_positive_definite", is_positive_definite }, { "solve", solve }, { NULL, NULL } };
+  static const luaL_Reg functions[] = { { "roots", roots }, { "approach", approach }, { "are_smooth", are_smooth },
+    { "spectrum", spectrum }, { "is_positive_definite", is_positive_definite }, { "solve", solve }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
 }

@@ -48,7 +48,10 @@ static bool decompose(const bench *b, double off) {
   for (size_t i = 0; i < n * n; i++) b->middle[i] = ambit_interval_mid(b->a[i]);
   for (size_t i = 0; i < n; i++) b->middle[i * n + i] += off * (double)(i + 1) / (double)n;
   if (b->service->decompose((uint32_t)n, b->middle, b->re, b->im, b->vector) != AMBIT_OK) return false;
-  for (size_t j = 0; j < n; j++) b->is_first[j] = b->im[j] > 0;
+  for (size_t j = 0; j < n; j++) {
+    b->is_first[j] = b->im[j] > 0;
+    if (b->is_first[j] && (j + 1 == n || b->im[j + 1] > 0)) return false; /* no pair */
+  }
   return true;
 }
 

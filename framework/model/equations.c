@@ -1,7 +1,9 @@
 /* equations.c -- from expressions to tapes over unknowns and uncertain data. */
 #include "model/equations.h"
-#include "graph/tape.h"
+#include "graph/contract.h"
 #include "graph/hull.h"
+#include "graph/tape.h"
+#include "model/context.h"
 #include "model/unknowns.h"
 #include <stdio.h>
 #include <string.h>
@@ -119,4 +121,37 @@ bool ambit_equations_at(
   if (ambit_hull(tape, in, slot) & (AMBIT_F_PARTIAL | AMBIT_F_EMPTY | AMBIT_F_UNBOUNDED)) return false;
   for (uint32_t k = 0; k < tape->nout; k++) out[k] = ambit_interval_mid(slot[tape->out[k]]);
   return true;
+}
+
+static ambit_status inspect(const ambit_ready *r, ambit_lease *lease, const ambit_interval *box, bool with_data,
+    bool *smooth, ambit_failure *f) {
+  const ambit_tape *tape;
+  ambit_contractor *contractor;
+  double *lo = room(r->arena, r->nx + r->np, sizeof *lo), *hi = room(r->arena, r->nx + r->np, sizeof *hi);
+  if (!lo || !hi) return no_memory(f);
+  ambit_status status = ambit_equations_seal(r, r->ne, r->equation, 0, &tape, f);
+  if (status != AMBIT_OK) return status;
+  if (ambit_contract_service_v1.open(&lease->host, tape, &contractor) != AMBIT_OK) return no_memory(f);
+  for (size_t i = 0; i < r->nx + r->np; i++) {
+    ambit_interval x = i < r->nx ? box[i] : r->p[i - r->nx];
+    lo[i] = x.lo, hi[i] = x.hi;
+  }
+  uint32_t n = (uint32_t)(with_data ? r->nx + r->np : r->nx);
+  uint32_t flags = ambit_contract_service_v1.inspect_in(contractor, lo, hi, n);
+  *smooth = (flags & ~AMBIT_F_KINK_ELSEWHERE) == 0;
+  return AMBIT_OK;
+}
+
+ambit_status ambit_equations_are_smooth(const ambit_equations *q, ambit_registry *registry, const ambit_interval *box,
+    bool with_data, bool *smooth, ambit_failure *f) {
+  ambit_arena *arena = ambit_arena_open();
+  ambit_lease *lease = NULL;
+  ambit_ready ready;
+  *smooth = false;
+  ambit_status status = arena ? ambit_equations_prepare(q, arena, &ready, f) : no_memory(f);
+  if (status == AMBIT_OK) status = ambit_context_lease(registry, &lease, f);
+  if (status == AMBIT_OK) status = inspect(&ready, lease, box, with_data, smooth, f);
+  ambit_lease_close(lease);
+  ambit_arena_close(arena);
+  return status;
 }

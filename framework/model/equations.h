@@ -25,4 +25,8 @@ ambit_status ambit_equations_differentiate(const ambit_ready *r, size_t ne, cons
 ** of the tape] is scratch. */
 bool ambit_equations_at(
     const ambit_ready *r, const ambit_tape *tape, const double *x, ambit_interval *slot, double *out);
+/* Are all equations defined, bounded and off their jumps and kinks wherever the unknowns are in the box? With data: also
+** as functions of these, all over their ranges; else for each of their values. */
+ambit_status ambit_equations_are_smooth(const ambit_equations *q, ambit_registry *registry, const ambit_interval *box,
+    bool with_data, bool *smooth, ambit_failure *f);
 #endif

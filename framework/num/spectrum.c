@@ -26,6 +26,7 @@ static double modulus(interval x, interval y) {
   return r.hi;
 }
 
+static double half_up(double x) { return half(point(x)).hi; }
 static double sum_up(double a, double b) { return ambit_interval_add(point(a), point(b)).hi; }
 
 /* r := a b, all n x n */
@@ -103,11 +104,11 @@ static double beside_real(const discs *d, size_t i, size_t j) {
 /* the same for i the first of a pair */
 static double beside_pair(const discs *d, size_t i, size_t j) {
   interval p = entry(d, i, j), r = entry(d, i + 1, j);
-  if (!d->is_first[j]) return 0.5 * modulus(p, r);
+  if (!d->is_first[j]) return half_up(modulus(p, r));
   interval q = entry(d, i, j + 1), s = entry(d, i + 1, j + 1);
-  double other = 0.5 * modulus(ambit_interval_sub(p, s), ambit_interval_add(q, r));
+  double other = half_up(modulus(ambit_interval_sub(p, s), ambit_interval_add(q, r)));
   if (i == j) return other; /* the first is the diagonal */
-  return sum_up(other, 0.5 * modulus(ambit_interval_add(p, s), ambit_interval_sub(q, r)));
+  return sum_up(other, half_up(modulus(ambit_interval_add(p, s), ambit_interval_sub(q, r))));
 }
 
 static void set_disc(const discs *d, size_t i, ambit_eigenvalue *value) {

@@ -79,11 +79,17 @@ function check.text(value, what)
   return value
 end
 
+-- A number as it is, anything else by its kind: for "expected ..., got ...".
+function check.shown(value)
+  return type(value) == "number" and tostring(value) or type(value) == "string" and ("the text `%s`"):format(value)
+    or check.kind(value)
+end
+
 -- A positive integer, as data in Lua.
 function check.count(value, what)
   local n = math.tointeger(value)
   if type(value) ~= "number" or not n or n < 1 then
-    check.fail("%s: expected a positive integer, got %s", what, tostring(value))
+    check.fail("%s: expected a positive integer, got %s", what, check.shown(value))
   end
   return n
 end

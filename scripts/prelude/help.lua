@@ -35,9 +35,10 @@ evaluate { expression or table of them, at = { name = value }, arithmetic = "int
 shape.]],
   simulate = [[
 simulate { ode, initial = { x = 1 }, t = { 0, 1 }, solver = "lohner", <options of the solver>, split = { x = 8 } or 8,
-threads = 2, keep = "last", dense = true, events = { { g = function(s, p, t) ... end } } }: a run with status, reason,
-t_reached, cpu_seconds, wall_seconds, step_count, rigorous, events, x, :at(t), :steps(). Without solver, the one that
-suits: run.solver, run.solver_reason.]],
+threads = 2, keep = "last", dense = true, events = { { g = function(s, p, t) ... end, name = "impact", direction =
+"falling", stop = true } } }: a run with status, reason, t_reached, cpu_seconds, wall_seconds, step_count, threads,
+pieces, rigorous, events, ended_by, x, :at(t), :steps(), :set() to go on from. Without solver, the one that suits:
+run.solver, run.solver_reason. Solvers: lohner, taylor_model, valencia, stiff, gsl; help "stiff" lists options.]],
   poincare = [[
 poincare { ode, section = function(s, p, t) ... end, direction = "rising", initial = { x = 1 }, t_max = 10, returns = 1,
 t_start = 0, solver = "lohner" }: the returns to a section, returns[i].t, .x, .set; :set(i), :orbit(): is there a
@@ -48,11 +49,24 @@ function(s, p, t) return { v = -s.v } end } } } }, mode = "fly", initial = { y =
 that switches where a guard crosses 0: status, reason, t_reached, x, events, modes, :at(t), :steps().]],
   verify = [[
 verify { ode, initial = { x = 1 }, t = { 0, 1 }, safe = expression or function(s, p, t), at_end = ..., reach = ...,
-budget = 200 }: proves or refutes that conditions are never positive: status, reason, bound, counterexample, conditions.]],
+budget = 200 }: proves or refutes that conditions are never positive: status, reason, bound, counterexample,
+conditions.]],
   sensitivity = [[
 sensitivity { ode, initial = { x = 1 }, t = { 0, 1 }, wrt = { "x", k = datum } }: a run with derivatives by initial
 values and data: :d(state, by), :d_at(t, state, by), step.d(state, by), :unit(state, by).]],
-  sample = "sample { expression or ode, n = 1000, seed = 1, ... }: Monte Carlo; proves nothing.",
+  roots = [[
+roots { function(s) return { s.x ^ 2 - 2 } end, box = { x = { 0, 3 } }, at = { name = value }, tolerance = 1e-8 }: every
+root in the box, proved: status, proved, partly, undecided, boxes; proved[1].x, .slope(datum). Options: help
+"krawczyk".]],
+  equilibria = [[
+equilibria { ode or mechanism, box = { angle = { -3, 3 } }, at = { name = value }, stability = true }: where it rests,
+as roots does; proved[1].stability, .stability_by, .stability_reason, .eigenvalues[1].re, .im, .count.]],
+  inverse_kinematics = [[
+inverse_kinematics { m, at = frame, position = { x, y, z }, orientation = rows or { axis = "z", angle = a } or { rpy =
+{ r, p, y } }, box = { joint = { lo, hi } }, given = { joint = value } }: every posture, as roots does.]],
+  eigenvalues = [[
+eigenvalues { { a, b }, { c, d } }: of a matrix: a list of { re, im, count } with stability.]],
+  sample = "sample { expression or ode, n = 1000, seed = 1, threads = 2, ... }: Monte Carlo; proves nothing.",
   compare = [[
 compare { expression or table of them, at = { name = value }, arithmetics = { "interval", { "affine", symbols =
 { 10, 20 } } }, repeats = 5 }: width against run time, a result with status, rows, and a table when printed. Without
@@ -64,6 +78,7 @@ of a mechanism; otherwise nothing happens.]],
   simplify = "simplify(e): an equal expression with fewer operations, if one is found.",
   plugins = "plugins([kind]): what there is, without loading it.",
   plugin = "plugin(kind, name): one plugin, loaded; its exported functions are in .fn.",
+  help = "help([name]): this text; name of a function or a plugin.",
   version = "version: of Ambit.",
 }
 for _, name in ipairs { "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log", "sqrt",

@@ -67,17 +67,36 @@ local function read_orientation(t)
   return list
 end
 
--- Is it a rotation, as far as enclosures see? A matrix that is none has no posture, which would be a misleading answer.
-local function check_rotation(r)
-  local q = rotation.product_back(r, r)
-  local values = core.evaluate("interval", {}, q, {}, {})
-  for i, x in ipairs(values) do
-    local wanted = i % 4 == 1 and 1 or 0
-    if math.abs(x:mid() - wanted) > 1e-6 + x:rad() then
-      check.fail("%s: orientation: the rows are no rotation: (R^T R)[%d][%d] is %s", what, (i + 2) // 3,
-        (i - 1) % 3 + 1, x)
+-- The rotation whose rows are r's, made orthonormal one after the other (Gram, Schmidt): for a rotation r itself.
+-- Entries in doubles or with a few digits are none, exactly, and no posture would have them.
+local function orthonormal(r)
+  local function row(i) return { x = r[i], y = r[i + 1], z = r[i + 2] } end
+  local function unit(v)
+    local length = core.sqrt(rotation.dot(v, v))
+    return { x = v.x / length, y = v.y / length, z = v.z / length }
+  end
+  local first, second = unit(row(1)), row(4)
+  local along = rotation.dot(first, second)
+  second = unit { x = second.x - along * first.x, y = second.y - along * first.y, z = second.z - along * first.z }
+  local third = rotation.cross(first, second)
+  return { first.x, first.y, first.z, second.x, second.y, second.z, third.x, third.y, third.z }
+end
+
+-- Rows that are no rotation have no posture, which would be a misleading answer.
+local function check_rotation(r, nearest)
+  local off = {}
+  for i = 1, 9 do off[i] = r[i] - nearest[i] end
+  for i, x in ipairs(core.evaluate("interval", {}, off, {}, {})) do
+    if x:is_empty() or x:mig() > 1e-6 then
+      check.fail("%s: orientation: the rows are no rotation: entry %d of row %d is off by %s", what, (i - 1) % 3 + 1,
+        (i + 2) // 3, x)
     end
   end
+end
+
+local function is_certain(list)
+  for _, leaf in ipairs(core.leaves(list)) do if leaf.kind == "unknown" then return false end end
+  return true
 end
 
 -- The equations: those that are solved, then those that they imply; and the trace of R'Q, or nil.
@@ -87,7 +106,9 @@ local function equations(m, t)
   if t.position ~= nil then read_position(t.position, at, list) end
   if t.orientation ~= nil then
     local r = read_orientation(t.orientation)
-    check_rotation(r)
+    local nearest = orthonormal(r)
+    check_rotation(r, nearest)
+    if is_certain(r) then r = nearest end -- uncertain rows would be blurred by it: they are to be rotations as formulas
     local q, rows = {}, m:orientation(t.at)
     for i = 1, 9 do q[i] = rows[(i + 2) // 3][(i - 1) % 3 + 1] end
     local off = rotation.product_back(r, q)

@@ -66,6 +66,9 @@ end
 
 function orbit.prove(map)
   local q, last = map.request, map.returns[map.request.returns]
+  if #core.system_invariants(q.system.system) > 0 then
+    return no "the system has constraints: its initial states are no box"
+  end
   if not last then return no("%s", map.reason) end
   if not map.rigorous then return no "the solver proves nothing" end
   for _, leaf in ipairs(core.leaves(q.system.rates)) do

@@ -30,12 +30,15 @@ return function(q, point)
     read_datum(p)
     local list, n = solved(q), #q.names
     if #list ~= n then check.fail("slope: there are %d equations for %d unknowns", #list, n) end
-    local leaves, values, entries = {}, {}, {}
+    local leaves, values, entries, place = {}, {}, {}, {}
     for i, f in ipairs(list) do
-      leaves[i], values[i] = q.symbols[i], core.expression(rawget(point, q.names[i]))
+      place[i] = rawget(point, q.names[i])
+      leaves[i], values[i] = q.symbols[i], core.expression(place[i])
       for _, x in ipairs(q.symbols) do entries[#entries + 1] = core.derivative(f, x) end
     end
     for i, f in ipairs(list) do entries[n * n + i] = -core.derivative(f, p) end
+    local smooth = core.are_smooth(list, q.symbols, q.names, {}, {}, place, true)
+    if not smooth then return nil end -- a jump or a kink, maybe along the data alone
     local found = core.evaluate("interval", {}, entries, leaves, values)
     for _, x in ipairs(found) do
       if x.partial or not x:is_bounded() then return nil end

@@ -7,9 +7,10 @@ local Run = { __name = "run" }
 local Step = { __name = "step" }
 local run = {}
 
--- By state name; a wrong name is an error with the nearest one.
+-- By state name; a wrong name is an error with the nearest one. Verbs take it for the plain table that it is.
 local function strict(values, states)
   return setmetatable(values, {
+    is_shape = "plain",
     __index = function(_, key) check.fail('there is no state `%s`%s', tostring(key), check.suggest(key, states)) end,
   })
 end

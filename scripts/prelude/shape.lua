@@ -26,7 +26,7 @@ function shape.flatten(value, what)
     end
     if open[node] then check.fail("%s: the table contains itself", what) end
     open[node] = true
-    local copy = setmetatable({}, meta)
+    local copy = setmetatable({}, meta and meta.is_shape ~= "plain" and meta or nil)
     for _, key in ipairs(check.sorted(node)) do
       rawset(copy, key, walk(node[key], path == "" and tostring(key) or path .. "." .. tostring(key)))
     end

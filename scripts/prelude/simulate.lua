@@ -106,7 +106,8 @@ function verb.run_options(t, q)
   local fields = split.read(t.split, q, "simulate: split")
   fields.threads = verb.threads(t, "simulate")
   if t.keep ~= nil and t.keep ~= "all" and t.keep ~= "last" then
-    check.fail('simulate: keep: expected "all" or "last", got %s', tostring(t.keep))
+    check.fail('simulate: keep: expected "all" or "last", got %s',
+      type(t.keep) == "string" and t.keep or check.shown(t.keep))
   end
   if t.dense ~= nil and type(t.dense) ~= "boolean" then
     check.fail("simulate: dense: expected true or false, got %s", check.kind(t.dense))

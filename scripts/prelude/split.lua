@@ -75,7 +75,7 @@ function split.read(value, q, what)
       local unknown, name = datum_of(key, data, what)
       add(unknown, name, count(value[key], ("%s: %s"):format(what, name)))
     end
-  elseif math.type(value) == "integer" then
+  elseif type(value) == "number" then
     fields.pieces = count(value, what)
   else
     check.fail("%s: expected a number of pieces, or { state = parts }, got %s", what,

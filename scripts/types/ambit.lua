@@ -378,25 +378,219 @@ function ambit.evaluate(t) end
 ---@field x table<string, ambit.enclosure> at t
 ---@field tube table<string, ambit.enclosure>? for all times of the step
 
+---A formula g of states, parameters and time, or a function that returns one; `g = 0` is the event.
+---@alias ambit.condition ambit.datum|fun(s: table<string, ambit.expression>, p: table<string, ambit.expression>, t: ambit.expression): ambit.datum
+
+---@class ambit.event
+---@field g ambit.condition smooth
+---@field direction? "rising"|"falling"|"both" of g as time grows
+---@field name? string its number unless given
+---@field stop? boolean ends the run behind it
+
+---@class ambit.event.found
+---@field name string
+---@field index integer of the entry in `events`
+---@field t ambit.enclosure
+---@field x table<string, ambit.enclosure>
+---@field direction "rising"|"falling"|"both"
+---@field certain boolean every solution of the set crosses, exactly once
+---@field reason string? why it is not certain
+
 ---@class ambit.run
 ---@field status "complete"|"unable"|"stopped"
 ---@field reason string "" if complete, else why, and which knob to turn
+---@field t_start number
 ---@field t_reached number
----@field cpu_seconds number
+---@field cpu_seconds number of all threads
+---@field wall_seconds number
+---@field threads integer how many worked
+---@field pieces integer that the uncertain data were cut into by `split`
 ---@field step_count integer
+---@field solver string
+---@field solver_reason string why this one was taken
+---@field arithmetic string
 ---@field rigorous boolean are these proved enclosures?
+---@field states string[]
+---@field events ambit.event.found[] in the order of time
+---@field ended_by string? name of the event that ended the run
 ---@field x table<string, ambit.enclosure> the last enclosure, by state name
 local run = {}
 ---@param t number|string
----@return table<string, ambit.enclosure> # a step's end exactly, else the tube of the step around t
+---@return table<string, ambit.enclosure> # tight at ends of steps and with dense = true, else that of the whole step around t
 function run:at(t) end
 ---@return fun(): ambit.step?
 function run:steps() end
+---@return table<string, ambit.expression> # initial values to go on from, of the same uncertain data
+function run:set() end
 
----Keys besides these are options of the solver.
----@param t { [1]: ambit.ode|ambit.mechanism, initial: table<string, ambit.datum>, t: number|(number|string)[], solver: string?, arithmetic: ambit.arithmetic?, order: integer? }
+---@alias ambit.solver
+---|"lohner"
+---|"taylor_model"
+---|"valencia"
+---|"stiff"
+---|"gsl"
+---|string
+
+---Options of the solvers; each knows some of them, `ambit plugins NAME` tells which.
+---@class ambit.solver.options
+---@field solver? ambit.solver
+---@field arithmetic? ambit.arithmetic
+---@field tolerance? number what one step may add
+---@field order? integer
+---@field jacobian_order? integer lohner, taylor_model
+---@field time_order? integer taylor_model
+---@field nodes? integer stiff
+---@field degree? integer valencia
+---@field exponential? "auto"|"off"|"on" valencia
+---@field set? "auto"|"qr"|"history" lohner
+---@field history? integer lohner
+---@field pieces? integer lohner
+---@field step? "auto"|"taylor"|"hermite_obreschkoff" lohner
+---@field split_tolerance? number taylor_model
+---@field pieces_max? integer taylor_model
+---@field outputs? integer taylor_model
+---@field method? string gsl
+---@field relative? number gsl
+---@field absolute? number gsl
+---@field step_max? number s
+---@field step_min? number s
+---@field width_max? number
+---@field [string] any of other plugins
+
+---@class ambit.problem: ambit.solver.options
+---@field [1] ambit.ode|ambit.mechanism
+---@field initial table<string|integer, ambit.datum>
+---@field t number|string|(number|string)[] start, ..., end; or the end
+
+---@class ambit.simulate.request: ambit.problem
+---@field events? ambit.event[]
+---@field split? integer|table<string|ambit.expression, integer> pieces, or parts by state, parameter or datum
+---@field threads? integer
+---@field keep? "all"|"last"
+---@field dense? boolean an enclosure of each whole step, for run:at(t)
+
+---Keys besides these are options of the solver; without `solver` the one that suits.
+---@param t ambit.simulate.request
 ---@return ambit.run
 function ambit.simulate(t) end
+
+---@class ambit.poincare.return
+---@field t ambit.enclosure
+---@field x table<string, ambit.enclosure>
+---@field set table<string, ambit.expression> initial values to go on from
+---@field direction "rising"|"falling"
+---@field certain boolean
+
+---@class ambit.poincare
+---@field status "complete"|"unable"|"stopped"
+---@field reason string
+---@field returns ambit.poincare.return[]
+---@field step_count integer
+---@field cpu_seconds number
+---@field rigorous boolean
+local poincare = {}
+---@param i? integer the last return unless given
+---@return table<string, ambit.expression>
+function poincare:set(i) end
+---@return { proved: boolean, period: ambit.enclosure?, x: table<string, ambit.enclosure>?, reason: string? }
+function poincare:orbit() end
+
+---@class ambit.poincare.request: ambit.solver.options
+---@field [1] ambit.ode|ambit.mechanism
+---@field section ambit.condition
+---@field direction? "rising"|"falling"|"both"
+---@field initial table<string|integer, ambit.datum>
+---@field t_max number|string by when the returns have happened, s
+---@field t_start? number|string
+---@field returns? integer
+
+---@param t ambit.poincare.request
+---@return ambit.poincare
+function ambit.poincare(t) end
+
+---@class ambit.guard
+---@field g ambit.condition
+---@field direction? "rising"|"falling"|"both"
+---@field name? string
+---@field to string mode in which the solution goes on
+---@field reset? table<string, ambit.datum>|fun(s: table, p: table, t: ambit.expression): table<string, ambit.datum> states not mentioned keep their values
+
+---@class ambit.hybrid: ambit.run
+---@field modes string[] that it went through; events have `from` and `to`
+
+---@class ambit.hybrid.request: ambit.solver.options
+---@field modes table<string, { [1]: ambit.ode|ambit.mechanism, guards: ambit.guard[]? }>
+---@field mode? string to start in, needed if there are several
+---@field initial table<string|integer, ambit.datum>
+---@field t number|string|(number|string)[]
+---@field switches_max? integer
+
+---A model that switches where a guard crosses 0.
+---@param t ambit.hybrid.request
+---@return ambit.hybrid
+function ambit.hybrid(t) end
+
+---@class ambit.counterexample
+---@field initial table<string, ambit.enclosure>
+---@field parameters table<string, ambit.enclosure>
+---@field t ambit.enclosure
+---@field g ambit.enclosure
+local counterexample = {}
+---@param e ambit.datum of the data
+---@return ambit.enclosure # for this choice of them
+function counterexample:value(e) end
+
+---@class ambit.verdict
+---@field name string
+---@field status "proved"|"refuted"|"undecided"
+---@field reason string
+---@field bound ambit.enclosure? of the largest (reach: the least) g over all data
+---@field counterexample ambit.counterexample?
+
+---@class ambit.verification
+---@field status "proved"|"refuted"|"undecided"
+---@field reason string
+---@field bound ambit.enclosure?
+---@field counterexample ambit.counterexample?
+---@field conditions table<string, ambit.verdict> by name
+---@field refinements integer runs after the first
+---@field cpu_seconds number
+
+---@class ambit.verify.request: ambit.problem
+---@field safe? ambit.condition|table<string|integer, ambit.condition> never positive
+---@field at_end? ambit.condition|table<string|integer, ambit.condition> not positive at the end
+---@field reach? ambit.condition|table<string|integer, ambit.condition> not positive at some time
+---@field budget? integer|string runs after the first, 200 unless given; "10 s" of CPU time
+
+---Proves or refutes conditions for every behaviour that the tolerances allow.
+---@param t ambit.verify.request
+---@return ambit.verification
+function ambit.verify(t) end
+
+---A run with derivatives; see ambit.run for what else it knows.
+---@class ambit.sensitivity: ambit.run
+local sensitivity = {}
+---@param state string
+---@param by string|ambit.expression
+---@return ambit.enclosure # at the end
+function sensitivity:d(state, by) end
+---@param t number|string
+---@param state string
+---@param by string|ambit.expression
+---@return ambit.enclosure
+function sensitivity:d_at(t, state, by) end
+---@param state string
+---@param by string|ambit.expression
+---@return string
+function sensitivity:unit(state, by) end
+
+---@class ambit.sensitivity.request: ambit.problem
+---@field wrt? table<string|integer, string|ambit.expression> states, parameters, or data by a name of your own; everything unless given
+
+---Enclosures of the derivatives by initial values and data.
+---@param t ambit.sensitivity.request
+---@return ambit.sensitivity
+function ambit.sensitivity(t) end
 
 ---@class ambit.sample
 ---@field status "complete"|"stopped"
@@ -409,7 +603,7 @@ local sample = {}
 function sample:at(t) end
 
 ---Monte Carlo in ordinary floating point; proves nothing.
----@param t { [1]: any, n: integer?, seed: integer?, at: table<string, ambit.datum>?, initial: table<string, ambit.datum>?, t: any?, solver: string?, arithmetic: ambit.arithmetic? }
+---@param t { [1]: any, n: integer?, seed: integer?, at: table<string, ambit.datum>?, initial: table<string|integer, ambit.datum>?, t: any?, solver: string?, arithmetic: ambit.arithmetic?, threads: integer? }
 ---@return any
 function ambit.sample(t) end
 
@@ -444,26 +638,86 @@ function ambit.sample(t) end
 ---@return ambit.comparison
 function ambit.compare(t) end
 
+---Enclosures by name; further:
 ---@class ambit.root
 ---@field inside boolean is the enclosure inside the box that was searched?
+---@field slope fun(datum: ambit.expression): table<string, ambit.enclosure> how it moves with a datum
+---@field [string] any
 
 ---@class ambit.roots
 ---@field status "complete"|"unable"
----@field reason string?
----@field proved ambit.root[] each holds exactly one root: enclosures by name
+---@field reason string "" if complete
+---@field proved ambit.root[] each holds exactly one root, for each value of the uncertain data
+---@field partly ambit.root[] roots for a part of the data's values
 ---@field undecided table[] boxes that may hold roots
+---@field unknowns string[]
+---@field solver string
+---@field arithmetic string
 ---@field boxes integer how many were looked at
 ---@field cpu_seconds number
 
+---@class ambit.roots.options
+---@field solver? string
+---@field arithmetic? ambit.arithmetic
+---@field tolerance? number size of the smallest boxes
+---@field boxes_max? integer
+---@field undecided_max? integer
+---@field roots_max? integer
+---@field operator? "auto"|"newton"|"krawczyk"|"hansen_sengupta"
+---@field parameter_pieces? integer
+
+---@class ambit.roots.request: ambit.roots.options
+---@field [1] any an expression, a table of them, or a function(s) that returns one
+---@field box table<string, any> { lo, hi }, an enclosure or a text for every unknown; ends may be infinite
+---@field at? table<string, ambit.datum>
+
 ---Every root of f = 0 in a box, with proof.
----@param t { [1]: any, box: table<string, any>, at: table<string, ambit.datum>?, solver: string? }
+---@param t ambit.roots.request
 ---@return ambit.roots
 function ambit.roots(t) end
 
+---@class ambit.eigenvalue
+---@field re ambit.enclosure
+---@field im ambit.enclosure
+---@field count integer eigenvalues that share this box
+
+---@class ambit.equilibrium: ambit.root
+---@field stability "stable"|"unstable"|"undecided" for every value of the data
+---@field stability_by? "eigenvalues"|"Lyapunov's equation"|"energy"
+---@field stability_reason? string why it is undecided
+---@field eigenvalues ambit.eigenvalue[]
+
+---@class ambit.equilibria: ambit.roots
+---@field proved ambit.equilibrium[]
+---@field partly ambit.equilibrium[]
+
+---@class ambit.equilibria.request: ambit.roots.options
+---@field [1] ambit.ode|ambit.mechanism
+---@field box table<string, any> of coordinates; speeds are 0
+---@field at? table<string, ambit.datum>
+---@field stability? boolean for all points at once, else when asked for
+
 ---Where a system rests: the speeds are zero, and so are their derivatives.
----@param t { [1]: ambit.ode|ambit.mechanism, box: table<string, any>, at: table<string, ambit.datum>?, solver: string? }
----@return ambit.roots
+---@param t ambit.equilibria.request
+---@return ambit.equilibria
 function ambit.equilibria(t) end
+
+---@param matrix ambit.datum[][] by rows
+---@return ambit.eigenvalue[] # also with .stability, .stability_by, .stability_reason
+function ambit.eigenvalues(matrix) end
+
+---@class ambit.inverse_kinematics.request: ambit.roots.options
+---@field [1] ambit.mechanism
+---@field at ambit.frame
+---@field position? ambit.vector|{ x: ambit.datum?, y: ambit.datum?, z: ambit.datum? } m; components left out are free
+---@field orientation? ambit.datum[][]|{ axis: ambit.axis, angle: ambit.datum }|{ rpy: ambit.datum[] }
+---@field box? table<string, any> ranges of joints; else their limits, or half a turn around 0
+---@field given? table<string, ambit.datum> values for joints
+
+---Every posture in which a frame is at a place.
+---@param t ambit.inverse_kinematics.request
+---@return ambit.roots
+function ambit.inverse_kinematics(t) end
 
 ---What `ambit view` shows of a mechanism; otherwise it only checks what it is given.
 ---@param t ambit.mechanism | { [1]: ambit.mechanism, run: ambit.run?, points: table<string|integer, ambit.frame>?, at: table<string, ambit.datum>?, t: ambit.datum[]?, arithmetic: string|table|nil, title: string? }

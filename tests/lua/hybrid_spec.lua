@@ -249,6 +249,61 @@ describe("hybrid", function()
     assert.equal(1, #throw(ambit.between("10.1", "10.2")).events)
   end)
 
+  it("is unable where both modes point at the surface", function()
+    local function mode(rate) return ambit.ode { states = { "x", "n" },
+      equations = function(s) return { x = rate, n = 0 * s.x } end } end
+    local function slide(first, second, reset)
+      local function x(s) return s.x end
+      return ambit.hybrid {
+        modes = { down = { mode(-1), guards = { { g = x, direction = first, to = "up", reset = reset } } },
+          up = { mode(1), guards = { { g = x, direction = second, to = "down", reset = reset } } } },
+        mode = "down", initial = { x = ambit.around(1, "0.01"), n = 0 }, t = { 0, 3 },
+      }
+    end
+    local function count(s) return { n = s.n + 1 } end
+    local directions = { { "falling", "rising" }, { "both", "both" }, { "falling", "both" }, { "both", "rising" } }
+    for _, d in ipairs(directions) do
+      for _, reset in ipairs { {}, count, { x = 0 } } do
+        local run = slide(d[1], d[2], reset)
+        assert.equal("unable", run.status)
+        assert.is_truthy(run.reason:find("guard `down` of mode `up` may be met", 1, true))
+        assert.is_true(run.t_reached <= 1.01)
+      end
+    end
+    assert.equal("complete", slide("falling", "falling").status) -- `up` is left downwards only
+  end)
+
+  it("is unable where a reset leaves its domain", function()
+    for _, reset in ipairs {
+      function(s) return { v = ambit.sqrt(s.v) } end,
+      function(s) return { v = 1 / s.y } end,
+      function(_, _, t) return { v = ambit.sqrt(t - math.sqrt(2 / G)) } end, -- of some solutions only
+    } do
+      local run = ambit.hybrid {
+        modes = { fly = { ball, guards = { { g = function(s) return s.y end, direction = "falling", to = "fly",
+          reset = reset } } } },
+        initial = { y = ambit.around(1, "0.01"), v = 0 }, t = { 0, 2 },
+      }
+      assert.equal("unable", run.status)
+      assert.is_truthy(run.reason:find("reset gives the state `v` no finite value", 1, true))
+      assert.is_true(run.t_reached > 0.4)
+    end
+  end)
+
+  it("may switch by the same guard again, once it has been left", function()
+    local swing = ambit.ode { states = { "x", "v", "n" },
+      equations = function(s) return { x = s.v, v = -s.x, n = 0 * s.x } end }
+    for direction, n in pairs { rising = 3, both = 6 } do
+      local run = ambit.hybrid {
+        modes = { swing = { swing, guards = { { g = function(s) return s.x end, direction = direction, to = "swing",
+          reset = function(s) return { n = s.n + 1 } end } } } },
+        initial = { x = ambit.around(1, "0.01"), v = 0, n = 0 }, t = { 0, 20 },
+      }
+      assert.equal("complete", run.status)
+      assert_inside(run.x.n, n)
+    end
+  end)
+
   it("is unable where the data decide which guard comes first", function()
     local run = ambit.hybrid {
       modes = { go = { ambit.ode { states = { "x", "y" }, equations = { x = 1, y = 1 } },

@@ -92,6 +92,32 @@ describe("inverse kinematics of planar arms", function()
     end
   end)
 
+  it("takes rows in doubles or with a few digits as the rotation that they are nearly", function()
+    local m, at = ambit.mechanism "wrist", nil
+    for _, axis in ipairs { "z", "y", "x" } do
+      at = m:rigid_link { from = m:revolute { from = at or m.world, axis = axis, name = axis }, offset = { 1, 0, 0 } }
+    end
+    for k = 1, 9 do
+      local c, s = math.cos(0.3 * k), math.sin(0.3 * k)
+      local digits = k % 3 == 0 and function(x) return ("%.8f"):format(x) end or function(x) return x end
+      local r = ambit.inverse_kinematics { m, at = at,
+        orientation = { { digits(c), digits(-s), 0 }, { digits(s), digits(c), 0 }, { 0, 0, 1 } } }
+      assert.equal("complete", r.status)
+      local found = 0
+      for _, p in ipairs(r.proved) do
+        if p.z:contains(0.3 * k) or math.abs(p.z:mid() - 0.3 * k) < 1e-7 then
+          found = found + 1
+          assert.is_true(p.x:contains(0) and p.y:contains(0))
+        end
+      end
+      assert.equal(1, found)
+    end
+    local exact = ambit.inverse_kinematics { m, at = at, orientation = { axis = "z", angle = "0.3" } }
+    assert.equal("complete", exact.status)
+    assert.equal(1, count_holding(exact.proved, { x = 0, y = 0, z = 0.3 }))
+    refused("the rows are no rotation", { m, at = at, orientation = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, -1 } } })
+  end)
+
   it("proves that there is none", function()
     local m, tip = planar { 1, "0.75" }
     for _, position in ipairs { { 2, 0, 0 }, { 1, "0.5", "0.1" }, { "0.1", "0.1", 0 } } do

@@ -102,6 +102,44 @@ describe("poincare", function()
     assert.is_true(math.abs(later.returns[1].t:mid() - 13 * math.pi / 6) < 1e-12)
   end)
 
+  it("follows a section that moves, of a system that does not depend on time", function()
+    -- x = cos t, v = -sin t: g = (sin t - t / 200) / 5
+    local map = ambit.poincare {
+      oscillator, section = function(s, _, t) return ambit.sin(t) / 10 - s.v / 10 - t / 1000 end, direction = "rising",
+      returns = 3, t_start = 1, t_max = 30, initial = { x = math.cos(1), v = -math.sin(1) },
+    }
+    assert.equal(3, #map.returns)
+    for k, r in ipairs(map.returns) do
+      local t = 2 * math.pi * k
+      for _ = 1, 50 do t = 2 * math.pi * k + math.asin(t / 200) end
+      assert.is_true(r.t.lo <= t + 1e-12 and t - 1e-12 <= r.t.hi)
+      assert.is_true(r.t:width() < 1e-9)
+    end
+  end)
+
+  it("keeps unknowns of next to no width", function()
+    local forced = ambit.ode { states = { "x", "v" }, equations = function(s, _, t)
+      return { x = s.v, v = -2.16 * s.x - 0.227 * s.v + 0.1 * s.x ^ 2 + 0.072 * ambit.cos(2.877 * t) } end }
+    local map = ambit.poincare {
+      forced, section = function(s, _, t) return s.v - 0.1 * s.x ^ 2 + 0.02 * ambit.sin(t) end, returns = 3,
+      t_max = 25, initial = { x = 0.567, v = 0 },
+    }
+    assert.equal("complete", map.status)
+    for _, r in ipairs(map.returns) do assert.is_true(r.t:width() < 1e-8) end
+  end)
+
+  it("proves no orbit where constraints leave no box of states", function()
+    local m = ambit.mechanism { "strut", gravity = { 0, "-9.81", 0 } }
+    local tip = m:rigid_link { from = m:revolute { from = m.world, axis = "z", name = "q" }, offset = { 1, 0, 0 } }
+    m:point_mass { at = tip, mass = 2 }
+    local post = m:rigid_link { from = m:revolute { from = m.world, axis = "z", name = "r" }, offset = { 0, 1, 0 } }
+    m:point_mass { at = post, mass = 1 }
+    m:close_distance { a = post, b = tip, length = ambit.sqrt(2) }
+    local map = ambit.poincare { m:dynamics(), section = m:position(tip).x, t_max = "0.1",
+      initial = { q = 0, r = 0, ["q'"] = 0 } }
+    assert.is_truthy(map:orbit().reason:find "constraints")
+  end)
+
   it("says which return it cannot prove", function()
     local graze = ambit.poincare { oscillator, section = function(s) return s.x + 1 end, initial = { x = 1, v = 0 },
       t_max = 5 }

@@ -27,6 +27,17 @@ describe("roots with wide data", function()
     assert.is_truthy(tostring(r):find("for a part of the uncertain data", 1, true))
   end)
 
+  it("has no slope where the root jumps with a datum", function()
+    for _, case in ipairs { { -1, 1, false }, { -1, 0, false }, { "0.5", 1, true } } do
+      local p = ambit.between(case[1], case[2])
+      local r = ambit.roots { function(s) return s.x + ambit.atan2(p, -1) end, box = { x = { -9, 9 } } }
+      assert.equal(1, #r.proved)
+      local d = r.proved[1].slope(p)
+      assert.equal(case[3], d ~= nil)
+      if d then assert.is_true(d.x:contains(1 / (1 + 0.7 ^ 2))) end -- atan2(p, -1)' = -1 / (1 + p^2)
+    end
+  end)
+
   it("encloses how a root moves with a datum", function()
     local p, q = ambit.between(2, "2.1"), ambit.around(3, "1%")
     local r = ambit.roots {

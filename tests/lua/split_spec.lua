@@ -54,6 +54,24 @@ describe("split", function()
     end
   end)
 
+  it("does not depend on it with arithmetics that keep something from one piece to the next", function()
+    local mu = ambit.between("0.9", "1.1")
+    local pendulum = ambit.ode {
+      states = { "x", "y" }, parameters = { mu = mu },
+      equations = function(s, p, t) return { s.y, -p.mu * ambit.sin(s.x) + ambit.cos(t) * "0.1" } end,
+    }
+    local first
+    for _, threads in ipairs { 1, 2, 8 } do
+      local run = ambit.simulate {
+        pendulum, initial = { ambit.around(1, "0.3"), ambit.around(0, "0.02") }, t = { 1, 0.5 }, split = 13,
+        solver = "lohner", arithmetic = "affine", threads = threads,
+      }
+      local bits = ("%a %a %a %a"):format(run.x.x.lo, run.x.x.hi, run.x.y.lo, run.x.y.hi)
+      first = first or bits
+      assert.equal(first, bits)
+    end
+  end)
+
   it("cuts by choice what has influence", function()
     local run = ambit.simulate(copy(question, { split = 8 }))
     assert.is_true(run.pieces == 8 or run.pieces == 6)

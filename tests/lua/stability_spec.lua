@@ -120,6 +120,23 @@ describe("stability of equilibria", function()
     }
     assert.equal("undecided", forced.proved[1].stability)
     assert.is_truthy(forced.proved[1].stability_reason:find("depends on time", 1, true))
+    local function damped(extra) -- whose derivatives are bounded at rest, though the equations jump or end there
+      local jump = ambit.equilibria {
+        ambit.ode { states = { "x", "v" },
+          equations = function(s) return { x = s.v, v = -s.x - s.v / 4 + extra(s.v) } end },
+        box = { x = { -1, 1 } },
+      }
+      assert.equal(1, #jump.proved)
+      return jump.proved[1]
+    end
+    assert.equal("stable", damped(function() return 0 end).stability)
+    for _, extra in ipairs {
+      function(v) return ambit.atan2(v, -1) - ambit.pi end, function(v) return v ^ 3 * ambit.atan2(v, -1) / 100 end,
+    } do
+      local p = damped(extra)
+      assert.equal("undecided", p.stability)
+      assert.is_truthy(p.stability_reason:find("jump", 1, true))
+    end
     local good, message = pcall(ambit.equilibria, { pendulum {}, box = box, stability = "yes" })
     assert.is_false(good)
     assert.is_truthy(message:find("stability: expected true or false", 1, true))

@@ -234,6 +234,26 @@ describe("verify", function()
     r = verify { m:dynamics(), initial = initial, t = { 0, 1 }, safe = limit(1.2) }
     assert.equal("undecided", r.status)
     assert.truthy(r.reason:find("constraint", 1, true) or r.reason:find("quaternion", 1, true))
+    local a, b = ambit.between("0.72", "1.4"), ambit.between("-0.7", "0.7") -- none, as cutting shows: 2 a^2 + 2 b^2 > 1
+    initial["q.1"], initial["q.2"], initial[speed] = a - b, a + b, 1
+    r = verify { m:dynamics(), initial = initial, t = { 0, "0.2" },
+      safe = ambit.log(-1 - m:coordinates()[speed] ^ 2) } -- never defined
+    assert.equal("undecided", r.status)
+    assert.truthy(r.reason:find("constraint", 1, true))
+  end)
+
+  it("does not refute by values that only rounding put into the range of a datum", function()
+    local rest = ambit.ode { states = { "x" }, equations = function(s) return { 0 * s.x } end }
+    for _, k in ipairs { 1, 3, 10, 17, 30 } do -- x <= 0.3, and the double above 0.3 is not
+      local r = verify { rest, initial = { ambit.between("0.1", "0.3") }, t = 1,
+        at_end = function(s) return k * s.x - ambit.number(3 * k) / 10 end }
+      assert.equal("undecided", r.status)
+      assert.is_true(r.bound.lo <= 0)
+    end
+    local r = verify { rest, initial = { ambit.around("0.2", "50%") }, t = 1,
+      safe = function(s) return s.x - "0.2999999" end }
+    assert.equal("refuted", r.status)
+    assert.is_true(r.counterexample.initial.x.hi <= 0.3)
   end)
 
   it("does not take a jumping angle for the integral of its rate", function()

@@ -80,9 +80,9 @@ double box_extent(span x) {
 
 double box_middle(span x) { return fmin(fmax(0.5 * x.lo + 0.5 * x.hi, x.lo), x.hi); }
 
-void box_inflate(uint32_t n, span *x) {
+void box_inflate(uint32_t n, span *x, double floor) {
   for (uint32_t i = 0; i < n; i++) {
-    double more = INFLATION * (x[i].hi - x[i].lo) + 4 * DBL_EPSILON * fmax(fabs(x[i].lo), fabs(x[i].hi)) + 1e-290;
+    double more = INFLATION * (x[i].hi - x[i].lo) + 4 * DBL_EPSILON * fmax(fabs(x[i].lo), fabs(x[i].hi)) + floor;
     x[i].lo -= more;
     x[i].hi += more;
   }

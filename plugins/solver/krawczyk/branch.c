@@ -120,6 +120,7 @@ enum why krawczyk_keep_root(krawczyk *k, ambit_sink *sink, span *x, const span *
     krawczyk_tighten(k, x);
     if (box_is_apart(k->n, x, k->searched)) return WHY_DONE;
     kin = compare(k, x, around);
+    if (kin == SAME) return WHY_DONE;
   }
   if (kin == UNCLEAR || (k->further && !is_implied(k))) return krawczyk_keep_undecided(k, x);
   if (k->proved.count == k->proved.room) return WHY_ROOTS;

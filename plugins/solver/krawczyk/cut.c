@@ -24,14 +24,16 @@ static double width(span x) { return x.hi - x.lo; }
 
 static double size_of(const double *lo, const double *hi, size_t at) { return fmax(-lo[at], hi[at]); }
 
+double krawczyk_count_parts(const krawczyk *k, const span *x) {
+  double parts = 1;
+  for (uint32_t i = k->n; i < k->m; i++)
+    if (width(x[i]) > 0) parts *= width(k->searched[i]) / width(x[i]);
+  return parts;
+}
+
 /* may the parameters' part be cut once more? */
 static int has_pieces(const krawczyk *k, const span *x) {
-  double pieces = 1, most = k->options.pieces ? k->options.pieces : AUTOMATIC;
-  for (uint32_t i = k->n; i < k->m; i++) {
-    double whole = width(k->searched[i]), part = width(x[i]);
-    if (part > 0) pieces *= whole / part;
-  }
-  return 1.9 * pieces <= most;
+  return 1.9 * krawczyk_count_parts(k, x) <= (k->options.pieces ? k->options.pieces : AUTOMATIC);
 }
 
 /* the parameter of which this is the largest part */

@@ -147,7 +147,7 @@ double box_shrinking(uint32_t n, const span *x, const span *old); /* least ratio
 double box_point(span x);                                         /* where to cut it */
 double box_extent(span x);                                        /* width relative to max(1, |x|) */
 double box_middle(span x);                                        /* a double in it */
-void box_inflate(uint32_t n, span *x);
+void box_inflate(uint32_t n, span *x, double floor);              /* each end by more than `floor` */
 span *boxes_at(const boxes *b, uint32_t n, uint32_t i);
 int boxes_push(boxes *b, uint32_t n, const span *x, double share); /* 0: full */
 
@@ -164,6 +164,8 @@ void krawczyk_tighten(krawczyk *k, span *x);
 
 /* cut.c */
 int krawczyk_is_small(const krawczyk *k, const span *x, double times); /* against the tolerance */
+/* into how many parts like that of x the parameters' ranges could be cut */
+double krawczyk_count_parts(const krawczyk *k, const span *x);
 /* both parts of x onto the stack; 0: it is not worth it, or there is no room */
 int krawczyk_cut(krawczyk *k, const span *x, double share);
 

@@ -4,6 +4,7 @@
 ** one that is a little larger (epsilon inflation, Rump 1980, 1998).
 */
 #include "krawczyk.h"
+#include <float.h>
 #include <math.h>
 
 #define CONTRACTIONS 12
@@ -61,7 +62,8 @@ static enum verdict inflate(krawczyk *k, span *x, span *around) {
   box_copy(k->m, around, x);
   box_join(k->n, around, k->estimate);
   for (uint32_t i = 0; i < INFLATIONS; i++) {
-    box_inflate(k->n, around);
+    /* a component that is a point must not stay far narrower than what the others' errors make of it */
+    box_inflate(k->n, around, 2 * i < INFLATIONS ? 1e-290 : DBL_EPSILON * k->options.tolerance);
     box_copy(k->m, k->enclosure, around);
     enum verdict v = krawczyk_newton(k, k->enclosure);
     if (v == VERDICT_UNIQUE) box_copy(k->n, x, k->enclosure);
@@ -119,7 +121,7 @@ static int halve(krawczyk *k) {
 }
 
 void krawczyk_tighten(krawczyk *k, span *x) {
-  uint32_t most = k->options.pieces ? k->options.pieces : k->half.room;
+  double most = k->options.pieces ? k->options.pieces / krawczyk_count_parts(k, x) : k->half.room; /* x's share */
   k->half.count = 0;
   boxes_push(&k->half, k->m, x, 0);
   while (2 * k->half.count <= most && halve(k)) {

@@ -41,7 +41,8 @@ typedef struct piece {
   uint32_t level;        /* how coarsely sub-ranges are taken together for slopes */
   int done, tolerant;    /* at the output instant; truncation does not count, for there is no room for more pieces */
   enum why why;          /* of the last step that was not made */
-  uint32_t culprit;      /* state that is too wide; opcode of the kink */
+  uint32_t culprit;      /* state that is too wide */
+  const char *kink;      /* that the last step could not pass, as the tape names it; NULL: none known */
   double *from, *to;     /* [m] its box of the unknowns of the run */
   double *x, *p;         /* [nx x space.size] [np x space.size] */
   double *parameter_rad; /* [np] */
@@ -107,7 +108,7 @@ typedef struct flow {
   uint32_t failed; /* the piece that ended the run */
   /* -- the record */
   double *lo, *hi, *tube_lo, *tube_hi; /* [nx] */
-  double *dense_mid, *dense_rad;       /* [nx x (time_order + 1)] */
+  struct dense *dense;                 /* NULL: not wished for */
   double *rest;                        /* [nx] */
   double *coefficient;                 /* [nx x monomials] */
   uint32_t *exponent;                  /* [monomials x nu] */
@@ -136,7 +137,10 @@ int flow_prove(worker *w, piece *p, uint32_t n);
 /* set.c */
 void flow_boxes(worker *w, piece *p); /* mid, rad of each sub-range */
 void flow_hull(worker *w, piece *p);  /* lo, hi */
+/* kink.c: that the step which just failed could not pass */
+const char *flow_kink(const worker *w);
 /* dense.c */
-void flow_describe(flow *f, const worker *w); /* dense enclosure of the last step */
+int flow_open_dense(flow *f);                 /* 0: no memory */
+void flow_describe(flow *f, ambit_record *r); /* dense enclosure of the last step */
 const ambit_set *flow_describe_set(flow *f, const piece *p);
 #endif

@@ -147,7 +147,9 @@ static ambit_status open_worker(flow *f, worker *w, void *actx) {
 
 static ambit_status open_workers(flow *f) {
   const ambit_problem *p = &f->problem;
-  f->nworker = p->worker && p->nworker > 1 && f->m && f->pool_service ? p->nworker : 1;
+  /* a context that remembers (affine: which symbols are taken) would make results depend on who does which piece */
+  int forgets = !p->arithmetic->open;
+  f->nworker = p->worker && p->nworker > 1 && f->m && f->pool_service && forgets ? p->nworker : 1;
   f->worker = f->host->alloc(f->host, f->nworker * sizeof *f->worker);
   if (!f->worker) return no_memory(f->host);
   for (uint32_t i = 0; i < f->nworker; i++) {
@@ -188,11 +190,11 @@ static int open_set(flow *f) {
 }
 
 static int open_records(flow *f) {
-  size_t nx = f->nx, dense = nx * (f->options.time_order + 1u);
+  size_t nx = f->nx;
   f->lo = doubles(f->host, nx), f->hi = doubles(f->host, nx), f->limit = doubles(f->host, nx);
   f->tube_lo = doubles(f->host, nx), f->tube_hi = doubles(f->host, nx);
-  f->dense_mid = doubles(f->host, dense), f->dense_rad = doubles(f->host, dense);
-  return f->lo && f->hi && f->limit && f->tube_lo && f->tube_hi && f->dense_mid && f->dense_rad && open_set(f);
+  if (!f->lo || !f->hi || !f->limit || !f->tube_lo || !f->tube_hi || !open_set(f)) return 0;
+  return !(f->problem.wish & AMBIT_WISH_DENSE) || flow_open_dense(f);
 }
 
 static ambit_status open_all(flow *f) {

@@ -78,8 +78,8 @@ ambit_status flow_choose(const ambit_host *h, const ambit_problem *p, const doub
 }
 
 /* With one unknown a piece more is cheap, and remainders that start small stay small for long. With more, pieces
-** multiply. */
-double flow_automatic_split_tolerance(uint32_t m) { return m <= 1 ? 1e-11 : 1e-8; }
+** multiply, and all of them are soon in use. */
+double flow_automatic_split_tolerance(uint32_t m) { return m <= 1 ? 1e-11 : m == 2 ? 1e-8 : 1e-6; }
 
 uint32_t flow_automatic_pieces(size_t bytes_of_piece) {
   size_t most = MEMORY / (bytes_of_piece + 1);

@@ -10,7 +10,7 @@ static const ambit_param param[] = {
   { "tolerance", "1", "", "1e-11", "truncation error in time that one step may add to a state, relative to its size" },
   { "split_tolerance", "1", "", "0",
       "truncation error in the uncertain data, in one step and relative, above which a piece of them is split; 0: "
-      "1e-11 for one datum, 1e-8 for more" },
+      "1e-11 for one datum, 1e-8 for two, 1e-6 for more" },
   { "pieces_max", "1", "integer", "0",
       "most pieces that the uncertain data are split into; 0: what fits in 96 MB, at most 256" },
   { "outputs", "1", "integer", "100", "most records over the whole time span once there is more than one piece" },

@@ -127,7 +127,7 @@ static uint32_t function(series *s, const instruction *t, uint32_t k) {
 
 static uint32_t undecided(series *s, const instruction *t, double low, double high) {
   if (s->tape->degree[t->dst] != 0) {
-    s->kink = t->op + 1;
+    s->kink = t->i + 1;
     return AMBIT_F_UNBOUNDED;
   }
   double mid = 0.5 * (low + high);

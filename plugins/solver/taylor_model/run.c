@@ -22,8 +22,6 @@ static AMBIT_WORKER int32_t tell(ambit_sink *sink, const ambit_record *r, double
 int32_t flow_ask(flow *f) { return tell(f->sink, NULL, done(f)); }
 
 int32_t flow_emit(flow *f, double t_from, int dense) {
-  uint32_t wish = f->problem.wish;
-  const worker *w = &f->worker[0];
   ambit_record r = { .size = sizeof r,
     .kind = AMBIT_REC_STEP,
     .t_from = t_from,
@@ -35,11 +33,8 @@ int32_t flow_emit(flow *f, double t_from, int dense) {
     .tube_lo = f->tube_lo,
     .tube_hi = f->tube_hi,
     .order = f->options.time_order };
-  if (dense && (wish & AMBIT_WISH_DENSE)) {
-    flow_describe(f, w);
-    r.ndense = f->options.time_order + 1u, r.dense_mid = f->dense_mid, r.dense_rad = f->dense_rad;
-  }
-  if (dense && (wish & AMBIT_WISH_SET)) r.set = flow_describe_set(f, &f->piece[0]);
+  if (dense && f->dense) flow_describe(f, &r);
+  if (dense && (f->problem.wish & AMBIT_WISH_SET)) r.set = flow_describe_set(f, &f->piece[0]);
   return tell(f->sink, &r, done(f));
 }
 
@@ -123,10 +118,6 @@ static AMBIT_WORKER enum why work(flow *f) {
 
 /* -- reasons */
 
-static const char *kink_name(uint32_t op) {
-  return op == AMBIT_OP_ABS ? "abs" : op == AMBIT_OP_MIN ? "min" : op == AMBIT_OP_MAX ? "max" : "a function";
-}
-
 static ambit_status explain(const flow *f, enum why why) {
   const ambit_host *h = f->host;
   const piece *p = &f->piece[f->failed];
@@ -135,15 +126,15 @@ static ambit_status explain(const flow *f, enum why why) {
   for (uint32_t n = 0; n < f->ns; n++)
     for (uint32_t i = 0; i < f->nx; i++) width = larger(width, 2 * p->rad[(size_t)n * (f->nx + f->np) + i]);
   if (f->npiece > 1) snprintf(pieces, sizeof pieces, " (in one of %u pieces)", f->npiece);
-  switch (why) {
-  case WHY_NOTHING: return AMBIT_OK;
-  case WHY_STOPPED: return AMBIT_STOPPED;
-  case WHY_KINK:
+  if (why == WHY_NOTHING) return AMBIT_OK;
+  if (why == WHY_STOPPED) return AMBIT_STOPPED;
+  if (p->kink)
     return h->fail(h, AMBIT_UNABLE,
-        "at t = %.9g s the right-hand side meets the kink of `%s`%s, where it is not smooth; end before it, or make "
-        "two "
-        "models of it and switch between them",
-        p->t, kink_name(p->culprit), pieces);
+        "at t = %.9g s the set, up to %.3g wide%s, comes to where %s is not smooth, and Taylor series end; end before "
+        "it, or put a smooth law in its place",
+        p->t, width, pieces, p->kink);
+  switch (why) {
+  case WHY_KINK:
   case WHY_SERIES:
     return h->fail(h, AMBIT_UNABLE,
         "at t = %.9g s the right-hand side is not defined, not smooth or too large somewhere in the set%s; narrow the "

@@ -25,7 +25,7 @@ typedef struct series {
   double *defect;        /* [nin x order] of input i at order k: |f_k - (k + 1) x_(k+1)| on the cube */
   sum sum;
   search search;
-  uint32_t kink; /* opcode + 1 of what met its kink, 0: none */
+  uint32_t kink; /* number + 1 of the instruction that met its kink, 0: none */
 } series;
 
 /* what the jets' open gets as `ctx`; it leaves the object here */

@@ -15,7 +15,6 @@ static void *room(const ambit_host *h, size_t count, size_t size) { return h->al
 static AMBIT_WORKER uint32_t evaluate(flow *f, ambit_jet *jet, series *s) {
   const ambit_problem *p = &f->problem;
   double *c = f->start_x; /* free until the end */
-  f->jet->put(jet, 0, 0, 0, 0, NULL, NULL);
   for (uint32_t i = 0; i < p->nu; i++) {
     double mid = 0.5 * (p->u_lo[i] + p->u_hi[i]);
     f->unit_mid[i] = mid, f->unit_rad[i] = larger(p->u_hi[i] - mid, mid - p->u_lo[i]);
@@ -104,7 +103,7 @@ void flow_start(flow *f) {
   piece *p = &f->piece[0];
   size_t size = f->space.size;
   f->npiece = 1, f->next = 1, f->t = f->problem.time[0], f->failed = 0;
-  p->t = f->t, p->depth = 0, p->level = f->levels - 1, p->done = p->tolerant = 0, p->culprit = 0;
+  p->t = f->t, p->depth = 0, p->level = f->levels - 1, p->done = p->tolerant = 0, p->culprit = 0, p->kink = NULL;
   p->guess = smaller(fabs(f->problem.time[1] - f->t), f->options.step_max);
   for (uint32_t v = 0; v < f->m; v++) p->from[v] = -1, p->to[v] = 1;
   memcpy(p->x, f->start_x, f->nx * size * sizeof(double));

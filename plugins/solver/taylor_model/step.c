@@ -38,7 +38,6 @@ static enum why expand(worker *w, piece *p) {
   }
   put_inputs(w, p);
   if (!f->jet->solve(w->jet, f->nx, f->options.time_order)) return WHY_NOTHING;
-  p->culprit = w->series->kink ? w->series->kink - 1u : 0;
   return w->series->kink ? WHY_KINK : WHY_SERIES;
 }
 
@@ -210,7 +209,7 @@ static double rescaled(const worker *w, double ratio) {
   return w->step.length * smaller(factor, GROWTH);
 }
 
-enum why flow_step(worker *w, piece *p, double goal) {
+static enum why try_step(worker *w, piece *p, double goal) {
   const options *o = &w->flow->options;
   enum why why = expand(w, p);
   if (why != WHY_NOTHING) return why;
@@ -246,4 +245,10 @@ enum why flow_step(worker *w, piece *p, double goal) {
     most = length = 0.6 * w->step.length;
   }
   return WHY_NO_STEP;
+}
+
+enum why flow_step(worker *w, piece *p, double goal) {
+  enum why why = try_step(w, p, goal);
+  p->kink = why == WHY_KINK || why == WHY_NO_STEP ? flow_kink(w) : NULL;
+  return why;
 }
