@@ -25,14 +25,16 @@ static lua_Integer integer_at(lua_State *L, int idx, size_t i) {
   return value;
 }
 
-/* {name}, {g}, {direction}, {stop: 0 or 1}, {starts on the surface: 0 or 1} at first, first + 1, ... */
+/* {name}, {g}, {direction}, {stop: 0 or 1}, {starts on the surface: 0 or 1}, {must leave it: 0 or 1} at first and
+** behind it */
 static ambit_event *read_events(lua_State *L, int first, size_t *n) {
   const char **name = ambit_lua_texts(L, first, n);
   ambit_expr *g = ambit_lua_to_array(L, first + 1, *n);
   ambit_event *event = lua_newuserdatauv(L, (*n + 1) * sizeof *event, 0);
   for (size_t k = 0; k < *n; k++)
-    event[k] = (ambit_event) { name[k], g[k], (int32_t)integer_at(L, first + 2, k),
-      (uint32_t)integer_at(L, first + 3, k), (uint32_t)integer_at(L, first + 4, k) };
+    event[k] =
+        (ambit_event) { name[k], g[k], (int32_t)integer_at(L, first + 2, k), (uint32_t)integer_at(L, first + 3, k),
+          (uint32_t)integer_at(L, first + 4, k), (uint32_t)integer_at(L, first + 5, k) };
   return event;
 }
 
@@ -47,13 +49,13 @@ static ambit_lua_events *push_events(lua_State *L, size_t nx) {
   return w;
 }
 
-/* events(system, {initial}, t_start, {name}, {g}, {direction}, {stop}, {starts_on}, room, quiet, hold) */
+/* events(system, {initial}, t_start, {name}, {g}, {direction}, {stop}, {starts_on}, {must_leave}, room, quiet, hold) */
 static int events_new(lua_State *L) {
   const ambit_system *s = &ambit_lua_check_system(L, 1)->system;
   ambit_event_watch_request q = {
-    .system = s, .t_start = luaL_checknumber(L, 3), .room = (size_t)luaL_checkinteger(L, 9)
+    .system = s, .t_start = luaL_checknumber(L, 3), .room = (size_t)luaL_checkinteger(L, 10)
   };
-  bool quiet = lua_toboolean(L, 10), hold = lua_toboolean(L, 11);
+  bool quiet = lua_toboolean(L, 11), hold = lua_toboolean(L, 12);
   q.initial = ambit_lua_to_array(L, 2, s->nx);
   q.event = read_events(L, 4, &q.n);
   ambit_lua_events *w = push_events(L, s->nx);

@@ -77,7 +77,8 @@ void ambit_lua_dimension_text(const int8_t power[7], char out[AMBIT_LUA_DIMENSIO
       int p = power[i] * sign;
       if (p <= 0) continue;
       const char *join = sign < 0 ? (used ? "/" : "1/") : used ? "*" : "";
-      used += (size_t)snprintf(out + used, AMBIT_LUA_DIMENSION_MAX - used, p == 1 ? "%s%s" : "%s%s^%d", join, base[i], p);
+      used +=
+          (size_t)snprintf(out + used, AMBIT_LUA_DIMENSION_MAX - used, p == 1 ? "%s%s" : "%s%s^%d", join, base[i], p);
     }
   }
   if (!used) snprintf(out, AMBIT_LUA_DIMENSION_MAX, "1");

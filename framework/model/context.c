@@ -44,27 +44,55 @@ ambit_status ambit_context_failed(const ambit_lease *lease, ambit_status status,
   return ambit_fail(f, status, "%s: %s, without a reason", who, ambit_status_name(status));
 }
 
+static ambit_status open_arithmetic(ambit_context *c, ambit_failure *f) {
+  char who[96];
+  if (!c->arithmetic->open) return AMBIT_OK;
+  ambit_status status = c->arithmetic->open(&c->lease->host, c->option, c->nvar, &c->ctx);
+  if (status == AMBIT_OK) return AMBIT_OK;
+  snprintf(who, sizeof who, "arithmetic `%s`", c->name);
+  return ambit_context_failed(c->lease, status, who, f);
+}
+
 ambit_status ambit_context_open(ambit_registry *r, const char *name, size_t noption, const ambit_option *option,
     uint32_t nvar, ambit_context *c, ambit_failure *f) {
-  char who[96];
-  *c = (ambit_context) { 0 };
+  *c = (ambit_context) { .nvar = nvar };
+  snprintf(c->name, sizeof c->name, "%s", name);
   ambit_failure own = { 0 };
   ambit_status status = ambit_registry_arithmetic(r, name, &c->arithmetic, &own);
   if (status == AMBIT_OK) status = ambit_context_lease(r, &c->lease, &own);
-  double *value = NULL;
   if (status == AMBIT_OK) {
-    value = ambit_context_options(c->lease, c->arithmetic->param, "arithmetic", name, noption, option, &own);
+    c->option = ambit_context_options(c->lease, c->arithmetic->param, "arithmetic", name, noption, option, &own);
     status = own.status;
   }
-  if (status == AMBIT_OK && c->arithmetic->open) {
-    snprintf(who, sizeof who, "arithmetic `%s`", name);
-    status = c->arithmetic->open(&c->lease->host, value, nvar, &c->ctx);
-    if (status != AMBIT_OK) ambit_context_failed(c->lease, status, who, &own);
-  }
+  if (status == AMBIT_OK) status = open_arithmetic(c, &own);
   if (status == AMBIT_OK) return AMBIT_OK;
   ambit_lease_close(c->lease);
   *c = (ambit_context) { 0 };
   return ambit_fail(f, status, "%s", own.message);
+}
+
+ambit_status ambit_context_renew(ambit_registry *r, ambit_context *c, ambit_failure *f) {
+  if (!c->arithmetic || !c->arithmetic->open) return AMBIT_OK;
+  ambit_context fresh = { .arithmetic = c->arithmetic, .nvar = c->nvar };
+  memcpy(fresh.name, c->name, sizeof fresh.name);
+  ambit_failure own = { 0 };
+  ambit_status status = ambit_context_lease(r, &fresh.lease, f);
+  if (status != AMBIT_OK) return status;
+  size_t n = ambit_params_doubles(c->arithmetic->param);
+  fresh.option = ambit_arena_alloc(fresh.lease->arena, n * sizeof *fresh.option);
+  if (fresh.option) {
+    memcpy(fresh.option, c->option, n * sizeof *fresh.option);
+    status = open_arithmetic(&fresh, &own);
+  } else {
+    status = ambit_fail(&own, AMBIT_NOMEM, "out of memory");
+  }
+  if (status != AMBIT_OK) {
+    ambit_lease_close(fresh.lease);
+    return ambit_fail(f, status, "%s", own.message);
+  }
+  ambit_context_close(c);
+  *c = fresh;
+  return AMBIT_OK;
 }
 
 void ambit_context_close(ambit_context *c) {

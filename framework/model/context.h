@@ -5,14 +5,19 @@
 #include "host/services.h"
 
 typedef struct ambit_context {
+  char name[64];                      /* for messages */
   const ambit_arithmetic *arithmetic; /* completed */
   void *ctx;
   ambit_lease *lease;
+  double *option; /* as open() got them, in the lease's arena */
+  uint32_t nvar;
 } ambit_context;
 
 /* Loads the arithmetic and opens a context for nvar independent variables. On failure nothing is left open. */
 ambit_status ambit_context_open(ambit_registry *r, const char *name, size_t noption, const ambit_option *option,
     uint32_t nvar, ambit_context *c, ambit_failure *f);
+/* Opens it afresh, without traces of what was computed before; on failure it is as it was. Its own thread may do this. */
+ambit_status ambit_context_renew(ambit_registry *r, ambit_context *c, ambit_failure *f);
 void ambit_context_close(ambit_context *c); /* a zeroed one is allowed */
 
 /* A lease whose notes go to the registry. */

@@ -74,9 +74,25 @@ ambit_sink *ambit_event_watch_sink(ambit_event_watch *w, ambit_sink *outer) {
   return &w->sink;
 }
 
+static double begin_of(const ambit_event_watch *w, size_t i) {
+  return w->way < 0 ? -w->found[i].t_hi : w->found[i].t_lo;
+}
+
+/* One that took many steps to end may have begun before others that were passed on by then. */
+static void sort_found(ambit_event_watch *w) {
+  for (size_t i = 1; i < w->count; i++)
+    for (size_t k = i; k > 0 && begin_of(w, k) < begin_of(w, k - 1); k--) {
+      ambit_event_found later = w->found[k - 1];
+      w->found[k - 1] = w->found[k];
+      w->found[k] = later;
+      if (w->stopped_by == k || w->stopped_by == k - 1) w->stopped_by = 2 * k - 1 - w->stopped_by;
+    }
+}
+
 void ambit_event_watch_end(ambit_event_watch *w) {
   for (size_t k = 0; k < w->n; k++) ambit_event_watch_note_end(w, &w->one[k]);
   pass_events(w);
+  sort_found(w);
 }
 
 size_t ambit_event_watch_count(const ambit_event_watch *w) { return w->count; }

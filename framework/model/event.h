@@ -14,11 +14,12 @@
 #include <ambit/solver.h>
 
 typedef struct ambit_event {
-  const char *name;   /* for messages */
-  ambit_expr g;       /* over the states, unknowns and time */
-  int32_t direction;  /* of g as time grows: 1 rising, -1 falling, 0 both */
-  uint32_t stop;      /* the run ends with it */
-  uint32_t starts_on; /* g = 0 at the start is known, though the enclosures may not show it: the start is no event */
+  const char *name;    /* for messages */
+  ambit_expr g;        /* over the states, unknowns and time */
+  int32_t direction;   /* of g as time grows: 1 rising, -1 falling, 0 both */
+  uint32_t stop;       /* the run ends with it */
+  uint32_t starts_on;  /* g = 0 at the start is known, though the enclosures may not show it: the start is no event */
+  uint32_t must_leave; /* but going on from it in `direction` (not 0) is one: AMBIT_EVENT_STARTS */
 } ambit_event;
 
 /* What is known of an event. */

@@ -28,6 +28,9 @@ static void report(ambit_event_watch *w, const watched *e, uint32_t outcome) {
     .hi = hi };
 }
 
+/* From g = 0 at the start in the direction that is looked for, which may not be? */
+static bool goes_through(const watched *e) { return e->event.must_leave && e->event.direction; }
+
 /* Zeros of g in a region that began behind sign `before` (0: at the start of the run) and ended in front of sign
 ** `after` (0: at the end of the run); 0: there are none, or not in the direction wanted. */
 static uint32_t decide(const ambit_event_watch *w, const watched *e, int before, int after) {
@@ -41,7 +44,7 @@ static uint32_t decide(const ambit_event_watch *w, const watched *e, int before,
   if (e->event.direction && e->event.direction != direction) return 0;
   if (before == e->way && after == -e->way) return AMBIT_EVENT_TOUCHES; /* cannot be, unless nothing is proved */
   if (before == e->way || after == -e->way) return 0;
-  if (!before) return e->event.starts_on ? 0 : AMBIT_EVENT_STARTS;
+  if (!before) return e->event.starts_on && !goes_through(e) ? 0 : AMBIT_EVENT_STARTS;
   return after ? AMBIT_EVENT_CROSSED : AMBIT_EVENT_PART;
 }
 

@@ -10,11 +10,12 @@ typedef struct watched {
   ambit_event event;
   const ambit_tape *tape; /* g, g' */
   ambit_contractor *contractor;
-  bool bends; /* the tape has an operation that can jump */
-  int sign;   /* the sign of g where it was last definite; 0: nowhere yet */
-  bool open;  /* g may have been 0 since `from` */
-  bool mixed; /* not all g' there have the sign `way` */
-  bool seen;  /* lo, hi hold a box */
+  bool bends;     /* the tape has an operation that can jump */
+  int sign;       /* the sign of g where it was last definite; 0: nowhere yet */
+  bool open;      /* g may have been 0 since `from` */
+  bool mixed;     /* not all g' there have the sign `way` */
+  bool seen;      /* lo, hi hold a box */
+  uint32_t tired; /* how often in a row, lately, the evaluations of a step were used up */
   int way;
   double from, until;
   double *lo, *hi; /* [nx] where g may be 0, since `from` */

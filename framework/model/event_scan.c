@@ -9,9 +9,11 @@
 
 #define DEPTH 30          /* 1e-9 of a step */
 #define DEPTH_AT_LEAST 6  /* once the evaluations of a step are used up */
-#define EVALUATIONS 1000u /* of a step */
-#define EDGE_SHARE 64     /* the edges of a zero's interval are located to this share of it */
-#define HALVINGS 64       /* at the most, of a double */
+#define DEPTH_IF_TIRED 2  /* and if those of the step before were, too */
+#define EVALUATIONS 1000u /* of a step; a quarter of the last number where that was of no use */
+#define TIRED_MOST 3u
+#define EDGE_SHARE 64 /* the edges of a zero's interval are located to this share of it */
+#define HALVINGS 64   /* at the most, of a double */
 
 static int sign_of(ambit_interval x) { return x.lo > 0 ? 1 : x.hi < 0 ? -1 : 0; }
 
@@ -102,11 +104,12 @@ void ambit_event_watch_scan(ambit_event_watch *w, watched *e) {
   if ((w->r->t_to - at) * w->way <= 0) return;
   open[n].end = w->r->t_to;
   open[n++].depth = 0;
-  w->budget = EVALUATIONS;
+  w->budget = EVALUATIONS >> (2 * e->tired);
+  int least = e->tired ? DEPTH_IF_TIRED : DEPTH_AT_LEAST;
   while (n) {
     double b = open[n - 1].end, m = middle(at, b);
     int depth = open[n - 1].depth;
-    bool last = depth >= (w->budget ? DEPTH : DEPTH_AT_LEAST) || m == at || m == b;
+    bool last = depth >= (w->budget ? DEPTH : least) || m == at || m == b;
     if (settle(w, e, at, b, last)) {
       at = b;
       n--;
@@ -116,4 +119,8 @@ void ambit_event_watch_scan(ambit_event_watch *w, watched *e) {
       open[n++].depth = depth;
     }
   }
+  if (w->budget)
+    e->tired -= e->tired > 0;
+  else
+    e->tired += e->tired < TIRED_MOST;
 }

@@ -22,7 +22,7 @@ struct ambit_merge {
   uint32_t failed_piece, failed_at; /* least by (intervals completed, number) */
   ambit_status failed;
   char reason[AMBIT_MESSAGE_MAX];
-  uint32_t nothing; /* pieces without a solution, and why the last one has none */
+  uint32_t nothing, nothing_piece; /* pieces without a solution; the least of them, and why it has none */
   char why_nothing[AMBIT_MESSAGE_MAX];
 };
 
@@ -80,10 +80,12 @@ void ambit_merge_put(ambit_merge *m, uint32_t interval, const ambit_merge_part *
   pthread_mutex_unlock(&m->lock);
 }
 
-void ambit_merge_put_nothing(ambit_merge *m, uint32_t completed, const char *reason) {
+void ambit_merge_put_nothing(ambit_merge *m, uint32_t piece, uint32_t completed, const char *reason) {
   pthread_mutex_lock(&m->lock);
-  m->nothing++;
-  snprintf(m->why_nothing, sizeof m->why_nothing, "%s", reason);
+  if (!m->nothing++ || piece < m->nothing_piece) {
+    m->nothing_piece = piece;
+    snprintf(m->why_nothing, sizeof m->why_nothing, "%s", reason);
+  }
   for (uint32_t k = completed; k < m->count; k++) m->state[k].arrived++;
   m->arrived += m->count - completed;
   pthread_mutex_unlock(&m->lock);

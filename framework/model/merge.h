@@ -24,7 +24,7 @@ typedef struct ambit_merge_part {
 
 void ambit_merge_put(ambit_merge *m, uint32_t interval, const ambit_merge_part *part);
 /* The piece holds no solution at all, so it adds nothing to the intervals behind the completed ones. */
-void ambit_merge_put_nothing(ambit_merge *m, uint32_t completed, const char *reason);
+void ambit_merge_put_nothing(ambit_merge *m, uint32_t piece, uint32_t completed, const char *reason);
 /* The piece could not go on behind `completed` intervals. */
 void ambit_merge_fail(ambit_merge *m, uint32_t piece, uint32_t completed, ambit_status status, const char *reason);
 /* Nothing that this piece can still do matters: somebody asked to stop, or another piece got less far. */

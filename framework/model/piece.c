@@ -63,7 +63,7 @@ static int32_t progress(ambit_sink *s, double done, const char *message) {
 
 /* -- data */
 
-ambit_status ambit_piece_prepare(ambit_piece *p, const ambit_split *s, void *context, ambit_arena *arena) {
+ambit_status ambit_piece_prepare(ambit_piece *p, const ambit_split *s, ambit_context *context, ambit_arena *arena) {
   const ambit_problem *whole = s->problem;
   uint32_t nx = whole->nx, n = nx + whole->np, nu = whole->nu;
   double *room = ambit_arena_alloc(arena, (2u * nu + 2u * n + 4u * nx) * sizeof *room);
@@ -78,7 +78,7 @@ ambit_status ambit_piece_prepare(ambit_piece *p, const ambit_split *s, void *con
   p->split = s;
   p->problem = *whole;
   p->problem.wish = 0; /* a union is neither a polynomial nor a set over the unknowns */
-  p->problem.actx = context;
+  p->context = context;
   p->problem.nworker = 1;
   if (p->problem.worker) p->problem.worker = &p->problem.actx;
   p->problem.u_lo = p->u_lo;
@@ -134,7 +134,7 @@ static void report_failure(ambit_piece *p, ambit_status status, const char *why)
   char text[AMBIT_MESSAGE_MAX];
   tell_where(p, why, text);
   if (status == AMBIT_DOMAIN && p->problem.ninvariant)
-    ambit_merge_put_nothing(p->merge, p->completed, text); /* no state of it satisfies the constraints */
+    ambit_merge_put_nothing(p->merge, p->number, p->completed, text); /* no state of it satisfies the constraints */
   else
     ambit_merge_fail(p->merge, p->number, p->completed, status, text);
 }
@@ -177,7 +177,9 @@ ambit_status ambit_piece_run(ambit_piece *p, const ambit_split *s, ambit_merge *
   if (go_on(p)) return AMBIT_OK;
   narrow(p);
   begin_interval(p);
-  ambit_status status = ambit_context_lease(s->registry, &lease, &f);
+  ambit_status status = ambit_context_renew(s->registry, p->context, &f);
+  p->problem.actx = p->context->ctx;
+  if (status == AMBIT_OK) status = ambit_context_lease(s->registry, &lease, &f);
   if (status != AMBIT_OK) {
     report_failure(p, status, f.message);
     return status;

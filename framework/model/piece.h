@@ -10,6 +10,7 @@
 typedef struct ambit_piece {
   ambit_sink sink; /* first: behind the guard of the piece's solver */
   const ambit_split *split;
+  ambit_context *context;
   ambit_merge *merge;
   uint32_t number, completed; /* intervals */
   bool over, skipped;         /* told to stop; a step went over an instant */
@@ -21,7 +22,7 @@ typedef struct ambit_piece {
   ambit_merge_part part; /* of the interval that is being done */
 } ambit_piece;
 
-ambit_status ambit_piece_prepare(ambit_piece *p, const ambit_split *s, void *context, ambit_arena *arena);
+ambit_status ambit_piece_prepare(ambit_piece *p, const ambit_split *s, ambit_context *context, ambit_arena *arena);
 
 /* Runs piece `number` into the merge; look is called with each step, nonzero: stop. Not OK: the solver could not even
 ** be opened, for reasons that are no result (the merge has been told). */

@@ -137,13 +137,14 @@ static ambit_status run_pieces(job *j, ambit_guard *g, ambit_simulate_result *re
     .solver_name = j->q->solver,
     .option = j->option,
     .ncontext = j->ncontext,
-    .context = j->ctx,
+    .context = j->context,
     .sink = &g->sink };
   ambit_split_outcome outcome;
   double start = ambit_context_seconds(), wall = wall_seconds();
   ambit_status status = ambit_split_run(&split, j->arena, &outcome, f);
   result->cpu_seconds = ambit_context_seconds() - start;
   result->wall_seconds = wall_seconds() - wall;
+  result->threads = outcome.threads;
   if (status == AMBIT_OK) finish(j, g, outcome.said, outcome.reason, result);
   return status;
 }

@@ -32,7 +32,7 @@ static ambit_status make_pieces(job *j, ambit_arena *arena) {
   j->piece = ambit_arena_alloc(arena, j->s->ncontext * sizeof *j->piece);
   if (!j->piece) return AMBIT_NOMEM;
   for (uint32_t i = 0; i < j->s->ncontext; i++)
-    if (ambit_piece_prepare(&j->piece[i], j->s, j->s->context[i], arena) != AMBIT_OK) return AMBIT_NOMEM;
+    if (ambit_piece_prepare(&j->piece[i], j->s, &j->s->context[i], arena) != AMBIT_OK) return AMBIT_NOMEM;
   return AMBIT_OK;
 }
 
@@ -44,7 +44,8 @@ ambit_status ambit_split_run(const ambit_split *s, ambit_arena *arena, ambit_spl
   if (status == AMBIT_OK) status = make_pieces(&j, arena);
   if (status == AMBIT_OK) status = ambit_pool_open(NULL, s->ncontext, &pool);
   if (status == AMBIT_OK) {
-    j.alone = ambit_pool_threads(pool) == 1;
+    out->threads = ambit_pool_threads(pool);
+    j.alone = out->threads == 1;
     status = ambit_pool_run(pool, s->pieces->count, do_piece, &j, meanwhile);
     ambit_pool_close(pool);
     if (status == AMBIT_OK || status == AMBIT_STOPPED) {

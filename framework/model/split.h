@@ -11,7 +11,7 @@
 */
 #ifndef AMBIT_SPLIT_H
 #define AMBIT_SPLIT_H
-#include "host/registry.h"
+#include "model/context.h"
 #include "model/pieces.h"
 
 typedef struct ambit_split {
@@ -23,13 +23,14 @@ typedef struct ambit_split {
   const ambit_solver *solver;
   const char *solver_name;
   const double *option;
-  uint32_t ncontext; /* threads */
-  void *const *context;
-  ambit_sink *sink; /* its functions are called on the caller's thread, in the order of time */
+  uint32_t ncontext;      /* threads */
+  ambit_context *context; /* [ncontext]; renewed for each piece, whatever it keeps (noise symbols) */
+  ambit_sink *sink;       /* its functions are called on the caller's thread, in the order of time */
 } ambit_split;
 
 typedef struct ambit_split_outcome {
   ambit_status said;              /* OK, or what the piece that got least far said */
+  uint32_t threads;               /* that worked: fewer than asked for where the system refuses them */
   char reason[AMBIT_MESSAGE_MAX]; /* which piece, its data, its own reason */
 } ambit_split_outcome;
 

@@ -53,17 +53,18 @@ function event.list(t, system, what, own_keys)
   return list
 end
 
+-- An entry of a list may say must_leave: to move in its direction from g = 0 at the start is reported, as undecided.
 -- The watch for one run of q = { system, initial, times }. options: quiet (no records), hold (keep the set before the
 -- event that ends the run), starts_on ([i] = true: g of entry i is known to be 0 at the start).
 function event.watch(q, list, options)
-  local names, g, direction, stop, starts_on = {}, {}, {}, {}, {}
+  local names, g, direction, stop, starts_on, must_leave = {}, {}, {}, {}, {}, {}
   local on = options.starts_on or {}
   for i, e in ipairs(list) do
     names[i], g[i], direction[i] = e.name, e.g, e.direction
-    stop[i], starts_on[i] = e.stop and 1 or 0, on[i] and 1 or 0
+    stop[i], starts_on[i], must_leave[i] = e.stop and 1 or 0, on[i] and 1 or 0, e.must_leave and 1 or 0
   end
-  return core.events(q.system.system, q.initial, q.times[1], names, g, direction, stop, starts_on, ROOM,
-    options.quiet or false, options.hold or false)
+  return core.events(q.system.system, q.initial, q.times[1], names, g, direction, stop, starts_on, must_leave,
+    ROOM, options.quiet or false, options.hold or false)
 end
 
 local reasons = {

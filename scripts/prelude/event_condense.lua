@@ -35,16 +35,18 @@ local function is_kept(leaf, kept)
   return false
 end
 
--- { effect = { dx_i/dw w }, unlike = how far the column is from an axis, share = the largest of a width, w }
-local function column(list, w, widths)
+-- { effect = { dx_i/dw w }, unlike = how far the column is from an axis, share = the largest of a width, w, place };
+-- nil if a slope has no bound (that of an unknown of next to no width overflows)
+local function column(list, w, widths, place)
   local products = {}
   for i, x in ipairs(list) do products[i] = core.derivative(x, w) * w end
   local effect, sum, largest, share = core.evaluate("interval", {}, products, {}, {}), 0, 0, 0
   for i, x in ipairs(effect) do
+    if not x:is_bounded() then return nil end
     sum, largest = sum + x:mag(), math.max(largest, x:mag())
     if widths[i] > 0 then share = math.max(share, x:mag() / widths[i]) end
   end
-  return { w = w, effect = effect, unlike = sum - largest, share = share }
+  return { w = w, effect = effect, unlike = sum - largest, share = share, place = place }
 end
 
 local function gathered(list, columns)
@@ -80,10 +82,7 @@ function condense.few(list, data)
   if #rests <= #list then return list end
   for i, x in ipairs(core.evaluate("interval", {}, list, {}, {})) do widths[i] = x:width() end
   local columns = {}
-  for k, w in ipairs(rests) do
-    columns[k] = column(list, w, widths)
-    columns[k].place = k
-  end
+  for k, w in ipairs(rests) do columns[#columns + 1] = column(list, w, widths, k) end
   local chosen = choose(columns, KEPT * #list)
   return #chosen > #list and gathered(list, chosen) or list
 end

@@ -28,8 +28,9 @@ function leg.system(names, units, symbols, rates)
     rates = rates, mechanism = false, parameters = {} }
 end
 
--- The set at the end of a run: expressions of the states `names`, of few unknowns.
+-- The set at the end of a run: expressions of the states `names`, of few unknowns; nil if it did not get there.
 function leg.set(base, run, names)
+  if run.status ~= "complete" then return nil end
   local set, list = run:set(), {}
   for i, name in ipairs(names) do list[i] = set[name] end
   return condense.few(list, base.data)

@@ -45,7 +45,8 @@ function surface.with_clock(system)
   return extended(system, { CLOCK }, { clock }, rates), clock
 end
 
--- x: the states at time t (all expressions) -> { x, t } on g = 0, with the run that went there; when: enclosure of t
+-- x: the states at time t (all expressions) -> { x, t } on g = 0, with the run that went there, if that is complete;
+-- when: enclosure of t
 function surface.onto(base, system, g, x, t)
   local clock, distance = core.symbol(CLOCK, "s"), core.symbol(DISTANCE, "1")
   local list = { surface.rate(g, system) }
@@ -61,7 +62,7 @@ function surface.onto(base, system, g, x, t)
   local names = table.move(system.states, 1, #system.states, 1, {})
   names[#names + 1] = CLOCK
   local set = leg.set(base, run, names)
-  return { run = run, t = table.remove(set), x = set, when = run.x[CLOCK] }
+  return { run = run, t = set and table.remove(set), x = set, when = run.x[CLOCK] }
 end
 
 -- x: the states at time t -> where they are at T, with the run and the watch of the events in the list (whose t is s)

@@ -55,7 +55,7 @@ end
 local function hull(e) return core.evaluate("interval", {}, { e }, {}, {})[1] end
 
 local function depends_on_time(q)
-  local list = table.move(q.system.rates, 1, #q.system.rates, 1, { q.g })
+  local list = table.move(q.system.rates, 1, #q.system.rates, 2, { q.g })
   for _, leaf in ipairs(core.leaves(list)) do
     if leaf.kind == "time" then return true end
   end

@@ -11,6 +11,8 @@ local shape = require "ambit.shape"
 
 local NEAR = 1e-6 -- how far around rest, in coordinates and speeds, the power is looked at
 
+local CLOSE = 1e-12 -- how far around rest the equations must be smooth
+
 local stability = {}
 
 -- df/dx by rows, or nil and why there is none.
@@ -67,6 +69,26 @@ local function place(self, point, off)
   end
   for i, leaf in ipairs(self.leaves) do leaves[#leaves + 1], values[#values + 1] = leaf, self.values[i] end
   return leaves, values
+end
+
+-- Are the expressions smooth in all states around rest? A derivative's formula says nothing about it: that of atan2 is
+-- bounded across its jump, that of x^2.5 at the edge of its domain.
+local function are_smooth(self, point, list)
+  local names, box, leaves, values, off = {}, {}, {}, {}, core.interval(-CLOSE, CLOSE)
+  local bound = {}
+  for i, leaf in ipairs(self.leaves) do bound[i] = leaf end
+  for k, name in ipairs(self.system.states) do
+    local symbol = self.system.symbols[k]
+    local value = self.speeds[name] and core.interval(0) or self.searched[name] and rawget(point, name)
+    for i, leaf in ipairs(self.leaves) do
+      if leaf == symbol then value, bound[i] = core.interval(self.values[i]), false end
+    end
+    names[k], box[k] = name, value and core.interval(value + off) or core.interval(-math.huge, math.huge)
+  end
+  for i, leaf in ipairs(bound) do
+    if leaf then leaves[#leaves + 1], values[#values + 1] = leaf, self.values[i] end
+  end
+  return core.are_smooth(list, self.system.symbols, names, leaves, values, box, false)
 end
 
 -- -- by the eigenvalues of the linearised system
@@ -159,6 +181,10 @@ local function power_near(self, point)
 end
 
 local function try_energy(self, point, facts)
+  for _, name in ipairs(self.system.states) do
+    if not (self.speeds[name] or self.searched[name]) then return end -- `at` puts it there: no root was proved for it
+  end
+  if not are_smooth(self, point, { self.system.mechanism:energy().total }) then return end
   local second, power = hessian(self), power_near(self, point)
   local matrix = second and power and power.hi <= 0 and enclose(second, place(self, point))
   if not matrix or not core.is_positive_definite(#self.system.states, matrix) then return end
@@ -179,6 +205,10 @@ local function decide(self, point)
   local facts = { stability = "undecided", stability_by = "", stability_reason = "", eigenvalues = {} }
   facts.stability_reason = refusal(self) or ""
   if facts.stability_reason ~= "" then return facts end
+  if not are_smooth(self, point, self.system.rates) then
+    facts.stability_reason = "the equations jump, or have a kink or the edge of their domain, where the system rests"
+    return facts
+  end
   linearise(self, point, facts)
   local power = facts.stability == "undecided" and self.system.mechanism and power_near(self, point)
   local attempts = { subdivide, self.system.mechanism and try_energy or nil }

@@ -19,6 +19,13 @@ local SHARE = 1e-3    -- of the time in the last mode: how far behind a switch t
 
 -- -- reading the model
 
+-- The state of a system with this name, or nil.
+local function namesake(system, name)
+  for i, own in ipairs(system.states) do
+    if own == name then return system.symbols[i] end
+  end
+end
+
 local function read_reset(guard, place, source, target)
   local given = guard.entry.reset
   if type(given) == "function" then given = given(ode.arguments(source)) end
@@ -27,9 +34,7 @@ local function read_reset(guard, place, source, target)
   local list = {}
   for i, name in ipairs(target.states) do
     local value = given[name]
-    for k, own in ipairs(source.states) do
-      if value == nil and own == name then value = source.symbols[k] end
-    end
+    if value == nil then value = namesake(source, name) end
     if value == nil then
       check.fail("%s: reset: the state `%s` of mode `%s` gets no value", place, name, guard.entry.to)
     end
@@ -106,7 +111,34 @@ local function known_zeros(guard)
   local list = {}
   for i, other in ipairs(guard.to.guards) do
     local g = core.substitute({ other.g }, guard.to.system.symbols, guard.reset)[1]
-    list[i] = g == guard.g
+    list[i] = g == guard.g or g == core.expression(0)
+  end
+  return list
+end
+
+-- Does the reset change how fast g changes? Otherwise only the equations can turn a solution round.
+local function is_impact(guard, source)
+  local to, target = table.move(source.symbols, 1, #source.symbols, 1, {}), guard.to.system
+  for i, name in ipairs(source.states) do
+    for k, other in ipairs(target.states) do
+      if other == name then to[i] = guard.reset[k] end
+    end
+  end
+  local rate = surface.rate(guard.g, source)
+  return core.substitute({ rate }, source.symbols, to)[1] ~= rate
+end
+
+local back = { rising = -1, falling = 1 }
+
+-- The guards to be watched behind a switch. One with the same g that the solutions start on must not take them back to
+-- the side that they came from in its own direction: both modes point at the surface.
+local function watched_behind(guard, source, starts_on, direction)
+  local list, target, own = {}, guard.to.system, {}
+  for i, name in ipairs(target.states) do own[i] = namesake(source, name) or target.symbols[i] end
+  for i, other in ipairs(guard.to.guards) do
+    local slides = starts_on[i] and core.substitute({ other.g }, target.symbols, own)[1] == guard.g
+      and (other.direction == back[direction] or other.direction == 0 and not is_impact(guard, source))
+    list[i] = slides and setmetatable({ direction = back[direction], must_leave = true }, { __index = other }) or other
   end
   return list
 end
@@ -132,6 +164,15 @@ end
 
 local function failure(format, ...) return { status = "unable", reason = format:format(...) } end
 
+-- Why the new mode cannot be entered with these values; nil: it can.
+local function gap(states, x)
+  for i, value in ipairs(core.evaluate("interval", {}, x, {}, {})) do
+    if value.partial or value:is_empty() or not value:is_bounded() then
+      return ("the reset gives the state `%s` no finite value for all solutions: %s"):format(states[i], tostring(value))
+    end
+  end
+end
+
 -- Through the guard and the reset to one instant in the new mode: { x, T } or { status, reason }.
 local function pass(q, result, mode, found, began)
   local guard = mode.guards[found.event.index]
@@ -142,7 +183,11 @@ local function pass(q, result, mode, found, began)
   if not T then return failure("%s: the run ends before every solution has made it", at) end
   local target = guard.to.system
   local behind = surface.at(guard.reset, mode.system, image.x, image.t)
-  local away, watch = surface.away(q, target, behind, image.t, T, guard.to.guards, known_zeros(guard))
+  local why = gap(target.states, behind)
+  if why then return failure("%s: %s", at, why) end
+  local starts_on = known_zeros(guard)
+  local guards = watched_behind(guard, mode.system, starts_on, found.event.direction)
+  local away, watch = surface.away(q, target, behind, image.t, T, guards, starts_on)
   if away.run.status == "unable" then return failure("%s: behind it: %s", at, away.run.reason) end
   local met = event.read(watch, guard.to.guards, target.states)[1]
   if met then

@@ -1,5 +1,6 @@
 -- verify_report.lua -- what ambit.verify gives back: a verdict for each condition, with bounds, counterexamples and
 -- reasons.
+local box = require "ambit.verify_box"
 local check = require "ambit.check"
 local core = require "ambit.core"
 
@@ -38,13 +39,15 @@ local function nameless(job, values)
 end
 
 -- The middle of a box as a choice of the data: initial values, parameters by name, nameless data.
-local function choice(job, box)
+local function choice(job, part)
   local q = job.asked
   local self = setmetatable({ unknowns = job.unknowns, values = {}, initial = {}, parameters = {} }, Counterexample)
-  for j, lo in ipairs(box.lo) do
-    local hi = box.hi[j]
-    self.values[j] = core.expression(math.min(math.max(0.5 * lo + 0.5 * hi, lo), hi))
+  local middle = {}
+  for j, lo in ipairs(part.lo) do
+    local hi = part.hi[j]
+    middle[j] = math.min(math.max(0.5 * lo + 0.5 * hi, lo), hi)
   end
+  for j, x in ipairs(box.allowed(job, middle)) do self.values[j] = core.expression(x) end
   for i, name in ipairs(q.system.states) do self.initial[name] = self:value(q.initial[i]) end
   for _, name in ipairs(check.sorted(q.system.parameters)) do
     local parameter = q.system.parameters[name]
@@ -86,16 +89,16 @@ end
 
 local function reason_of(job, condition, k)
   if condition.status ~= "undecided" then return "" end
-  local box = condition.worst
+  local worst = condition.worst
   local why = { job.stopped and "stopped on request" or job.spent and "the budget is spent"
     or "there is nothing left to refine" }
-  if #job.lo > 0 then why[#why + 1] = "hardest about " .. table.concat(described(choice(job, box)), ", ") end
-  if box.outcome.status ~= "complete" then
-    why[#why + 1] = box.outcome.reason
-  elseif box[k].undefined then
+  if #job.lo > 0 then why[#why + 1] = "hardest about " .. table.concat(described(choice(job, worst)), ", ") end
+  if worst.outcome.status ~= "complete" then
+    why[#why + 1] = worst.outcome.reason
+  elseif worst[k].undefined then
     why[#why + 1] = "the condition is not known to be defined along the whole run"
-  elseif box[k].worst then
-    why[#why + 1] = "the worst bound is at t in " .. tostring(box[k].worst)
+  elseif worst[k].worst then
+    why[#why + 1] = "the worst bound is at t in " .. tostring(worst[k].worst)
   end
   return table.concat(why, "; ")
 end

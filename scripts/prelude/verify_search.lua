@@ -29,6 +29,7 @@ local function centre(b)
 end
 
 local function try_point(job, at)
+  at = box.allowed(job, at)
   local point = box.run(job, { lo = at, hi = at })
   box.note(job, point)
   return point
@@ -218,6 +219,7 @@ local function conclude(job, boxes)
       if not worst or b[k].hi > worst[k].hi then worst = b end
     end
     condition.hi, condition.worst = worst[k].hi, worst
+    all = all and condition.hi > -math.huge -- some part may hold a start: nothing is said about an empty set
     condition.status = condition.status or (all and "proved" or "undecided")
   end
 end
@@ -237,6 +239,7 @@ local function refine(job, root)
 end
 
 function search.run(job)
+  job.inner_lo, job.inner_hi = box.inner(job.lo, job.hi)
   job.runs, job.done, job.start, job.times, job.outputs = 0, {}, core.cpu(), job.request.times, {}
   for _, condition in ipairs(job.conditions) do condition.lo = -math.huge end
   local root = box.run(job, { lo = job.lo, hi = job.hi })

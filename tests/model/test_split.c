@@ -35,7 +35,7 @@ typedef struct mischief {
   uint32_t substeps;
   long sleep_us;                  /* per step, times a number that depends on the piece */
   double fail_at[64], open_fails; /* time from which the piece by its least x fails; x whose open() is INVALID */
-  bool skips, no_tube, domain, signed_zero;
+  bool skips, no_tube, domain, domain_everywhere, signed_zero;
   _Atomic uint32_t shared;
 } mischief;
 
@@ -55,7 +55,8 @@ static ambit_status walk_open(const ambit_host *h, const ambit_problem *p, const
   w->p = *p;
   w->cell = (uint32_t)p->x0_lo[0];
   if (behaviour.open_fails == p->x0_lo[0]) return (h->fail)(h, AMBIT_INVALID, "not this piece");
-  if (behaviour.domain && p->x0_lo[0] >= 2) return (h->fail)(h, AMBIT_DOMAIN, "nothing from here");
+  if (behaviour.domain_everywhere || (behaviour.domain && p->x0_lo[0] >= 2))
+    return (h->fail)(h, AMBIT_DOMAIN, "nothing from here");
   *self = w;
   return AMBIT_OK;
 }
@@ -206,8 +207,8 @@ typedef struct outcome {
 
 static outcome *play(stage *g, uint32_t threads, uint32_t x_parts, uint32_t y_parts, uint32_t stop_after) {
   static _Atomic uint32_t inside[THREADS_MAX];
-  void *context[THREADS_MAX];
-  for (int i = 0; i < THREADS_MAX; i++) context[i] = &inside[i];
+  ambit_context context[THREADS_MAX] = { 0 };
+  for (int i = 0; i < THREADS_MAX; i++) context[i].ctx = &inside[i];
   const uint32_t parts[NX] = { x_parts, y_parts };
   ambit_pieces pieces;
   outcome *o = calloc(1, sizeof *o);
@@ -222,6 +223,7 @@ static outcome *play(stage *g, uint32_t threads, uint32_t x_parts, uint32_t y_pa
   o->returned = ambit_split_run(&s, g->arena, &o->split, &o->failure);
   assert_false(o->heard.strange);
   assert_int_equal(behaviour.shared, 0);
+  assert_int_equal(o->split.threads, threads);
   return o;
 }
 
@@ -349,6 +351,13 @@ static void empty_pieces_add_nothing(void **state) {
   assert_int_equal(o->heard.records, NTIME - 1);
   assert_true(o->heard.value[0][0] == -1 && o->heard.value[0][NX] == 3); /* x0 in [0, 2] */
   free(o);
+  for (uint32_t threads = 1; threads <= 4; threads++) { /* whoever is done last */
+    behave((mischief) { .domain_everywhere = true });
+    o = play(&g, threads, 8, 1, 0);
+    assert_int_equal(o->split.said, AMBIT_DOMAIN);
+    assert_string_equal(o->split.reason, "piece 1 of 8 (x in [0, 1]): nothing from here");
+    free(o);
+  }
   close_stage(&g);
 }
 
@@ -382,7 +391,7 @@ static void stops_within_a_fifth_of_a_second(void **state) {
   for (uint32_t threads = 1; threads <= 2; threads++) {
     behave((mischief) { .sleep_us = 2000, .substeps = 200 });
     static _Atomic uint32_t inside[2];
-    void *context[] = { &inside[0], &inside[1] };
+    ambit_context context[] = { { .ctx = &inside[0] }, { .ctx = &inside[1] } };
     const uint32_t parts[NX] = { 8, 1 };
     ambit_pieces pieces;
     ambit_failure f = { 0 };

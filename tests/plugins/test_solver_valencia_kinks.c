@@ -194,6 +194,68 @@ static void all_solutions_of_a_root(void **unused) {
   model_close(&m);
 }
 
+/* -- x' = max(sin x, sqrt max(0, x)): the root has no bounded slopes over 0, which the other operand must not hide */
+
+static void truth_hidden_root(double t, double u, double *x) { x[0] = u > 0 ? pow(sqrt(u) + t / 2, 2) : u; }
+
+static void unbounded_slopes_are_not_lost(void **unused) {
+  (void)unused;
+  static const char *const name[] = { "x" };
+  for (size_t a = 0; a < FITTING; a++) {
+    model m;
+    model_open(&m, 1, name);
+    expr positive = op(&m, AMBIT_OP_MAX, m.state[0], number(&m, 0));
+    m.rate[0] = op(&m, AMBIT_OP_MAX, sine(&m, m.state[0]), op(&m, AMBIT_OP_SQRT, positive, positive));
+    m.initial[0] = ambit_graph_unknown(m.graph, "x0", (ambit_interval) { -0.1, 0.1 });
+    check c = { .truth = truth_hidden_root, .u_lo = -0.1, .u_hi = 0.1, .slack = 1e-14 };
+    ambit_simulate_result r = run(&m, &c, 0, 0.5, fitting[a], NULL);
+    if (r.status != AMBIT_OK || c.misses)
+      fail_msg("%s: %zu misses, t = %g, %s", fitting[a], c.misses, r.t_reached, r.reason);
+    model_close(&m);
+  }
+}
+
+/* -- x' = -|x|, y' = x (2 - x) - y: y' grows with x, which an evaluation over all of x would not see */
+
+static void truth_fed(double t, double u, double *x) {
+  double e = exp(-t);
+  truth_abs(t, u, x);
+  x[1] = u > 0 ? u * u * (e * e - e) + 2 * u * t * e : (u / e - u * e) - u * u / 3 * (1 / (e * e) - e);
+}
+
+static void monotone_states_are_put_to_their_ends(void **unused) {
+  (void)unused;
+  static const char *const name[] = { "x", "y" };
+  for (size_t a = 0; a < 2; a++) {
+    model m;
+    model_open(&m, 2, name);
+    expr x = m.state[0];
+    m.rate[0] = negative(&m, op(&m, AMBIT_OP_ABS, x, x));
+    m.rate[1] = sub(&m, mul(&m, x, sub(&m, number(&m, 2), x)), m.state[1]);
+    m.initial[0] = ambit_graph_unknown(m.graph, "x0", (ambit_interval) { -0.3, 0.5 });
+    m.initial[1] = number(&m, 0);
+    check c = { .truth = truth_fed, .u_lo = -0.3, .u_hi = 0.5, .slack = 1e-14 };
+    ambit_simulate_result r = run(&m, &c, 0, 1, fitting[a], NULL);
+    if (r.status != AMBIT_OK || c.misses || !(c.width < 2.5))
+      fail_msg("%s: %zu misses, width %g, t = %g, %s", fitting[a], c.misses, c.width, r.t_reached, r.reason);
+    model_close(&m);
+  }
+}
+
+/* -- a run that ends at a kink says at which */
+
+static void kinks_are_named(void **unused) {
+  (void)unused;
+  model m;
+  build_contact(&m, 0.5, 1.5);
+  check c = { .truth = truth_contact, .u_lo = 0.5, .u_hi = 1.5, .slack = 1e-12 };
+  ambit_simulate_result r = run(&m, &c, 0, 4, NULL, NULL);
+  assert_int_equal(r.status, AMBIT_UNABLE);
+  assert_int_equal(c.misses, 0);
+  if (!strstr(r.reason, "max(") || !strstr(r.reason, "not smooth")) fail_msg("no kink is named by: %s", r.reason);
+  model_close(&m);
+}
+
 /* -- stiff and oscillating */
 
 static void build_stiff(model *m) { /* x' = -1000 (x - cos t) */
@@ -268,6 +330,9 @@ int main(void) {
     cmocka_unit_test(contact_spring),
     cmocka_unit_test(saturated_friction),
     cmocka_unit_test(all_solutions_of_a_root),
+    cmocka_unit_test(unbounded_slopes_are_not_lost),
+    cmocka_unit_test(monotone_states_are_put_to_their_ends),
+    cmocka_unit_test(kinks_are_named),
     cmocka_unit_test(exponential_enclosures),
     cmocka_unit_test(checks_can_fail),
   };

@@ -2,8 +2,9 @@
 **
 ** Dense enclosure: x(t + s) = sum_k x_k s^k +- excess + sum_j (sum_k s_jk s^k +- slope_excess_j) v_j for each state of
 ** the set (series.c), |v_j| <= r_j: middle x_k, a column s_jk r_j for each direction, and radii for what is rounded and
-** for the radii of slopes; what is beyond the orders is added to coefficient 0. Set: centre + low + C xi + z, with xi_j = (u_j - mid_j) / radius_j for the unknowns of the problem (start.c); low,
-** z and the columns of what is no unknown are its rest.
+** for the radii of slopes; what is beyond the orders is added to coefficient 0. Set: centre + low + C xi + z, with
+** xi_j = (u_j - mid_j) / radius_j for the unknowns of the problem (start.c); low, z and the columns of what is no
+** unknown are its rest.
 */
 #include "lohner.h"
 #include <string.h>

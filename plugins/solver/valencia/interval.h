@@ -18,13 +18,14 @@ static inline double larger(double a, double b) { return a > b ? a : b; }
 static inline double smaller(double a, double b) { return a < b ? a : b; }
 /* a NaN on either side is kept */
 static inline double larger_or_nan(double a, double b) { return a > b || a != a ? a : b; }
+static inline double smaller_or_nan(double a, double b) { return a < b || a != a ? a : b; }
 
 static inline interval point(double x) { return (interval) { x, x }; }
 static inline interval within(double r) { return (interval) { -r, r }; }
 static inline interval plus(interval a, interval b) { return (interval) { -(-a.lo - b.lo), a.hi + b.hi }; }
 static inline interval minus(interval a, interval b) { return (interval) { -(b.hi - a.lo), a.hi - b.lo }; }
 static inline interval hull_of(interval a, interval b) {
-  return (interval) { smaller(a.lo, b.lo), larger(a.hi, b.hi) };
+  return (interval) { smaller_or_nan(a.lo, b.lo), larger_or_nan(a.hi, b.hi) };
 }
 static inline interval meet(interval a, interval b) { return (interval) { larger(a.lo, b.lo), smaller(a.hi, b.hi) }; }
 

@@ -1,5 +1,6 @@
 /* run.c -- from step to step, into the sink; and what a run that could not go on has to say. */
 #include "valencia.h"
+#include <stdio.h>
 #include <string.h>
 
 #define FORGET 0.998 /* per step: how fast a state's size is forgotten */
@@ -167,7 +168,7 @@ static enum why find_step(valencia *s) {
       if (!s->at_instant || s->t_next == s->t) return why;
       if (h < s->options.step_min) return why;
     }
-    h = s->h;
+    h = s->h, s->kink_name = NULL;
     why = valencia_curve(s) ? valencia_verify(s) : WHY_CURVE;
     if (why != WHY_NOTHING) {
       h *= why == WHY_DOMAIN ? 0.25 : 0.5;
@@ -275,8 +276,15 @@ static double widest(const valencia *s) {
   return most;
 }
 
+static void say_kink(const valencia *s, size_t room, char *text) {
+  text[0] = '\0';
+  if (s->kink_name) snprintf(text, room, ", where %s is not smooth, so that all is wide", s->kink_name);
+}
+
 static ambit_status explain(const valencia *s, enum why why) {
   const ambit_host *h = s->host;
+  char kink[256];
+  say_kink(s, sizeof kink, kink);
   switch (why) {
   case WHY_NOTHING: return AMBIT_OK;
   case WHY_STOPPED: return AMBIT_STOPPED;
@@ -284,19 +292,19 @@ static ambit_status explain(const valencia *s, enum why why) {
   case WHY_CURVE:
     return h->fail(h, AMBIT_UNABLE,
         "at t = %.9g s the enclosure, up to %.3g wide, reaches a point where the right-hand side is not defined or not "
-        "bounded, however short the step; split the initial set, or end before it",
-        s->t, widest(s));
+        "bounded%s, however short the step; split the initial set, or end before it",
+        s->t, widest(s), kink);
   case WHY_WIDE:
     return h->fail(h, AMBIT_UNABLE,
-        "the enclosure of `%s` grew wider than %.4g in the step from t = %.9g s; split the initial set, take the "
+        "the enclosure of `%s` grew wider than %.4g in the step from t = %.9g s%s; split the initial set, take the "
         "arithmetic taylor_model with a higher order, or allow more by `width_max`",
-        s->problem.name[s->culprit], s->limit[s->culprit], s->t);
+        s->problem.name[s->culprit], s->limit[s->culprit], s->t, kink);
   default:
     return h->fail(h, AMBIT_UNABLE,
         "at t = %.9g s no error bound of a step of at least %.3g s maps into itself, with an enclosure up to %.3g "
-        "wide: "
+        "wide%s: "
         "a solution may escape near here; if not, split the initial set, lower `step_min` or raise `tolerance`",
-        s->t, s->options.step_min, widest(s));
+        s->t, s->options.step_min, widest(s), kink);
   }
 }
 

@@ -101,7 +101,7 @@ typedef struct valencia {
   interval half, time;            /* half the step; its middle instant */
   interval *jacobian;             /* [nx x (nx + np)] slopes over the tube */
   interval *defect;               /* [nx] f(p) - p' */
-  interval *rate;                 /* [nx] f - p' over the tube */
+  interval *rate;                 /* [nx] over the tube: half f - p' (verify.c), 2 half f (faces.c) */
   uint32_t ncolumn;               /* directions: the unknowns, if p is linear in them, then z */
   int centred;                    /* residuals are of slopes about the middle (open.c) */
   interval *residual;             /* [ncolumn x nx] (half J) c - c' of each direction c(sigma) */
@@ -128,6 +128,7 @@ typedef struct valencia {
   double guess, rate_known, *magnitude, *limit;
   uint32_t culprit;
   int kink, has_faces;       /* the tube reaches one; the box of the faces goes on from the step before */
+  const char *kink_name;     /* of the one that the last tube reached, as the tape names it; or NULL */
   double *face_lo, *face_hi; /* [nx] */
   double *lo, *hi, *tube_lo, *tube_hi, *dense_mid, *dense_rad, *rest;
   double *set_about, *set_scale;
@@ -185,7 +186,7 @@ void valencia_unit_basis(valencia *s);
 
 /* faces.c: the box [lo, hi] at the start of the step -> one at its end, by the tube; 0: not evaluated */
 int valencia_faces(valencia *s, double *lo, double *hi);
-int valencia_at_kink(const valencia *s);
+int valencia_at_kink(valencia *s);
 
 /* frame.c: the set at the end of the step */
 void valencia_move(valencia *s);

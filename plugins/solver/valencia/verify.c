@@ -206,7 +206,8 @@ static void exponentials(const valencia *s, double mu, double length, double *gr
     *integral = mu > 0 ? (hi - 1) / mu : (1 - lo) / -mu;
 }
 
-/* in how many parts of the step the comparison is made, so that what blocks do to each other is small in each */
+/* in how many parts of the step the comparison is made, so that what blocks do to each other is small in each; powers of
+** two, so that their length is exact: a longer one would let decay go on beyond the end */
 static uint32_t find_parts(const valencia *s) {
   double most = 0;
   for (uint32_t b = 0; b < s->basis.nblock; b++) {
@@ -215,7 +216,9 @@ static uint32_t find_parts(const valencia *s) {
       if (c != b || s->options.exponential == EXPONENTIAL_OFF) row += s->growth[(size_t)b * s->nx + c];
     most = larger(most, row);
   }
-  return most < 0.125 * PARTS_MAX ? 2 + (uint32_t)(8 * most) : PARTS_MAX;
+  uint32_t parts = 2;
+  while (parts < PARTS_MAX && parts < 2 + 8 * most) parts *= 2;
+  return parts;
 }
 
 static double end_of_block(const valencia *s, uint32_t b, const double *growth, const double *integral) {
@@ -346,8 +349,9 @@ static enum why verify_slopes(valencia *s) {
   const ambit_tape *t = s->problem.rhs;
   const symbols *y = &s->symbols;
   for (int widening = 0; widening < WIDENINGS; widening++) {
-    if (is_unusable(valencia_symbols_run(s, s->radius, 0, s->rate))) return WHY_DOMAIN;
+    uint32_t flags = valencia_symbols_run(s, s->radius, 0, s->rate);
     s->kink = valencia_at_kink(s);
+    if (is_unusable(flags)) return WHY_DOMAIN;
     if (!valencia_slopes(s->num, t, s->ndir, y->lo, y->hi, y->slope)) return WHY_NO_SLOPES;
     memcpy(s->tube_lo, y->lo + t->nconst, s->nx * sizeof(double));
     memcpy(s->tube_hi, y->hi + t->nconst, s->nx * sizeof(double));
