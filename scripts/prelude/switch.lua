@@ -178,7 +178,9 @@ local function pass(q, result, mode, found, began)
   local guard = mode.guards[found.event.index]
   local at = ("switch `%s` of mode `%s` in t = %s"):format(guard.name, mode.name, tostring(found.event.t))
   local image = surface.onto(q, mode.system, guard.g, found.x, found.t)
-  if image.run.status ~= "complete" then return failure("%s: on the way to the guard: %s", at, image.run.reason) end
+  if image.run.status ~= "complete" then
+    return { status = image.run.status, reason = ("%s: on the way to the guard: %s"):format(at, image.run.reason) }
+  end
   local T = meeting_time(q, image.when, began)
   if not T then return failure("%s: the run ends before every solution has made it", at) end
   local target = guard.to.system

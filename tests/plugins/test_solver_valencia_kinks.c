@@ -308,6 +308,30 @@ static void exponential_enclosures(void **unused) {
   assert_true(steps[0] < steps[2]); /* stiffness does not bound the step of the exponential enclosure */
 }
 
+/* -- x' = e^-x from 0: nothing but its motion gives the state a size */
+
+static void truth_from_zero(double t, double u, double *x) {
+  (void)u;
+  x[0] = log1p(t);
+}
+
+static void starts_at_zero(void **unused) {
+  (void)unused;
+  static const char *const name[] = { "x" };
+  for (size_t a = 0; a < FITTING; a++) {
+    model m;
+    model_open(&m, 1, name);
+    expr down = negative(&m, m.state[0]);
+    m.rate[0] = op(&m, AMBIT_OP_EXP, down, down);
+    m.initial[0] = number(&m, 0);
+    check c = { .truth = truth_from_zero, .slack = 1e-15 };
+    ambit_simulate_result r = run(&m, &c, 0, 1, fitting[a], NULL);
+    if (r.status != AMBIT_OK || c.misses || !(c.width < 1e-11))
+      fail_msg("%s: %zu misses, width %g, t = %g, %s", fitting[a], c.misses, c.width, r.t_reached, r.reason);
+    model_close(&m);
+  }
+}
+
 /* a truth that is a little different is noticed */
 static void wrong_stiff(double t, double u, double *x) {
   truth_stiff(t, u, x);
@@ -334,6 +358,7 @@ int main(void) {
     cmocka_unit_test(monotone_states_are_put_to_their_ends),
     cmocka_unit_test(kinks_are_named),
     cmocka_unit_test(exponential_enclosures),
+    cmocka_unit_test(starts_at_zero),
     cmocka_unit_test(checks_can_fail),
   };
   return cmocka_run_group_tests_name("solver valencia, kinks and stiffness", tests, NULL, NULL);

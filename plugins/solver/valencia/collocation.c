@@ -155,7 +155,8 @@ static double newton(valencia *s, const double *start, const double *p, double h
   double change = 0;
   for (size_t k = 0; k < g->n * nx; k++) {
     g->rate[k] += g->right[k];
-    double size = larger(fabs(start[k % nx]), s->magnitude[k % nx]) + 1e-300;
+    double moved = fabs(half * g->rate[k]); /* all there is of a state that starts at 0 */
+    double size = larger(larger(fabs(start[k % nx]), s->magnitude[k % nx]), moved) + 1e-300;
     change = larger_or_nan(change, fabs(half * g->right[k]) / size);
   }
   return change < INFINITY ? change : -1;

@@ -203,17 +203,20 @@ static int is_good(const valencia *s, uint32_t i) {
 }
 
 #define CLEARLY 0.8
+#define BY_FAR 0.15 /* by volume */
 
-/* Both boxes hold. Where that of the faces is clearly narrower in every state, the set begins anew as their
-** intersection, and forgets how it depended on the unknowns. */
+/* Both boxes hold. Where that of the faces is clearly narrower in every state, or by far as a whole (a state may be
+** constant), the set begins anew as their intersection, and forgets how it depended on the unknowns. */
 static void meet_faces(valencia *s) {
   int narrower = 1;
+  double volume = 1;
   for (uint32_t i = 0; i < s->nx; i++) {
     interval x = meet((interval) { s->lo[i], s->hi[i] }, (interval) { s->face_lo[i], s->face_hi[i] });
     narrower = narrower && width(x) < CLEARLY * (s->hi[i] - s->lo[i]);
+    volume *= width(x) < s->hi[i] - s->lo[i] ? width(x) / (s->hi[i] - s->lo[i]) : 1;
     s->face_lo[i] = s->lo[i] = x.lo, s->face_hi[i] = s->hi[i] = x.hi;
   }
-  if (!narrower) return;
+  if (!narrower && !(volume < BY_FAR)) return;
   memset(s->p, 0, s->nx * s->terms.n * sizeof *s->p);
   for (uint32_t i = 0; i < s->nx; i++) {
     double mid = middle((interval) { s->face_lo[i], s->face_hi[i] });

@@ -206,7 +206,7 @@ static void exponentials(const valencia *s, double mu, double length, double *gr
     *integral = mu > 0 ? (hi - 1) / mu : (1 - lo) / -mu;
 }
 
-/* in how many parts of the step the comparison is made, so that what blocks do to each other is small in each; powers of
+/* in how many parts of the step the comparison is made, so that what blocks do to each other is small; powers of
 ** two, so that their length is exact: a longer one would let decay go on beyond the end */
 static uint32_t find_parts(const valencia *s) {
   double most = 0;
