@@ -7,11 +7,7 @@
 */
 #define _POSIX_C_SOURCE 200809L
 #include "../tests/kit/reference_models.h"
-#include "model/simulate.h"
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "solver_bench.h"
 
 #define STATES 4
 #define REPEATS 5
@@ -72,49 +68,39 @@ static void report(const problem *p, const watcher *w, const ambit_simulate_resu
   printf("\n\n");
 }
 
-/* the fastest of several runs */
-static void run(const problem *p, size_t noption, ambit_option *option, ambit_registry *registry) {
+static void again(ambit_sink *sink) {
+  watcher *w = (watcher *)(void *)sink;
+  memset(w->lo, 0, sizeof w->lo);
+  memset(w->hi, 0, sizeof w->hi);
+}
+
+static void run(const problem *p, bench_arguments *arguments, ambit_registry *registry) {
   model m;
   p->build(&m);
-  watcher w = { 0 };
-  ambit_simulate_result result = { 0 };
-  double best = INFINITY;
+  watcher w = { .sink = { sizeof(ambit_sink), watch, NULL }, .nx = m.system.nx };
   const double time[] = { 0, p->end };
-  option[noption] = (ambit_option) { "pieces_max", p->pieces };
-  for (int i = 0; i < REPEATS && (i == 0 || best < 1); i++) {
-    w = (watcher) { .sink = { sizeof(ambit_sink), watch, NULL }, .nx = m.system.nx };
-    const ambit_simulate_request q = { .system = &m.system,
-      .registry = registry,
-      .solver = "taylor_model",
-      .nsolver_option = noption + 1,
-      .solver_option = option,
-      .initial = m.initial,
-      .ntime = 2,
-      .time = time,
-      .threads = 1,
-      .sink = &w.sink };
-    if (ambit_simulate(&q, &result, NULL, &m.failure) != AMBIT_OK) {
-      fprintf(stderr, "%s: %s\n", p->name, m.failure.message);
-      exit(1);
-    }
-    best = fmin(best, result.cpu_seconds);
-  }
+  arguments->option[arguments->noption] = (ambit_option) { "pieces_max", p->pieces };
+  const ambit_simulate_request q = { .system = &m.system,
+    .registry = registry,
+    .solver = "taylor_model",
+    .nsolver_option = arguments->noption + 1,
+    .solver_option = arguments->option,
+    .initial = m.initial,
+    .ntime = 2,
+    .time = time,
+    .threads = 1,
+    .sink = &w.sink };
+  ambit_simulate_result result = { 0 };
+  double best = bench_fastest(p->name, &q, REPEATS, again, &result);
   report(p, &w, &result, best);
   model_close(&m);
 }
 
 int main(int argc, char **argv) {
-  ambit_option option[17];
-  size_t noption = 0;
-  for (int i = 2; i < argc && noption < 16; i++) {
-    char *equal = strchr(argv[i], '=');
-    if (!equal) continue;
-    *equal = '\0';
-    option[noption++] = (ambit_option) { argv[i], equal + 1 };
-  }
+  bench_arguments arguments = bench_read(argc, argv);
   ambit_registry *registry = ambit_registry_open(NULL);
   for (size_t i = 0; i < sizeof problems / sizeof *problems; i++)
-    if (argc < 2 || strcmp(argv[1], problems[i].name) == 0) run(&problems[i], noption, option, registry);
+    if (bench_wants(&arguments, problems[i].name)) run(&problems[i], &arguments, registry);
   ambit_registry_close(registry);
   return 0;
 }

@@ -54,4 +54,46 @@ static inline size_t case_findings(solver_case *c, const char *name, const char 
   c->kit.option = &option;
   return solver_kit_run(&c->kit);
 }
+
+/* The kit passes with each of these options. */
+static inline void case_passes(solver_case *c, size_t n, const ambit_option *option) {
+  assert_int_equal(c->kit.plugin->needs_rigorous, 1);
+  for (size_t i = 0; i < n; i++) {
+    size_t findings = case_findings(c, option[i].name, option[i].text);
+    if (findings) fail_msg("%s = %s: %zu findings", option[i].name, option[i].text, findings);
+  }
+}
+
+/* -- options out of range */
+
+typedef struct case_option {
+  const char *name;
+  double value;
+} case_option;
+
+static inline ambit_status case_try(const solver_case *c, case_option bad, char message[AMBIT_MESSAGE_MAX]) {
+  const ambit_param *param = c->kit.plugin->param;
+  double option[32];
+  size_t at = 0;
+  ambit_lease *lease;
+  void *self = NULL;
+  const ambit_problem problem = { .size = sizeof problem };
+  while (strcmp(param[at].name, bad.name) != 0) at++;
+  assert_int_equal(ambit_params_resolve(param, c->kit.name, 0, NULL, option, NULL), AMBIT_OK);
+  option[at] = bad.value;
+  assert_int_equal(ambit_lease_open(&lease, NULL, NULL), AMBIT_OK);
+  ambit_status status = c->kit.plugin->open(&lease->host, &problem, option, &self);
+  snprintf(message, AMBIT_MESSAGE_MAX, "%s", lease->failure.message);
+  ambit_lease_close(lease);
+  return status;
+}
+
+/* Each is refused, by its name. */
+static inline void case_refuses(const solver_case *c, size_t n, const case_option *bad) {
+  for (size_t i = 0; i < n; i++) {
+    char message[AMBIT_MESSAGE_MAX];
+    assert_int_equal(case_try(c, bad[i], message), AMBIT_INVALID);
+    if (!strstr(message, bad[i].name)) fail_msg("`%s` is not named by: %s", bad[i].name, message);
+  }
+}
 #endif

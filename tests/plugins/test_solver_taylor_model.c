@@ -1,7 +1,6 @@
 /* The Taylor-model integrator: it passes the kit of solvers in every configuration and over any arithmetic, the kit
 ** would notice if a remainder were missing, and threads change nothing. */
-#include "solver_case.h"
-#include <ambit/jet.h>
+#include "solver_lies.h"
 
 static void passes_the_kit(void **unused) {
   (void)unused;
@@ -11,11 +10,7 @@ static void passes_the_kit(void **unused) {
     { "pieces_max", "3" }, { "outputs", "7" }, { "step_max", "0.02" } };
   solver_case c;
   case_open(&c, "taylor_model", "interval");
-  assert_int_equal(c.kit.plugin->needs_rigorous, 1);
-  for (size_t i = 0; i < sizeof option / sizeof *option; i++) {
-    size_t findings = case_findings(&c, option[i].name, option[i].text);
-    if (findings) fail_msg("%s = %s: %zu findings", option[i].name, option[i].text, findings);
-  }
+  case_passes(&c, sizeof option / sizeof *option, option);
   case_close(&c);
 }
 
@@ -30,13 +25,6 @@ static void passes_over_general_series(void **unused) {
 }
 
 /* -- teeth: series services that lie */
-
-static const void *(*kernel_service)(const ambit_host *h, const char *id);
-static ambit_jet_service truthful, lying;
-
-static const void *lie(const ambit_host *h, const char *id) {
-  return strcmp(id, AMBIT_JET_SERVICE) == 0 ? &lying : kernel_service(h, id);
-}
 
 /* remainders a million times too small */
 static ambit_status small_tail(ambit_jet *jet, uint32_t K, double h, const double *tail_in, const double *dtail_in,
@@ -56,14 +44,8 @@ static void small_get(
 static void the_kit_has_teeth(void **unused) {
   (void)unused;
   solver_case c;
-  ambit_lease *lease;
   case_open(&c, "taylor_model", "interval");
-  assert_int_equal(ambit_lease_open(&lease, NULL, NULL), AMBIT_OK);
-  kernel_service = lease->host.service;
-  truthful = *(const ambit_jet_service *)kernel_service(&lease->host, AMBIT_JET_SERVICE);
-  ambit_lease_close(lease);
-  c.kit.service = lie;
-  lying = truthful;
+  lies(&c);
   assert_int_equal(case_findings(&c, NULL, NULL), 0);
   c.kit.finding = case_hide;
   lying.tail = small_tail;
@@ -76,40 +58,16 @@ static void the_kit_has_teeth(void **unused) {
 
 /* -- options */
 
-static ambit_status try_option(const solver_case *c, size_t i, double value, char *message) {
-  double option[16];
-  ambit_lease *lease;
-  void *self = NULL;
-  const ambit_problem problem = { .size = sizeof problem };
-  assert_int_equal(ambit_params_resolve(c->kit.plugin->param, "taylor_model", 0, NULL, option, NULL), AMBIT_OK);
-  option[i] = value;
-  assert_int_equal(ambit_lease_open(&lease, NULL, NULL), AMBIT_OK);
-  ambit_status status = c->kit.plugin->open(&lease->host, &problem, option, &self);
-  snprintf(message, AMBIT_MESSAGE_MAX, "%s", lease->failure.message);
-  ambit_lease_close(lease);
-  return status;
-}
-
 static void bad_options_are_refused_by_name(void **unused) {
   (void)unused;
-  static const struct {
-    const char *name;
-    double value;
-  } bad[] = { { "order", -1 }, { "order", 32 }, { "order", NAN }, { "time_order", 3 }, { "time_order", 41 },
-    { "jacobian_order", 2 }, { "jacobian_order", 21 }, { "tolerance", -1 }, { "tolerance", NAN },
+  static const case_option bad[] = { { "order", -1 }, { "order", 32 }, { "order", NAN }, { "time_order", 3 },
+    { "time_order", 41 }, { "jacobian_order", 2 }, { "jacobian_order", 21 }, { "tolerance", -1 }, { "tolerance", NAN },
     { "split_tolerance", -1 }, { "split_tolerance", NAN }, { "pieces_max", -1 }, { "pieces_max", 1e9 },
     { "outputs", 0 }, { "outputs", NAN }, { "step_max", 0 }, { "step_max", NAN }, { "step_min", -1 },
     { "width_max", 0 }, { "width_max", NAN } };
   solver_case c;
   case_open(&c, "taylor_model", "interval");
-  const ambit_param *param = c.kit.plugin->param;
-  for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-    size_t at = 0;
-    char message[AMBIT_MESSAGE_MAX];
-    while (strcmp(param[at].name, bad[i].name) != 0) at++;
-    assert_int_equal(try_option(&c, at, bad[i].value, message), AMBIT_INVALID);
-    if (!strstr(message, bad[i].name)) fail_msg("`%s` is not named by: %s", bad[i].name, message);
-  }
+  case_refuses(&c, sizeof bad / sizeof *bad, bad);
   case_close(&c);
 }
 

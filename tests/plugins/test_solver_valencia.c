@@ -1,7 +1,6 @@
 /* ValEncIA-IVP: it passes the kit of solvers in every configuration and over every arithmetic that it lists, and the
 ** kit would notice if the defect were too small. */
-#include "solver_case.h"
-#include <ambit/jet.h>
+#include "solver_lies.h"
 
 static const char *const fitting[] = { "interval", "affine", "taylor_model", "gradient", "mpfr" };
 
@@ -25,21 +24,11 @@ static void passes_with_every_option(void **unused) {
     { "step_max", "0.01" } };
   solver_case c;
   case_open(&c, "valencia", "interval");
-  for (size_t i = 0; i < sizeof option / sizeof *option; i++) {
-    size_t findings = case_findings(&c, option[i].name, option[i].text);
-    if (findings) fail_msg("%s = %s: %zu findings", option[i].name, option[i].text, findings);
-  }
+  case_passes(&c, sizeof option / sizeof *option, option);
   case_close(&c);
 }
 
 /* -- teeth: a series service that lies */
-
-static const void *(*kernel_service)(const ambit_host *h, const char *id);
-static ambit_jet_service truthful, lying;
-
-static const void *lie(const ambit_host *h, const char *id) {
-  return strcmp(id, AMBIT_JET_SERVICE) == 0 ? &lying : kernel_service(h, id);
-}
 
 /* the right-hand side a millionth off */
 static void wrong_get(
@@ -51,14 +40,8 @@ static void wrong_get(
 static void the_kit_has_teeth(void **unused) {
   (void)unused;
   solver_case c;
-  ambit_lease *lease;
   case_open(&c, "valencia", "interval");
-  assert_int_equal(ambit_lease_open(&lease, NULL, NULL), AMBIT_OK);
-  kernel_service = lease->host.service;
-  truthful = *(const ambit_jet_service *)kernel_service(&lease->host, AMBIT_JET_SERVICE);
-  ambit_lease_close(lease);
-  c.kit.service = lie;
-  lying = truthful;
+  lies(&c);
   assert_int_equal(case_findings(&c, "tolerance", "1e-9"), 0);
   c.kit.finding = case_hide;
   lying.get = wrong_get;
@@ -69,38 +52,14 @@ static void the_kit_has_teeth(void **unused) {
 
 /* -- options */
 
-static ambit_status try_option(const solver_case *c, size_t i, double value, char *message) {
-  double option[16];
-  ambit_lease *lease;
-  void *self = NULL;
-  const ambit_problem problem = { .size = sizeof problem };
-  assert_int_equal(ambit_params_resolve(c->kit.plugin->param, "valencia", 0, NULL, option, NULL), AMBIT_OK);
-  option[i] = value;
-  assert_int_equal(ambit_lease_open(&lease, NULL, NULL), AMBIT_OK);
-  ambit_status status = c->kit.plugin->open(&lease->host, &problem, option, &self);
-  snprintf(message, AMBIT_MESSAGE_MAX, "%s", lease->failure.message);
-  ambit_lease_close(lease);
-  return status;
-}
-
 static void bad_options_are_refused_by_name(void **unused) {
   (void)unused;
-  static const struct {
-    const char *name;
-    double value;
-  } bad[] = { { "order", 3 }, { "order", 21 }, { "degree", 17 }, { "degree", -1 }, { "tolerance", -1 },
-    { "tolerance", NAN }, { "step_max", 0 }, { "step_max", NAN }, { "step_min", -1 }, { "width_max", 0 },
-    { "width_max", NAN } };
+  static const case_option bad[] = { { "order", 3 }, { "order", 21 }, { "degree", 17 }, { "degree", -1 },
+    { "tolerance", -1 }, { "tolerance", NAN }, { "step_max", 0 }, { "step_max", NAN }, { "step_min", -1 },
+    { "width_max", 0 }, { "width_max", NAN } };
   solver_case c;
   case_open(&c, "valencia", "interval");
-  const ambit_param *param = c.kit.plugin->param;
-  for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-    size_t at = 0;
-    char message[AMBIT_MESSAGE_MAX];
-    while (strcmp(param[at].name, bad[i].name) != 0) at++;
-    assert_int_equal(try_option(&c, at, bad[i].value, message), AMBIT_INVALID);
-    if (!strstr(message, bad[i].name)) fail_msg("`%s` is not named by: %s", bad[i].name, message);
-  }
+  case_refuses(&c, sizeof bad / sizeof *bad, bad);
   case_close(&c);
 }
 
