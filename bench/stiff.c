@@ -31,12 +31,17 @@ static void van_der_pol_eps10(model *m) { model_scaled_relaxation(m, "1e-10"); }
 static void robertson_one_percent(model *m) { model_spread_robertson(m, "0.01"); }
 static void robertson_small_spread(model *m) { model_spread_robertson(m, "1e-5"); }
 
-/* x(0) in 2 +- 1e-10 */
-static void van_der_pol_set(model *m) {
+static void robertson_ten_percent(model *m) { model_spread_robertson(m, "0.1"); }
+
+/* x(0) in 2 +- radius */
+static void van_der_pol_set(model *m, const char *radius) {
   model_relaxation(m, "1000");
   expr xi = ambit_graph_unknown(m->graph, "xi", (ambit_interval) { -1, 1 });
-  m->initial[0] = add(m, number(m, 2), term(m, "1e-10", xi));
+  m->initial[0] = add(m, number(m, 2), term(m, radius, xi));
 }
+
+static void van_der_pol_1e_10(model *m) { van_der_pol_set(m, "1e-10"); }
+static void van_der_pol_3e_8(model *m) { van_der_pol_set(m, "3e-8"); }
 
 static const problem problems[] = {
   { "vdp3", "Van der Pol, mu = 1000", van_der_pol_1e3, 0, 2000, 0.3, 2e-8,
@@ -44,15 +49,17 @@ static const problem problems[] = {
   { "vdp6", "Van der Pol, eps = 1e-6", van_der_pol_eps6, 0, 2, 0.3, 2e-8,
       { 1.7061677321704650, -0.89280970102481655 } },
   { "vdp4", "Van der Pol, mu = 1e4, a period", van_der_pol_1e4, 0, 16200, 1, 1e-4, { 0 } },
-  { "vdp5", "Van der Pol, mu = 1e5, a period", van_der_pol_1e5, 0, 161500, INFINITY, 1e-2, { 0 } },
+  { "vdp5", "Van der Pol, mu = 1e5, a period", van_der_pol_1e5, 0, 161500, INFINITY, 1e-5, { 0 } },
   { "vdp10", "Van der Pol, eps = 1e-10, a period", van_der_pol_eps10, 0, 1.615, INFINITY, 1e-2, { 0 } },
   { "cosine", "y' = -1000 (y - cos t)", model_stiff_cosine, 0, 2000, 0.1, 1e-9, { 0 } },
   { "rober9", "Robertson to 1e9", model_point_robertson, 0, 1e9, 0.1, 1e-4, { 0 } },
   { "rober11", "Robertson to 1e11", model_point_robertson, 0, 1e11, 1, 1e-4,
       { 2.0833401497012942e-08, 8.3333607703347834e-14, 0.99999997916651517 } },
-  { "rober1", "Robertson, all rates +-1 %, to 1e4", robertson_one_percent, 0, 1e4, INFINITY, 1e3, { 0 } },
+  { "rober1", "Robertson, all rates +-1 %, to 1e4", robertson_one_percent, 0, 1e4, INFINITY, 0.1, { 0 } },
   { "rober0", "Robertson, all rates +-1e-5, to 1e4", robertson_small_spread, 0, 1e4, INFINITY, INFINITY, { 0 } },
-  { "vdp3r", "Van der Pol, x(0) = 2 +- 1e-10", van_der_pol_set, 0, 2000, INFINITY, INFINITY, { 0 } },
+  { "rober10", "Robertson, all rates +-10 %, to 1e4", robertson_ten_percent, 0, 1e4, INFINITY, INFINITY, { 0 } },
+  { "vdp3r", "Van der Pol, x(0) = 2 +- 1e-10", van_der_pol_1e_10, 0, 2000, INFINITY, INFINITY, { 0 } },
+  { "vdp3s", "Van der Pol, x(0) = 2 +- 3e-8", van_der_pol_3e_8, 0, 2000, INFINITY, INFINITY, { 0 } },
   { "hires", "HIRES", model_hires, 0, 321.8122, 0.3, 1e-8,
       { 7.371312573325667807277e-04, 1.442485726316184658188e-04, 5.888729740967575007484e-05,
           1.175651343283149145506e-03, 2.386356198831330468821e-03, 6.238968252742795786648e-03,

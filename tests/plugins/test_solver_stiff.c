@@ -4,7 +4,7 @@
 static void passes_the_kit(void **unused) {
   (void)unused;
   static const ambit_option option[] = { { "tolerance", "1e-16" }, { "tolerance", "1e-12" }, { "nodes", "8" },
-    { "nodes", "20" }, { "step_max", "0.05" } };
+    { "nodes", "20" }, { "degree", "2" }, { "step_max", "0.05" } };
   solver_case c;
   case_open(&c, "stiff", "interval");
   assert_int_equal(c.kit.plugin->needs_rigorous, 1);
@@ -35,8 +35,9 @@ static void bad_options_are_refused_by_name(void **unused) {
   static const struct {
     const char *name;
     double value;
-  } bad[] = { { "nodes", 3 }, { "nodes", 21 }, { "tolerance", -1 }, { "tolerance", NAN }, { "step_max", 0 },
-    { "step_max", NAN }, { "step_min", -1 }, { "width_max", 0 }, { "width_max", NAN } };
+  } bad[] = { { "nodes", 3 }, { "nodes", 21 }, { "degree", -1 }, { "degree", 21 }, { "tolerance", -1 },
+    { "tolerance", NAN }, { "step_max", 0 }, { "step_max", NAN }, { "step_min", -1 }, { "width_max", 0 },
+    { "width_max", NAN } };
   solver_case c;
   case_open(&c, "stiff", "interval");
   const ambit_param *param = c.kit.plugin->param;

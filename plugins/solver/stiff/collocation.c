@@ -164,6 +164,12 @@ int collocation_solve(collocation *q, double t, double h) {
   return 1;
 }
 
+int collocation_linearise(collocation *q, double t, double h) {
+  if (!measure(q)) return 0;
+  judge(q, t, 0.5 * h, 1);
+  return factor(q, 0.5 * h);
+}
+
 void collocation_value(const collocation *q, long double tau, long double *y) {
   for (uint32_t a = 0; a < q->nx; a++) {
     long double before = 1, now = tau, sum = q->x[a], sign = -1;

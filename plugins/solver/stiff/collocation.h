@@ -36,5 +36,7 @@ typedef struct collocation {
 int collocation_open(const ambit_host *h, collocation *q);
 /* 0: Newton's method failed */
 int collocation_solve(collocation *q, double t, double h);
+/* the matrix of Newton's method at the solution, factored in A and row; its rows and columns are in units */
+int collocation_linearise(collocation *q, double t, double h);
 void collocation_value(const collocation *q, long double tau, long double *y); /* y [nx] */
 #endif

@@ -61,7 +61,7 @@ void dense_piece(stiff *s, uint32_t j) {
       poly_add(sum, product, term, 1);
     }
     poly_add(sum, sum, &s->P[i], -1);
-    double off = (poly_norm(sum) + s->radius[i]) * (1 + 0x1p-40);
+    double off = (poly_norm(sum) + s->radius[i] + (s->spread ? spread_reach(s, i) : 0)) * (1 + 0x1p-40);
     double *worst = &s->dense_rad[i * w];
     if (!(off <= *worst)) *worst = off; /* NaN is kept */
   }

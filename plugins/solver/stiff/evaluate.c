@@ -24,9 +24,20 @@ static void put(poly *r, const poly *a, uint32_t room, double radius) {
   r->tail = rest > 0 ? rest * SLACK : 0;
 }
 
+static const fields *put_fields(stiff *s, fields *to, const double *box, uint32_t j, uint32_t m) {
+  spread_put(s, to, box);
+  if (s->problem.uses_time) {
+    field *time = fields_input(to, s->inputs);
+    field_constant(to, time, (dd) { 0, 0 }, 0);
+    put_time(s, &time->c, j, m);
+  }
+  fields_run(to);
+  return to;
+}
+
 static void put_inputs(stiff *s, series *to, const double *box, uint32_t j, uint32_t m) {
   for (uint32_t i = 0; i < s->n; i++) put(series_input(to, i), &s->P[i], to->order + 1, box ? box[i] : 0);
-  if (s->problem.uses_time) put_time(s, series_input(to, s->n), j, m);
+  if (s->problem.uses_time) put_time(s, series_input(to, s->inputs), j, m);
 }
 
 /* r := half a */
@@ -55,41 +66,50 @@ void evaluate_gap(stiff *s) {
     dd at = value_at_end(&s->P[i], -1, &error), gap = dd_sub(s->end[i], at);
     s->gap[i] = gap.hi;
     error += fabs(gap.lo) + 5 * DD_U * DD_U * (fabs(at.hi) + fabs(s->end[i].hi)) + s->end_error[i];
+    if (s->spread) error += spread_gap(s, i);
     s->gap_error[i] = error * SLACK;
   }
 }
 
 void evaluate_end(stiff *s) {
-  for (uint32_t i = 0; i < s->n; i++) s->end[i] = value_at_end(&s->P[i], 1, &s->end_error[i]);
+  for (uint32_t i = 0; i < s->n; i++) {
+    s->end[i] = value_at_end(&s->P[i], 1, &s->end_error[i]);
+    if (s->spread) s->end_error[i] = (s->end_error[i] + spread_end(s, i)) * SLACK;
+  }
 }
 
 int evaluate_defect(stiff *s, uint32_t j, uint32_t m) {
-  uint32_t w = s->q.N + 1;
+  uint32_t w = (s->q.N + 1) * (s->spread ? s->terms.count : 1);
   poly *rate = &s->rhs.scratch[0], *slope = &s->rhs.scratch[1];
-  put_inputs(s, &s->rhs, NULL, j, m);
-  series_run(&s->rhs);
+  if (s->spread)
+    put_fields(s, &s->rhs_field, NULL, j, m);
+  else {
+    put_inputs(s, &s->rhs, NULL, j, m);
+    series_run(&s->rhs);
+  }
   for (uint32_t i = 0; i < s->nx; i++) {
-    const poly *f = series_output(&s->rhs, i);
+    const poly *f = s->spread ? &fields_output(&s->rhs_field, i)->c : series_output(&s->rhs, i);
     if (!(f->tail < INFINITY)) return 0;
     halve(s, rate, f);
     poly_derive(slope, &s->P[i]);
     poly_add(slope, slope, rate, -1);
     double rest = slope->tail;
-    for (uint32_t k = 0; k < w; k++) s->defect[i * w + k] = k < slope->n ? slope->hi[k] : 0;
+    for (uint32_t k = 0; k <= s->q.N; k++) s->defect[i * w + k] = k < slope->n ? slope->hi[k] : 0;
     for (uint32_t k = 0; k < slope->n; k++) rest += fabs(slope->lo[k]);
+    if (s->spread) spread_defect(s, i, fields_output(&s->rhs_field, i), &rest);
     s->defect_tail[i] = rest * SLACK;
     if (!(rest < INFINITY)) return 0;
   }
   return 1;
 }
 
-static int take(stiff *s, const series *from, uint32_t out, uint32_t entry) {
+/* `rows` bounds what is not in a */
+static int take(stiff *s, const poly *a, double rows, uint32_t entry) {
   slopes *r = &s->slopes;
   poly *x = &s->jacobian.scratch[0];
-  const poly *a = series_output(from, out);
   if (!(a->tail < INFINITY)) return 0;
   halve(s, x, a);
-  double rest = x->tail;
+  double rest = x->tail + rows * fabs(s->half.hi) * SLACK;
   r->count[entry] = x->n;
   for (uint32_t k = 0; k < x->n; k++) {
     r->coefficient[(size_t)entry * (SLOPE_ORDER + 1) + k] = x->hi[k];
@@ -99,7 +119,17 @@ static int take(stiff *s, const series *from, uint32_t out, uint32_t entry) {
   return rest < INFINITY;
 }
 
+static int evaluate_slope_fields(stiff *s, uint32_t j, uint32_t m) {
+  const fields *f = put_fields(s, &s->jacobian_field, s->box, j, m);
+  for (uint32_t k = 0; k < s->nx * s->nx; k++) {
+    const field *a = fields_output(f, k);
+    if (!take(s, &a->c, field_rest(f, a), k)) return 0;
+  }
+  return 1;
+}
+
 int evaluate_slopes(stiff *s, uint32_t j, uint32_t m) {
+  if (s->spread) return evaluate_slope_fields(s, j, m);
   put_inputs(s, &s->jacobian, s->box, j, m);
   series_run(&s->jacobian);
   if (s->np) {
@@ -108,8 +138,8 @@ int evaluate_slopes(stiff *s, uint32_t j, uint32_t m) {
   }
   for (uint32_t i = 0; i < s->nx; i++)
     for (uint32_t k = 0; k < s->n; k++) {
-      int good = k < s->nx ? take(s, &s->jacobian, i * s->nx + k, i * s->n + k)
-                           : take(s, &s->slope, i * s->np + k - s->nx, i * s->n + k);
+      int good = k < s->nx ? take(s, series_output(&s->jacobian, i * s->nx + k), 0, i * s->n + k)
+                           : take(s, series_output(&s->slope, i * s->np + k - s->nx), 0, i * s->n + k);
       if (!good) return 0;
     }
   return 1;
@@ -119,8 +149,8 @@ int evaluate_slopes(stiff *s, uint32_t j, uint32_t m) {
 
 static void put_point(stiff *s, real *r, const long double *y, long double t) {
   memcpy(real_input(r, 0), y, s->nx * sizeof *y);
-  memcpy(real_input(r, s->nx), s->q.x + s->nx, s->np * sizeof *y);
-  if (s->problem.uses_time) *real_input(r, s->n) = t;
+  memcpy(real_input(r, s->nx), s->q.x + s->nx, s->problem.np * sizeof *y);
+  if (s->problem.uses_time) *real_input(r, s->inputs) = t;
   real_run(r);
 }
 

@@ -62,6 +62,8 @@ int frame_choose(stiff *s, uint32_t j) {
   frame *r = &s->frame;
   split *p = &r->split;
   uint32_t n = s->n;
+  r->natural = 0;
+  memset(r->still, 0, sizeof r->still);
   const ends e = { n, s->nx, s->q.scale, &s->spectrum[j], &s->spectrum[j + 1], s->rate + (size_t)j * n * n,
     s->rate + (size_t)(j + 1) * n * n };
   if (!split_choose(&e, &s->carried, p)) return 0;
@@ -80,6 +82,7 @@ int frame_choose(stiff *s, uint32_t j) {
     if (l == 0) place(n, g, f, F0, r->U[l]);
     if (l == 1) place(n, g, f, F1, r->U[l]);
   }
+  for (uint32_t i = 0; i < f; i++) r->decay[g + i] = fabs(s->spectrum[j].real[i]);
   enlarge(p, r, n);
   if (!matrix_inverse(n, r->U[0], r->C) || !matrix_inverse(n, r->G, r->Gi)) return 0;
   frame_refine(s);

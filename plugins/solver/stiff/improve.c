@@ -1,8 +1,8 @@
 /* improve.c -- a piece's polynomial with a smaller defect; approximate, in round-to-nearest.
 **
 ** With d the defect of P and e = P* - P the error of the polynomial, e' = (eta/2) J e - d; in the frame U, where that
-** matrix is nearly 0 for slow and L for fast directions, z = U^-1 e has polynomial solutions
-**   z_s = -integral of (C d)_s from s = -1,   z_f = sum_q L^-(q+1) (C d)_f^(q),
+** matrix is nearly 0 for slow and L for fast directions, z = U^-1 e has, with v = U^-1 d, polynomial solutions
+**   z_s = -integral of v_s from s = -1,   z_f = sum_q L^-(q+1) v_f^(q),
 ** and P + U z has a defect that is smaller by what is left of the approximations. In double-double this goes on below
 ** the rounding of the collocation's long double.
 */
@@ -11,13 +11,20 @@
 
 #define DEGREE_MAX NODES_MAX
 
-/* (C d)_i, coefficient k */
-static void through(const stiff *s, uint32_t k, double *r) {
-  uint32_t n = s->n, w = s->q.N + 1;
-  for (uint32_t i = 0; i < n; i++) {
-    r[i] = 0;
-    for (uint32_t a = 0; a < s->nx; a++) r[i] += s->frame.C[i * n + a] * s->defect[a * w + k];
-  }
+/* v := U^-1 d to degree top: v_k = (C d)_k - sum_l (C U_l) v_(k-l), as C U_0 is about I */
+static void through(const stiff *s, uint32_t top, double v[][N_MAX]) {
+  const frame *f = &s->frame;
+  uint32_t n = s->n, w = (s->q.N + 1) * (s->spread ? s->terms.count : 1);
+  square turned[FRAME_ORDER + 1];
+  for (uint32_t l = 1; l <= f->order; l++) matrix_multiply(n, n, n, f->C, f->U[l], turned[l]);
+  for (uint32_t k = 0; k <= top; k++)
+    for (uint32_t i = 0; i < n; i++) {
+      double sum = 0;
+      for (uint32_t a = 0; a < s->nx; a++) sum += f->C[i * n + a] * s->defect[a * w + k];
+      for (uint32_t l = 1; l <= k && l <= f->order; l++)
+        for (uint32_t a = 0; a < n; a++) sum -= turned[l][i * n + a] * v[k - l][a];
+      v[k][i] = sum;
+    }
 }
 
 static void solve_slow(uint32_t g, uint32_t top, double d[][N_MAX], double z[][N_MAX]) {
@@ -56,7 +63,7 @@ static int solve_fast(const stiff *s, uint32_t top, double d[][N_MAX], double z[
 void improve_piece(stiff *s) {
   uint32_t n = s->n, top = s->q.N;
   double d[DEGREE_MAX + 1][N_MAX], z[DEGREE_MAX + 2][N_MAX] = { { 0 } };
-  for (uint32_t k = 0; k <= top; k++) through(s, k, d[k]);
+  through(s, top, d);
   solve_slow(s->frame.split.slow, top, d, z);
   if (!solve_fast(s, top, d, z)) return;
   for (uint32_t i = 0; i < s->nx; i++)

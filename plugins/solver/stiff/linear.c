@@ -97,6 +97,7 @@ int orthonormalise(size_t n, size_t m, double *A, const double *scale, double *R
 
 double scaled_condition(size_t n, const double *A, const double *scale) {
   square S, inverse;
+  S[0] = 0;
   double norm = 0, other = 0;
   for (size_t j = 0; j < n; j++) {
     double length = sqrt(product(n, n, A, j, j, scale));

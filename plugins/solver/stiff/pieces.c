@@ -35,13 +35,16 @@ void pieces_fill(dd *table, uint32_t N) {
   }
 }
 
+const dd *pieces_table(const stiff *s, uint32_t level, uint32_t j) { return entry(s->table, s->q.N, level, j); }
+
 void pieces_cut(stiff *s, uint32_t level, uint32_t j) {
   uint32_t N = s->q.N, w = N + 1, nx = s->nx;
-  const dd *T = entry(s->table, N, level, j);
-  for (uint32_t a = 0; a < s->n; a++) {
+  const dd *T = pieces_table(s, level, j);
+  for (uint32_t a = 0; a < s->inputs; a++) {
     poly *p = &s->P[a];
     p->n = a < nx ? N + 1 : 1, p->tail = 0;
     dd first = dd_of(s->q.x[a]);
+    if (a < nx) first = dd_add(first, (dd) { s->below[a], 0 });
     for (uint32_t k = 1; k <= N && a < nx; k++) {
       dd c = dd_of(s->q.c[k * nx + a]);
       first = dd_add(first, dd_mul(c, dd_add(T[k * w], (dd) { k % 2 ? 1 : -1, 0 })));

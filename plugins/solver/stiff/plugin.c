@@ -5,6 +5,8 @@
 static const ambit_param param[] = {
   { "nodes", "1", "integer", "0",
       "collocation nodes of a step, 4 to 20, which is the degree of its polynomial; 0: chosen from the tolerance" },
+  { "degree", "1", "integer", "0",
+      "highest power of the unknowns that enclosures keep, less if there are many; 0: chosen from their number" },
   { "tolerance", "1", "", "1e-16", "size of the last coefficients of a step's polynomial, relative to the state's" },
   { "step_max", "s", "", "inf", "longest step" },
   { "step_min", "s", "", "0", "shortest step that is tried before the run gives up; 0: 2^-48 of the time reached" },

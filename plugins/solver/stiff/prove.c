@@ -56,7 +56,7 @@ static int enter(stiff *s, errors *e) {
 
 static void bound_defect(const stiff *s, errors *e) {
   const frame *f = &s->frame;
-  uint32_t n = s->n, w = s->q.N + 1;
+  uint32_t n = s->n, w = (s->q.N + 1) * (s->spread ? s->terms.count : 1);
   double plain[N_MAX] = { 0 }, back[N_MAX] = { 0 }, tail[N_MAX], z[N_MAX];
   for (uint32_t i = 0; i < n; i++) {
     tail[i] = 0;
@@ -120,11 +120,11 @@ static int cover(stiff *s, const errors *e, uint32_t j, uint32_t pieces) {
   return slopes_anew(s, j, pieces);
 }
 
-static void guess_R(const stiff *s, errors *e, uint32_t j) {
+static void guess_R(const stiff *s, errors *e) {
   const split *p = &s->frame.split;
   for (uint32_t b = 0; b < e->m; b++) e->R[b] = 2 * e->first[b] + 2 * e->delta[b] * LENGTH;
   for (uint32_t i = p->slow; i < s->n; i++) {
-    double rate = fabs(s->spectrum[j].real[i - p->slow]); /* a fast one only builds up over 1 / rate */
+    double rate = s->frame.decay[i]; /* a fast one only builds up over 1 / rate */
     uint32_t b = p->block[i];
     if (rate * LENGTH > 1) e->R[b] = 2 * e->first[b] + 4 * e->delta[b] / rate;
   }
@@ -160,7 +160,7 @@ static double find_v(errors *e) {
 
 static enum why enclose(stiff *s, errors *e, uint32_t j, uint32_t pieces) {
   matrix_bounds A;
-  guess_R(s, e, j);
+  guess_R(s, e);
   for (int i = 0; i < TRIES; i++) {
     if (!cover(s, e, j, pieces)) return WHY_UNDEFINED;
     rates_bound(s, &A);
@@ -228,7 +228,7 @@ static int leave(stiff *s, const errors *e) {
   for (uint32_t i = 0; i < n; i++) z[i] = in_blocks(n, T + i * n, p->block, p->blocks, e->last);
   bound_blocks(n, p->block, p->blocks, z, c->w);
   memcpy(c->block, p->block, n * sizeof *c->block);
-  c->blocks = p->blocks, c->fast = p->fast, c->valid = 1;
+  c->blocks = p->blocks, c->fast = p->fast, c->valid = !f->natural;
   hold_parameters(s);
   return 1;
 }

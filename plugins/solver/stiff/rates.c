@@ -56,7 +56,10 @@ void rates_bound(const stiff *s, matrix_bounds *r) {
   }
   for (uint32_t i = 0; i < n * n; i++) size[i] = iv_mag(r->middle[i]) + r->radius[i];
   bound_multiply(n, n, n, f->E, size, rest);
-  for (uint32_t i = 0; i < n * n; i++) r->radius[i] += rest[i];
+  for (uint32_t i = 0; i < n * n; i++) {
+    r->radius[i] += rest[i];
+    if (f->still[i / n]) r->middle[i] = (iv) { 0, 0 }, r->radius[i] = 0;
+  }
 }
 
 /* -- blocks */

@@ -11,11 +11,18 @@ static AMBIT_WORKER void hull_up(stiff *s) {
     double norm[N_MAX], radius = s->end_error[i];
     bound_blocks(n, c->block, c->blocks, c->B + i * n, norm);
     for (uint32_t b = 0; b < c->blocks; b++) radius += norm[b] * c->w[b];
+    double rest = radius;
+    if (s->spread)
+      for (uint32_t t = 1; t < s->terms.count; t++) radius += fabs(s->end_row[i * s->terms.count + t]);
     iv end = iv_of_dd(s->end[i]);
     s->lo[i] = -(end.low + radius);
     s->hi[i] = end.high + radius;
     s->set_middle[i] = iv_middle(end);
-    s->set_rest[i] = larger(s->hi[i] - s->set_middle[i], s->set_middle[i] - s->lo[i]);
+    s->set_rest[i] = rest + larger(end.high - s->set_middle[i], s->set_middle[i] + end.low);
+    if (!s->spread) continue;
+    double *terms = s->set_coefficient + i * s->terms.count;
+    memcpy(terms, s->end_row + i * s->terms.count, s->terms.count * sizeof *terms);
+    terms[0] = s->set_middle[i];
   }
 }
 
@@ -37,7 +44,8 @@ static void start(stiff *s) {
 
 static int32_t emit(const stiff *s, ambit_sink *sink, double t_from) {
   const ambit_problem *p = &s->problem;
-  const ambit_set set = { sizeof set, p->nu, 1, 0, s->about, s->scale, s->exponent, s->set_middle, s->set_rest };
+  const ambit_set set = { sizeof set, p->nu, s->spread ? s->terms.count : 1, 0, s->about, s->scale,
+    s->spread ? s->terms.exponent : s->exponent, s->spread ? s->set_coefficient : s->set_middle, s->set_rest };
   int dense = (p->wish & AMBIT_WISH_DENSE) && dense_is_good(s);
   const ambit_record r = { .size = sizeof r,
     .kind = AMBIT_REC_STEP,
@@ -84,7 +92,10 @@ static enum why integrate(stiff *s, ambit_sink *sink) {
   hull(s);
   for (uint32_t i = 0; i < s->nx; i++) s->limit[i] = s->options.width_max;
   s->guess = first_length(s);
-  for (uint32_t i = 0; i < s->nx; i++) s->q.x[i] = dd_long(s->end[i]);
+  for (uint32_t i = 0; i < s->nx; i++) {
+    s->q.x[i] = dd_long(s->end[i]);
+    s->below[i] = dd_sub(s->end[i], dd_of(s->q.x[i])).hi;
+  }
   while (s->next < s->problem.ntime) {
     double t_from = s->t;
     enum why why = step_make(s);

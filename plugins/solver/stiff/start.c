@@ -88,9 +88,9 @@ static ambit_status read_slopes(stiff *s) {
 }
 
 ambit_status start_read(stiff *s) {
-  ambit_status status = read_middle(s);
-  if (status == AMBIT_OK && s->problem.nu) status = read_slopes(s);
-  for (uint32_t i = 0; i < s->n && status == AMBIT_OK; i++)
+  ambit_status status = s->spread ? spread_read(s) : read_middle(s);
+  if (status == AMBIT_OK && s->problem.nu && !s->spread) status = read_slopes(s);
+  for (uint32_t i = 0; i < s->inputs && status == AMBIT_OK; i++)
     if (!(s->start_rest[i] < INFINITY)) status = undefined(s);
   return status;
 }
@@ -149,7 +149,7 @@ static int width_in_columns(stiff *s, double *w) {
   return 1;
 }
 
-static int is_a_point(const stiff *s) { return s->problem.nu == 0; }
+static int is_a_point(const stiff *s) { return s->problem.nu == 0 || s->spread; }
 
 void start_set(stiff *s) {
   carried *c = &s->carried;
@@ -159,10 +159,11 @@ void start_set(stiff *s) {
     c->block[i] = i;
     s->end[i] = s->start[i], s->end_error[i] = 0;
   }
+  if (s->spread) spread_start(s);
   if (!is_a_point(s) && independent_columns(s, c->B) && width_in_columns(s, c->w)) return;
   for (uint32_t i = 0; i < n * n; i++) c->B[i] = i % (n + 1) == 0;
   for (uint32_t i = 0; i < n; i++) {
     c->w[i] = s->start_rest[i];
-    for (uint32_t j = 0; j < nu; j++) c->w[i] += fabs(s->start_column[i * nu + j]);
+    for (uint32_t j = 0; j < nu && !s->spread; j++) c->w[i] += fabs(s->start_column[i * nu + j]);
   }
 }

@@ -12,8 +12,8 @@
 #define CAREFUL 1.15 /* growth of the next steps after a proof failed */
 #define CAREFUL_STEPS 4
 #define SHRINK_NEWTON 0.3
-#define IMPROVEMENTS 1 /* of a piece's polynomial, where there are slow directions: fast ones forget */
-#define HIGHEST 4      /* level: 64 pieces */
+#define IMPROVEMENTS 2
+#define HIGHEST 4 /* level: 64 pieces */
 
 /* -- lengths */
 
@@ -56,18 +56,27 @@ static void add_to_tube(stiff *s, int first) {
   for (uint32_t i = 0; i < s->nx; i++) {
     double lo, hi;
     poly_range(&s->P[i], &lo, &hi);
-    lo = nextafter(lo - s->radius[i], -INFINITY), hi = nextafter(hi + s->radius[i], INFINITY);
+    double radius = s->spread ? (s->radius[i] + spread_reach(s, i)) * (1 + 0x1p-40) : s->radius[i];
+    lo = nextafter(lo - radius, -INFINITY), hi = nextafter(hi + radius, INFINITY);
     s->tube_lo[i] = first ? lo : fmin(s->tube_lo[i], lo);
     s->tube_hi[i] = first ? hi : fmax(s->tube_hi[i], hi);
   }
 }
 
-static enum why piece(stiff *s, uint32_t j, uint32_t m) {
+static void cut(stiff *s, uint32_t j) {
   pieces_cut(s, s->level, j);
+  if (s->spread) spread_cut(s, pieces_table(s, s->level, j));
+}
+
+static enum why piece(stiff *s, uint32_t j, uint32_t m) {
+  cut(s, j);
   evaluate_gap(s);
   guess_box(s);
   if (!evaluate_slopes(s, j, m) || !evaluate_defect(s, j, m)) return WHY_UNDEFINED;
-  if (!frame_choose(s, j)) return WHY_SPLIT;
+  if (s->choice)
+    natural_frame(s, s->choice);
+  else if (!frame_choose(s, j))
+    return WHY_SPLIT;
   memset(s->shift, 0, s->n * sizeof *s->shift);
   for (int i = 0; s->frame.split.slow > 0 && i < IMPROVEMENTS; i++) {
     improve_piece(s);
@@ -84,12 +93,14 @@ static enum why piece(stiff *s, uint32_t j, uint32_t m) {
 
 static void keep(stiff *s) {
   s->saved = s->carried;
+  if (s->spread) spread_keep(s, 0);
   memcpy(s->saved_end, s->end, s->n * sizeof *s->end);
   memcpy(s->saved_error, s->end_error, s->n * sizeof *s->end_error);
 }
 
 static void bring_back(stiff *s) {
   s->carried = s->saved;
+  if (s->spread) spread_keep(s, 1);
   memcpy(s->end, s->saved_end, s->n * sizeof *s->end);
   memcpy(s->end_error, s->saved_error, s->n * sizeof *s->end_error);
 }
@@ -101,11 +112,21 @@ static void widen_scale(stiff *s) {
     for (uint32_t k = 0; k < s->n; k++) s->q.scale[i] += fabs(c->B[i * s->n + k]) * c->w[c->block[k]];
 }
 
+/* judged in the middle of the step */
+static void choose_frame(stiff *s, uint32_t m) {
+  cut(s, m / 2);
+  memset(s->gap, 0, s->n * sizeof *s->gap);
+  memset(s->gap_error, 0, s->n * sizeof *s->gap_error);
+  guess_box(s);
+  if (evaluate_slopes(s, m / 2, m)) natural_choose(s, m / 2, m);
+}
+
 static enum why prove_pieces(stiff *s) {
   uint32_t m = 4u << s->level;
   s->half = (dd) { s->h.hi / (2.0 * m), s->h.lo / (2.0 * m) };
   evaluate_rates(s, m);
   if (s->problem.wish & AMBIT_WISH_DENSE) dense_start(s);
+  if (s->spread) choose_frame(s, m);
   for (uint32_t j = 0; j < m; j++) {
     enum why why = piece(s, j, m);
     if (why != WHY_NOTHING) return why;
@@ -140,8 +161,10 @@ static void place_start(stiff *s) {
   double gap[N_MAX] = { 0 }, z[N_MAX];
   square inverse;
   collocation_value(q, 1, x);
+  if (s->spread) spread_place(s);
   for (uint32_t i = 0; i < s->nx; i++) {
     q->x[i] = dd_long(s->end[i]);
+    s->below[i] = dd_sub(s->end[i], dd_of(q->x[i])).hi;
     gap[i] = (double)(x[i] - q->x[i]);
   }
   if (c->fast == 0 || !matrix_inverse(n, c->B, inverse)) return;
@@ -159,7 +182,7 @@ enum why step_make(stiff *s) {
   for (int i = 0; i < REJECTIONS; i++) {
     if (!plan(s, length)) return WHY_SHORT;
     double h = fabs(s->h.hi);
-    if (!collocation_solve(&s->q, s->t, s->h.hi)) {
+    if (!collocation_solve(&s->q, s->t, s->h.hi) || (s->spread && !spread_solve(s))) {
       s->last_why = WHY_NEWTON;
       length = SHRINK_NEWTON * h;
       continue;

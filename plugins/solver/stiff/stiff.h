@@ -1,16 +1,16 @@
 /* stiff.h -- what the files of the stiff plugin share.
 **
 ** A step: collocation gives a polynomial (collocation.h), which is cut into pieces, each with its own exact
-** polynomial P
-** of its own time s in [-1, 1]; on each piece the solution is P(s) + B(s) z(s) with a moving frame B and |z_b| <= w_b
-** for
-** blocks b of components, carried from piece to piece (prove.c). States are followed by parameters, which are states
-** that do not move: n = nx + np. Proofs: docs/numerics/stiff.md.
+** polynomial P of its own time s in [-1, 1], and of the unknowns, if there are some (spread.c); on each piece the
+** solution is P(s) + B(s) z(s) with a moving frame B and |z_b| <= w_b for blocks b of components, carried from piece to
+** piece (prove.c). For sets of many unknowns parameters are states that do not move: n = nx + np.
+** Proofs: docs/numerics/stiff.md.
 */
 #ifndef STIFF_H
 #define STIFF_H
 #include "bound.h"
 #include "collocation.h"
+#include "field.h"
 #include "metzler.h"
 #include "splitting.h"
 
@@ -34,7 +34,7 @@ enum why {
 };
 
 typedef struct options {
-  uint32_t nodes;
+  uint32_t nodes, degree;
   double tolerance, step_max, step_min, width_max;
 } options;
 
@@ -42,6 +42,9 @@ typedef struct options {
 typedef struct frame {
   split split;
   uint32_t order;
+  int natural;         /* states and invariants (natural.c) */
+  int still[N_MAX];    /* components that are invariants: nothing moves them but the defect */
+  double decay[N_MAX]; /* of fast columns, about */
   square U[FRAME_ORDER + 1];
   square C;  /* about U_0^-1 */
   square G;  /* diag(G0, I) */
@@ -66,7 +69,7 @@ typedef struct stiff {
   ambit_problem problem;
   const ambit_num_service *num;
   options options;
-  uint32_t nx, np, n;
+  uint32_t nx, np, n, inputs;  /* inputs: states and parameters of the tapes, before time */
   series rhs, jacobian, slope; /* slope: only with parameters */
   real rhs_real, jacobian_real, slope_real;
   collocation q;
@@ -78,6 +81,23 @@ typedef struct stiff {
   double *start_column;  /* [n x nu] */
   double *start_rest;    /* [n] */
   double *about, *scale; /* [nu] unknown j is about_j + scale_j xi_j */
+
+  /* -- where P is a polynomial of the unknowns too (spread.c): parameters are no states then; rows of terms after 1 */
+  int spread;
+  terms terms;
+  fields rhs_field, jacobian_field;
+  double *start_row, *x_row;   /* [inputs x count] at the start of the run, of the step */
+  double *Z_row, *c_row;       /* [N x nx x count] at the nodes, less the start; Chebyshev coefficients 1 .. N */
+  double *residual_row;        /* [N nx x count] */
+  double *P_row;               /* [nx x count x (N + 1)] */
+  double *end_row, *saved_row; /* [nx x count] */
+  double *set_coefficient;     /* [nx x count] */
+
+  /* -- linear invariants of the right-hand side (natural.c) */
+  uint32_t ninvariant, choice, choices; /* choice 0: eigenvectors, k: natural frame k */
+  double regret[N_MAX + 1];             /* exponents that each choice would have saved */
+  square *natural_C, *natural_U;        /* [choices] exact inverses of each other */
+  int *natural_still;                   /* [choices x nx] */
 
   /* -- the set: end +- (end_error, B w) */
   dd *end;           /* [n] of the last polynomial, or the start */
@@ -100,11 +120,13 @@ typedef struct stiff {
   dd half;              /* eta / 2, exact */
   frame frame, refined; /* refined: scratch of refine.c */
   slopes slopes;
-  double *box;             /* [n] radius of the tube that slopes are over */
-  double *defect;          /* [nx x (N + 1)] coefficients of P' - (eta/2) f(P), and what else is in it */
+  double *box; /* [n] radius of the tube that slopes are over */
+  /* [nx x terms x (N + 1)] coefficients of P' - (eta/2) f(P), and what else is in it */
+  double *defect;
   double *defect_tail;     /* [nx] */
   double *gap, *gap_error; /* [n] where the last polynomial ended, less P(-1) */
   double *radius;          /* [n] bounds the error on the whole piece */
+  double *below;           /* [n] what the step's start has below long double */
   double *shift;           /* [n] bounds how far P is from where slopes were computed */
 
   /* -- the record */
@@ -112,7 +134,7 @@ typedef struct stiff {
   double *limit, *first_rate;          /* [nx] */
   dd *dense_sum;                       /* [nx x (N + 1)] */
   double *dense_mid, *dense_rad;       /* [nx x (N + 1)] */
-  uint32_t *exponent;                  /* [nu] zeros: the set's only term is constant */
+  uint32_t *exponent;                  /* [nu] zeros, where the set's only term is constant */
   double *set_middle, *set_rest;       /* [nx] */
   uint32_t culprit;
   enum why last_why; /* of the last rejected step */
@@ -129,12 +151,34 @@ void stiff_close(void *self);
 /* run.c */
 ambit_status stiff_run(void *self, ambit_sink *sink);
 
+/* spread.c, in round-to-nearest: what has to be done for the terms of the unknowns */
+ambit_status spread_read(stiff *s);                                     /* at open: start, start_row, start_rest */
+int spread_open(stiff *s);                                              /* 0: no memory */
+void spread_start(stiff *s);                                            /* x_row and end_row from the run's start */
+int spread_solve(stiff *s);                                             /* the collocation of each term; 0: failed */
+void spread_cut(stiff *s, const dd *table);                             /* P_row from Chebyshev coefficients */
+void spread_keep(stiff *s, int back);                                   /* end_row saved, or brought back */
+void spread_place(stiff *s);                                            /* x_row := the step's end */
+double spread_gap(const stiff *s, uint32_t i);                          /* bounds what the rows of state i are off */
+double spread_end(stiff *s, uint32_t i);                                /* end_row of state i; returns its error */
+double spread_reach(const stiff *s, uint32_t i);                        /* >= |rows of P_i| on the piece */
+void spread_put(const stiff *s, fields *to, const double *box);         /* inputs but time */
+void spread_defect(stiff *s, uint32_t i, const field *f, double *rest); /* rows of defect; rest gets what is left */
+
+/* natural.c, in round-to-nearest */
+int natural_open(stiff *s); /* 0: no memory */
+void natural_frame(stiff *s, uint32_t choice);
+/* frame of the next step: the one in which errors are bounded to grow least; slopes over piece j have been computed */
+void natural_choose(stiff *s, uint32_t j, uint32_t pieces);
+
 /* step.c, in round-to-nearest */
 enum why step_make(stiff *s); /* the set and the tube, from t to t_next, which it chooses */
 
 /* pieces.c */
 void pieces_fill(dd *table, uint32_t N);
 size_t pieces_table_size(uint32_t N);
+/* powers of a piece's time in the step's Chebyshev polynomials [(N + 1) x (N + 1)] */
+const dd *pieces_table(const stiff *s, uint32_t level, uint32_t j);
 /* P := the step's polynomial on piece j of 2^(level + 2), in its own time */
 void pieces_cut(stiff *s, uint32_t level, uint32_t j);
 

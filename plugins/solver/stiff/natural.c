@@ -1,0 +1,201 @@
+/* natural.c -- frames of states and of linear invariants, for sets in which eigenvectors turn too much.
+**
+** Where slopes vary by 1 percent over the unknowns, the frame of the centre's eigenvectors lets each fast direction
+** leak 1 percent of its rate into slow ones and back, and bounds grow with 1e-4 of that rate. In coordinates of the
+** states, of which some are replaced by invariants w . x, those exchanges are what they are in the equations, and often
+** small.
+** An integer w with w . f = 0 is found from the sums and differences that end the tape of f: coefficients of everything
+** else must cancel exactly. Then w . e moves by the defect alone: its row of the matrix is zero.
+*/
+#include "stiff.h"
+#include <string.h>
+
+#define LARGEST 1e6  /* of integers: products of two are exact */
+#define GAIN 1.0     /* in the exponent of growth, that makes another frame worth a change */
+#define HOPELESS 1e3 /* exponent of a frame that cannot be used */
+
+/* -- invariants: integer combinations of rows that vanish */
+
+/* coefficients of output i over slots that are no sum */
+static void linear_form(const ambit_tape *t, uint32_t i, double *c) {
+  memset(c, 0, t->nslot * sizeof *c);
+  c[t->out[i]] = 1;
+  for (uint32_t k = t->ninstr; k-- > 0;) {
+    double x = c[t->dst[k]];
+    if (x == 0) continue;
+    switch (t->op[k]) {
+    case AMBIT_OP_ADD: c[t->a[k]] += x, c[t->b[k]] += x; break;
+    case AMBIT_OP_SUB: c[t->a[k]] += x, c[t->b[k]] -= x; break;
+    case AMBIT_OP_NEG: c[t->a[k]] -= x; break;
+    default: continue;
+    }
+    c[t->dst[k]] = 0;
+  }
+  for (uint32_t k = 0; k < t->nconst; k++)
+    if (t->lo[k] == 0 && t->hi[k] == 0) c[k] = 0;
+}
+
+static double common_divisor(double a, double b) {
+  while (b != 0) {
+    double rest = fmod(a, b);
+    a = b, b = rest;
+  }
+  return fabs(a);
+}
+
+/* row := (row p - pivot q) / their common divisor, all integers; 0: too large */
+static int reduce(size_t n, double *row, const double *pivot, double p, double q) {
+  double divisor = 0;
+  for (size_t k = 0; k < n; k++) {
+    row[k] = row[k] * p - pivot[k] * q;
+    if (!(fabs(row[k]) < LARGEST)) return 0;
+    divisor = common_divisor(divisor, row[k]);
+  }
+  for (size_t k = 0; k < n && divisor > 1; k++) row[k] /= divisor;
+  return 1;
+}
+
+/* w [at most nx x nx]; rows [nx x (nslot + nx)] is scratch */
+static uint32_t find_invariants(const stiff *s, double *rows, double *w) {
+  const ambit_tape *t = s->problem.rhs;
+  uint32_t nx = s->nx, found = 0, done = 0;
+  size_t n = t->nslot + nx;
+  for (uint32_t i = 0; i < nx; i++) {
+    linear_form(t, i, rows + i * n);
+    for (uint32_t k = 0; k < nx; k++) rows[i * n + t->nslot + k] = i == k;
+  }
+  for (size_t col = 0; col < t->nslot && done < nx; col++) {
+    uint32_t pivot = done;
+    while (pivot < nx && rows[pivot * n + col] == 0) pivot++;
+    if (pivot == nx) continue;
+    for (size_t k = 0; k < n && pivot != done; k++) {
+      double x = rows[pivot * n + k];
+      rows[pivot * n + k] = rows[done * n + k], rows[done * n + k] = x;
+    }
+    for (uint32_t i = done + 1; i < nx; i++) {
+      double q = rows[i * n + col];
+      if (q != 0 && !reduce(n, rows + i * n, rows + done * n, rows[done * n + col], q)) return 0;
+    }
+    done++;
+  }
+  for (uint32_t i = done; i < nx; i++, found++) memcpy(w + found * nx, rows + i * n + t->nslot, nx * sizeof *w);
+  return found;
+}
+
+/* -- frames */
+
+/* the state that invariant k takes the place of in frame `choice` - 1, of those with coefficient +-1; nx: none */
+static uint32_t place_of(const stiff *s, const double *w, uint32_t choice, const int *taken) {
+  uint32_t units[N_MAX], count = 0;
+  for (uint32_t i = 0; i < s->nx; i++)
+    if (fabs(w[i]) == 1 && !taken[i]) units[count++] = i;
+  return count ? units[choice % count] : s->nx;
+}
+
+/* C with rows of w, U its exact inverse; 0: not both of integers */
+static int fill(stiff *s, const double *w, uint32_t choice) {
+  uint32_t n = s->nx;
+  double *C = s->natural_C[choice], *U = s->natural_U[choice];
+  int *still = s->natural_still + choice * n;
+  for (uint32_t i = 0; i < n * n; i++) C[i] = i % (n + 1) == 0;
+  for (uint32_t k = 0; k < s->ninvariant; k++) {
+    uint32_t i = place_of(s, w + k * n, choice, still);
+    if (i == n) continue;
+    memcpy(C + i * n, w + k * n, n * sizeof *C);
+    still[i] = 1;
+  }
+  if (!matrix_inverse(n, C, U)) return 0;
+  for (uint32_t i = 0; i < n * n; i++) U[i] = rint(U[i]);
+  square product;
+  matrix_multiply(n, n, n, C, U, product); /* exact: small integers */
+  for (uint32_t i = 0; i < n * n; i++)
+    if (product[i] != (i % (n + 1) == 0) || !(fabs(U[i]) < LARGEST)) return 0;
+  return 1;
+}
+
+int natural_open(stiff *s) {
+  const ambit_host *h = s->host;
+  uint32_t nx = s->nx;
+  double *w = h->alloc(h, (size_t)nx * nx * sizeof *w);
+  double *rows = h->alloc(h, nx * ((size_t)s->problem.rhs->nslot + nx) * sizeof *rows);
+  if (!w || !rows) return 0;
+  s->ninvariant = find_invariants(s, rows, w);
+  uint32_t wanted = s->ninvariant ? nx : 1;
+  s->natural_C = h->alloc(h, wanted * sizeof *s->natural_C);
+  s->natural_U = h->alloc(h, wanted * sizeof *s->natural_U);
+  s->natural_still = h->alloc(h, (size_t)wanted * nx * sizeof *s->natural_still);
+  if (!s->natural_C || !s->natural_U || !s->natural_still) return 0;
+  size_t bytes = (size_t)nx * nx * sizeof(double);
+  while (s->choices < wanted && fill(s, w, s->choices)) {
+    if (s->choices > 0 && memcmp(s->natural_C[s->choices], s->natural_C[0], bytes) == 0) break; /* they repeat */
+    s->choices++;
+  }
+  return 1;
+}
+
+void natural_frame(stiff *s, uint32_t choice) {
+  frame *r = &s->frame;
+  uint32_t n = s->n;
+  square X, Y;
+  r->order = 0, r->natural = 1;
+  memcpy(r->C, s->natural_C[choice - 1], (size_t)n * n * sizeof(double));
+  memcpy(r->U[0], s->natural_U[choice - 1], (size_t)n * n * sizeof(double));
+  memcpy(r->still, s->natural_still + (size_t)(choice - 1) * n, n * sizeof *r->still);
+  r->split.slow = 0, r->split.fast = r->split.blocks = n;
+  for (uint32_t i = 0; i < n * n; i++) r->G[i] = r->Gi[i] = i % (n + 1) == 0;
+  frame_apply_slopes(s, 0, n, r->U[0], X);
+  matrix_multiply(n, n, n, r->C, X, Y);
+  for (uint32_t i = 0; i < n; i++) {
+    r->split.block[i] = i;
+    r->decay[i] = fmax(-Y[i * n + i], 0);
+  }
+}
+
+/* -- which one */
+
+static AMBIT_WORKER int bound_up(stiff *s, double *M) {
+  matrix_bounds A;
+  if (!frame_verify(s)) return 0;
+  rates_bound(s, &A);
+  rates_in_blocks(s, &A, M);
+  return 1;
+}
+
+/* the largest eigenvalue of the comparison matrix, about */
+static double growth(stiff *s) {
+  square M, padded; /* to the size that the eigenvalue solver was opened for */
+  double one[N_MAX], least = -1;
+  spectrum e;
+  uint32_t m = s->frame.split.blocks, n = s->n;
+  ambit_rounding nearest = ambit_round_up();
+  int good = bound_up(s, M);
+  ambit_rounding_restore(nearest);
+  for (uint32_t i = 0; i < m * m; i++) good &= isfinite(M[i]), least = fmin(least, M[i]);
+  if (!good) return INFINITY;
+  for (uint32_t i = 0; i < n; i++)
+    for (uint32_t k = 0; k < n; k++) padded[i * n + k] = i < m && k < m ? M[i * m + k] : i == k ? least : 0;
+  for (uint32_t i = 0; i < n; i++) one[i] = 1;
+  eigen_find(s->eigen, n, padded, one, &e);
+  return e.ok ? e.real[n - 1] : INFINITY;
+}
+
+/* A change costs about a factor: it is made when another frame would have saved GAIN by now. */
+void natural_choose(stiff *s, uint32_t j, uint32_t pieces) {
+  double now[N_MAX + 1];
+  uint32_t best = s->choice;
+  for (uint32_t c = 0; c <= s->choices; c++) {
+    int good = 1;
+    if (c)
+      natural_frame(s, c);
+    else
+      good = frame_choose(s, j);
+    now[c] = good ? fmin(growth(s) * 2 * pieces, HOPELESS) : HOPELESS;
+  }
+  for (uint32_t c = 0; c <= s->choices; c++) {
+    s->regret[c] = fmax(s->regret[c] + now[s->choice] - now[c], 0);
+    if (s->regret[c] > GAIN && (best == s->choice || s->regret[c] > s->regret[best])) best = c;
+  }
+  if (best == s->choice) return;
+  s->choice = best;
+  memset(s->regret, 0, sizeof s->regret);
+}
