@@ -9,11 +9,7 @@
 */
 #define _POSIX_C_SOURCE 200809L
 #include "../tests/kit/reference_models.h"
-#include "model/simulate.h"
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "solver_bench.h"
 #include <sys/resource.h>
 
 #define STATES 16
@@ -112,46 +108,35 @@ static void report(const watcher *w, const ambit_simulate_result *result, double
   printf("\n");
 }
 
-/* the fastest of several runs */
-static void run(const problem *p, size_t noption, const ambit_option *option, ambit_registry *registry) {
+static void again(ambit_sink *sink) {
+  watcher *w = (watcher *)(void *)sink;
+  *w = (watcher) { .sink = w->sink, .p = w->p, .next = 1, .nx = w->nx };
+}
+
+static void run(const problem *p, const bench_arguments *arguments, ambit_registry *registry) {
   model m;
   p->build(&m);
-  watcher w = { 0 };
+  watcher w = { .sink = { sizeof(ambit_sink), watch, NULL }, .p = p, .nx = m.system.nx };
+  const ambit_simulate_request q = { .system = &m.system,
+    .registry = registry,
+    .solver = "lohner",
+    .nsolver_option = arguments->noption,
+    .solver_option = arguments->option,
+    .initial = m.initial,
+    .ntime = p->ntime,
+    .time = p->time,
+    .sink = &w.sink };
   ambit_simulate_result result = { 0 };
-  double best = INFINITY;
-  for (int i = 0; i < REPEATS; i++) {
-    w = (watcher) { .sink = { sizeof(ambit_sink), watch, NULL }, .p = p, .next = 1, .nx = m.system.nx };
-    const ambit_simulate_request q = { .system = &m.system,
-      .registry = registry,
-      .solver = "lohner",
-      .nsolver_option = noption,
-      .solver_option = option,
-      .initial = m.initial,
-      .ntime = p->ntime,
-      .time = p->time,
-      .sink = &w.sink };
-    if (ambit_simulate(&q, &result, NULL, &m.failure) != AMBIT_OK) {
-      fprintf(stderr, "%s: %s\n", p->name, m.failure.message);
-      exit(1);
-    }
-    best = fmin(best, result.cpu_seconds);
-  }
+  double best = bench_fastest(p->name, &q, REPEATS, again, &result);
   report(&w, &result, best);
   model_close(&m);
 }
 
 int main(int argc, char **argv) {
-  ambit_option option[16];
-  size_t noption = 0;
-  for (int i = 2; i < argc && noption < 16; i++) {
-    char *equal = strchr(argv[i], '=');
-    if (!equal) continue;
-    *equal = '\0';
-    option[noption++] = (ambit_option) { argv[i], equal + 1 };
-  }
+  bench_arguments arguments = bench_read(argc, argv);
   ambit_registry *registry = ambit_registry_open(NULL);
   for (size_t i = 0; i < sizeof problems / sizeof *problems; i++)
-    if (argc < 2 || strcmp(argv[1], problems[i].name) == 0) run(&problems[i], noption, option, registry);
+    if (bench_wants(&arguments, problems[i].name)) run(&problems[i], &arguments, registry);
   ambit_registry_close(registry);
   return 0;
 }

@@ -7,11 +7,7 @@
 */
 #define _POSIX_C_SOURCE 200809L
 #include "../tests/kit/stiff_models.h"
-#include "model/simulate.h"
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "solver_bench.h"
 
 #define REPEATS 3
 #define STATES 24
@@ -76,7 +72,6 @@ static const problem problems[] = {
 typedef struct watcher {
   ambit_sink sink; /* first */
   size_t nx;
-  int talks;
   double lo[STATES], hi[STATES];
 } watcher;
 
@@ -85,11 +80,6 @@ static int32_t watch(ambit_sink *sink, const ambit_record *r) {
   w->nx = r->nx;
   memcpy(w->lo, r->lo, r->nx * sizeof(double));
   memcpy(w->hi, r->hi, r->nx * sizeof(double));
-  if (w->talks) {
-    fprintf(stderr, "t = %.12g, step %.3g:", r->t_to, r->t_to - r->t_from);
-    for (size_t i = 0; i < r->nx; i++) fprintf(stderr, " %.9g +- %.2g", r->lo[i], 0.5 * (r->hi[i] - r->lo[i]));
-    fprintf(stderr, "\n");
-  }
   return 0;
 }
 
@@ -113,48 +103,33 @@ static void report(const problem *p, const watcher *w, const ambit_simulate_resu
   if (result->reason[0]) printf("          ended: %s\n", result->reason);
 }
 
-/* the fastest of several runs */
-static void run(const problem *p, size_t noption, const ambit_option *option, ambit_registry *registry) {
+static void again(ambit_sink *sink) { ((watcher *)(void *)sink)->nx = 0; }
+
+static void run(const problem *p, const bench_arguments *arguments, ambit_registry *registry) {
   model m;
   p->build(&m);
   const double time[] = { p->from, p->to };
-  watcher w = { 0 };
+  watcher w = { .sink = { sizeof(ambit_sink), watch, NULL } };
+  const ambit_simulate_request q = { .system = &m.system,
+    .registry = registry,
+    .solver = "stiff",
+    .nsolver_option = arguments->noption,
+    .solver_option = arguments->option,
+    .initial = m.initial,
+    .ntime = 2,
+    .time = time,
+    .sink = &w.sink };
   ambit_simulate_result result = { 0 };
-  double best = INFINITY;
-  int talks = getenv("STIFF_WATCH") != NULL;
-  for (int i = 0; i < (talks ? 1 : REPEATS); i++) {
-    w = (watcher) { .sink = { sizeof(ambit_sink), watch, NULL }, .talks = talks };
-    const ambit_simulate_request q = { .system = &m.system,
-      .registry = registry,
-      .solver = "stiff",
-      .nsolver_option = noption,
-      .solver_option = option,
-      .initial = m.initial,
-      .ntime = 2,
-      .time = time,
-      .sink = &w.sink };
-    if (ambit_simulate(&q, &result, NULL, &m.failure) != AMBIT_OK) {
-      fprintf(stderr, "%s: %s\n", p->name, m.failure.message);
-      exit(1);
-    }
-    best = fmin(best, result.cpu_seconds);
-  }
+  double best = bench_fastest(p->name, &q, REPEATS, again, &result);
   report(p, &w, &result, best);
   model_close(&m);
 }
 
 int main(int argc, char **argv) {
-  ambit_option option[16];
-  size_t noption = 0;
-  for (int i = 2; i < argc && noption < 16; i++) {
-    char *equal = strchr(argv[i], '=');
-    if (!equal) continue;
-    *equal = '\0';
-    option[noption++] = (ambit_option) { argv[i], equal + 1 };
-  }
+  bench_arguments arguments = bench_read(argc, argv);
   ambit_registry *registry = ambit_registry_open(NULL);
   for (size_t i = 0; i < sizeof problems / sizeof *problems; i++)
-    if (argc < 2 || strcmp(argv[1], problems[i].name) == 0) run(&problems[i], noption, option, registry);
+    if (bench_wants(&arguments, problems[i].name)) run(&problems[i], &arguments, registry);
   ambit_registry_close(registry);
   return 0;
 }

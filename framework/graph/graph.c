@@ -38,13 +38,10 @@ static uint32_t hash_node(const ambit_node *node) {
   return (uint32_t)(h >> 32);
 }
 
-static bool same_text(const char *x, const char *y) { return x && y ? strcmp(x, y) == 0 : x == y; }
-
 static bool same_node(const ambit_node *x, const ambit_node *y) {
   if (x->op != y->op || x->a != y->a || x->b != y->b) return false;
   if (!ambit_op_is_leaf(x->op)) return true;
-  if (!same_text(x->unit, y->unit)) return false; /* `q` of a hinge is not `q` of a slider */
-  if (x->text || y->text) return same_text(x->text, y->text);
+  if (x->text || y->text) return x->text && y->text && strcmp(x->text, y->text) == 0;
   return x->value.lo == y->value.lo && x->value.hi == y->value.hi;
 }
 

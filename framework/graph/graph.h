@@ -50,7 +50,7 @@ ambit_expr ambit_graph_decimal(ambit_graph *g, const char *text, ambit_failure *
 ambit_expr ambit_graph_pi(ambit_graph *g);
 /* fresh at each call; name may be NULL */
 ambit_expr ambit_graph_unknown(ambit_graph *g, const char *name, ambit_interval range);
-/* the same name and unit are the same node */
+/* the same name is the same node */
 ambit_expr ambit_graph_symbol(ambit_graph *g, const char *name, const char *unit);
 ambit_expr ambit_graph_time(ambit_graph *g);
 

@@ -154,6 +154,12 @@ static int coordinates(lua_State *L) {
   return 1;
 }
 
+/* coordinate_unit(mechanism, expression) -> unit of the coordinate that it is; nil: it is none */
+static int coordinate_unit(lua_State *L) {
+  lua_pushstring(L, ambit_mechanism_coordinate_unit(self(L), ambit_lua_to_expression(L, 2, NULL, NULL).e));
+  return 1;
+}
+
 /* speeds(mechanism) -> {{name, unit, part, u, du, du_name}, ...} */
 static int speeds(lua_State *L) {
   ambit_mechanism *m = self(L);
@@ -175,7 +181,8 @@ void ambit_lua_open_mechanism(lua_State *L, ambit_lua *core) {
   static const luaL_Reg meta[] = { { "__gc", close }, { NULL, NULL } };
   static const luaL_Reg functions[] = { { "mechanism", mechanism }, { "add", add }, { "pull", pull },
     { "written_by", written_by }, { "part_name", part_name }, { "pulled", pulled }, { "part_pulled", part_pulled },
-    { "part_count", count }, { "coordinates", coordinates }, { "speeds", speeds }, { NULL, NULL } };
+    { "part_count", count }, { "coordinates", coordinates }, { "coordinate_unit", coordinate_unit },
+    { "speeds", speeds }, { NULL, NULL } };
   static const struct {
     const char *name;
     lua_Integer value;

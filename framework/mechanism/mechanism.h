@@ -69,6 +69,8 @@ typedef struct ambit_multiplier {
 /* Each returns their number and writes at most `room`; multipliers: of those whose wrench has been pulled. A failure of
 ** pulling leaves the joint out; pull it yourself to hear why. */
 size_t ambit_mechanism_coordinates(ambit_mechanism *m, size_t room, ambit_coordinate *out);
+/* unit of a coordinate that has been made; NULL: q is none. Pulls nothing. */
+const char *ambit_mechanism_coordinate_unit(const ambit_mechanism *m, ambit_expr q);
 size_t ambit_mechanism_speeds(ambit_mechanism *m, size_t room, ambit_speed *out);
 size_t ambit_mechanism_multipliers(ambit_mechanism *m, size_t room, ambit_multiplier *out);
 #endif

@@ -179,6 +179,12 @@ size_t ambit_mechanism_coordinates(ambit_mechanism *m, size_t room, ambit_coordi
   return n;
 }
 
+const char *ambit_mechanism_coordinate_unit(const ambit_mechanism *m, ambit_expr q) {
+  for (size_t i = 0; i < m->ncoordinate; i++)
+    if (m->coordinate[i].q == q) return m->coordinate[i].unit;
+  return NULL;
+}
+
 size_t ambit_mechanism_speeds(ambit_mechanism *m, size_t room, ambit_speed *out) {
   size_t n = 0;
   for (uint32_t i = 0; i < m->count; i++) {

@@ -65,9 +65,9 @@ local function fitting(self, d, t, param)
     if port.kind == "joint" and port.role == "in" and t[port.name] ~= nil then
       local part, number = frame.place(self, t[port.name], "joint", param.what)
       local q = core.pull(self.handle, part, number, core.COORDINATE, 1)[1]
-      local leaf = core.leaves({ q })[1]
-      if leaf and leaf.expression == q then -- else a given motion
-        local turns = leaf.unit == "rad"
+      local of_joint = core.coordinate_unit(self.handle, q) -- the graph's may be that of a namesake elsewhere
+      if of_joint then -- else a given motion
+        local turns = of_joint == "rad"
         local unit = turns and turning or sliding
         if unit == "" then
           check.fail("%s: it is in %s, but the joint `%s` %s", param.what, parameter.unit_text(param),

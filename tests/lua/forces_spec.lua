@@ -472,3 +472,16 @@ describe("units of joint forces", function()
     m:armature { joint = slides, mass = "3 kg" }
   end)
 end)
+
+describe("the unit of a joint's data", function()
+  it("is that of the joint, whatever else has its name", function()
+    ambit.ode { states = { "shared" }, equations = function(s) return { shared = -s.shared } end }
+    local m = ambit.mechanism { "hinge", gravity = { 0, 0, 0 } }
+    local at, joint = m:revolute { from = m.world, axis = "z", name = "shared" }
+    m:rigid_body { at = at, mass = 1, inertia = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } }
+    m:joint_spring { joint = joint, stiffness = "4 N m/rad" }
+    m:joint_torque { joint = joint, torque = "1 N m" }
+    assert.equal("complete", ambit.simulate { m:dynamics(), initial = { shared = 0, ["shared'"] = 0 }, t = "0.1",
+      solver = "lohner" }.status)
+  end)
+end)

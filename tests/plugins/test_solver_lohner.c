@@ -1,9 +1,8 @@
 /* The Lohner integrator: it passes the kit of solvers in every configuration and over any arithmetic, and the kit
 ** would notice if the remainder were missing. */
-#include "solver_case.h"
+#include "solver_lies.h"
 #include "kit/reference_models.h"
 #include "model/simulate.h"
-#include <ambit/jet.h>
 
 static void passes_the_kit(void **unused) {
   (void)unused;
@@ -13,12 +12,8 @@ static void passes_the_kit(void **unused) {
     { "step", "taylor" }, { "step", "hermite_obreschkoff" } };
   solver_case c;
   case_open(&c, "lohner", "interval");
-  assert_int_equal(c.kit.plugin->needs_rigorous, 1);
   c.kit.gives = AMBIT_WISH_DENSE | AMBIT_WISH_SET;
-  for (size_t i = 0; i < sizeof option / sizeof *option; i++) {
-    size_t findings = case_findings(&c, option[i].name, option[i].text);
-    if (findings) fail_msg("%s = %s: %zu findings", option[i].name, option[i].text, findings);
-  }
+  case_passes(&c, sizeof option / sizeof *option, option);
   case_close(&c);
 }
 
@@ -33,13 +28,6 @@ static void passes_over_general_series(void **unused) {
 }
 
 /* -- teeth: series services that lie */
-
-static const void *(*kernel_service)(const ambit_host *h, const char *id);
-static ambit_jet_service truthful, lying;
-
-static const void *lie(const ambit_host *h, const char *id) {
-  return strcmp(id, AMBIT_JET_SERVICE) == 0 ? &lying : kernel_service(h, id);
-}
 
 /* remainders a million times too small */
 static ambit_status small_tail(ambit_jet *jet, uint32_t K, double h, const double *tail_in, const double *dtail_in,
@@ -66,14 +54,8 @@ static void no_error_get(
 static void the_kit_has_teeth(void **unused) {
   (void)unused;
   solver_case c;
-  ambit_lease *lease;
   case_open(&c, "lohner", "interval");
-  assert_int_equal(ambit_lease_open(&lease, NULL, NULL), AMBIT_OK);
-  kernel_service = lease->host.service;
-  truthful = *(const ambit_jet_service *)kernel_service(&lease->host, AMBIT_JET_SERVICE);
-  ambit_lease_close(lease);
-  c.kit.service = lie;
-  lying = truthful;
+  lies(&c);
   assert_int_equal(case_findings(&c, NULL, NULL), 0);
   c.kit.finding = case_hide;
   lying.tail = small_tail;
@@ -136,38 +118,14 @@ static void many_steps_need_no_more_memory(void **unused) {
 
 /* -- options */
 
-static ambit_status try_option(const solver_case *c, size_t i, double value, char *message) {
-  double option[16];
-  ambit_lease *lease;
-  void *self = NULL;
-  const ambit_problem problem = { .size = sizeof problem };
-  assert_int_equal(ambit_params_resolve(c->kit.plugin->param, "lohner", 0, NULL, option, NULL), AMBIT_OK);
-  option[i] = value;
-  assert_int_equal(ambit_lease_open(&lease, NULL, NULL), AMBIT_OK);
-  ambit_status status = c->kit.plugin->open(&lease->host, &problem, option, &self);
-  snprintf(message, AMBIT_MESSAGE_MAX, "%s", lease->failure.message);
-  ambit_lease_close(lease);
-  return status;
-}
-
 static void bad_options_are_refused_by_name(void **unused) {
   (void)unused;
-  static const struct {
-    const char *name;
-    double value;
-  } bad[] = { { "order", 3 }, { "order", 61 }, { "jacobian_order", 2 }, { "jacobian_order", 99 }, { "tolerance", -1 },
-    { "tolerance", NAN }, { "history", -1 }, { "history", 1e9 }, { "pieces", 0 }, { "pieces", 17 }, { "step_max", 0 },
-    { "step_max", NAN }, { "step_min", -1 }, { "width_max", -1 }, { "width_max", NAN } };
+  static const case_option bad[] = { { "order", 3 }, { "order", 61 }, { "jacobian_order", 2 }, { "jacobian_order", 99 },
+    { "tolerance", -1 }, { "tolerance", NAN }, { "history", -1 }, { "history", 1e9 }, { "pieces", 0 }, { "pieces", 17 },
+    { "step_max", 0 }, { "step_max", NAN }, { "step_min", -1 }, { "width_max", -1 }, { "width_max", NAN } };
   solver_case c;
   case_open(&c, "lohner", "interval");
-  const ambit_param *param = c.kit.plugin->param;
-  for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-    size_t at = 0;
-    char message[AMBIT_MESSAGE_MAX];
-    while (strcmp(param[at].name, bad[i].name) != 0) at++;
-    assert_int_equal(try_option(&c, at, bad[i].value, message), AMBIT_INVALID);
-    if (!strstr(message, bad[i].name)) fail_msg("`%s` is not named by: %s", bad[i].name, message);
-  }
+  case_refuses(&c, sizeof bad / sizeof *bad, bad);
   case_close(&c);
 }
 

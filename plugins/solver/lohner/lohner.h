@@ -35,6 +35,7 @@ enum why {
   WHY_CENTRE,  /* the right-hand side has no series at the midpoint */
   WHY_BOX,     /* nor over the whole set */
   WHY_NO_STEP, /* no step that is long enough could be proved */
+  WHY_CREEP,   /* steps shrink so fast that the end is out of reach */
   WHY_WIDE,
   WHY_APART, /* the set does not meet an invariant */
   WHY_STOPPED
@@ -47,7 +48,18 @@ typedef struct options {
   uint32_t order, slope_order, slope_order_max; /* slope orders: to start with, and most */
   uint32_t history, pieces, formula;
   double tolerance, step_max, step_min, width_max;
+  int patient; /* step_min was given, and alone decides when steps are too short */
 } options;
+
+/* how long steps are (pace.c) */
+typedef struct stretch {
+  double from, longest; /* time at its start; longest step planned in it */
+  uint64_t wide;        /* steps in it over wide sets */
+} stretch;
+typedef struct pace {
+  uint64_t steps, until; /* done; end of this stretch, twice as far as that of the last one */
+  stretch stretch[3];    /* the one before the last, the last, this one */
+} pace;
 
 /* k invariants, linear over the set: 0 in value +- varies + slope (xi, G e + low) (invariant.c), and the gain that uses
 ** them (contract.c) */
@@ -109,13 +121,15 @@ typedef struct lohner {
   /* -- the step */
   double t, t_next;
   span step;
-  int at_instant;                             /* the step ends on an instant of the problem */
-  int corrected;                              /* slopes at the end are those of the corrector */
-  int wide;                                   /* slopes varied over the set in the last step */
-  int lenient;                                /* about states that start from zero (step.c) */
-  uint32_t slope_order, next_slope_order;     /* of this step, and of the next */
-  double guess, longest;                      /* next step length to try; what its slopes are likely to allow */
-  uint32_t next;                              /* the instant ahead */
+  int at_instant;                         /* the step ends on an instant of the problem */
+  int corrected;                          /* slopes at the end are those of the corrector */
+  int wide;                               /* slopes varied over the set in the last step */
+  double varies;                          /* how much, relative to the set */
+  int lenient;                            /* about states that start from zero (step.c) */
+  uint32_t slope_order, next_slope_order; /* of this step, and of the next */
+  double guess, longest;                  /* next step length to try; what its slopes are likely to allow */
+  uint32_t next;                          /* the instant ahead */
+  pace pace;
   double *series_mid, *series_rad;            /* [nx x (order + 1)] of the centre */
   double *slope_mid, *slope_rad;              /* [nx x (slope_order + 1) x ndir] over the box */
   double *excess, *box_excess, *slope_excess; /* [nx] [nx] [nx x ndir] what the polynomials lack on the step */
@@ -158,6 +172,10 @@ ambit_status lohner_run(void *self, ambit_sink *sink);
 /* step.c */
 double lohner_share_of_time(const lohner *s); /* that of the step in the run, 1 if it is a large one */
 enum why lohner_find_step(lohner *s);         /* series, a length, and its proof */
+
+/* pace.c */
+void lohner_start_pace(lohner *s);
+int lohner_creeps(lohner *s); /* to be asked after each step */
 
 /* series.c: coefficients of jets, values of polynomials */
 uint32_t lohner_centre_series(lohner *s);

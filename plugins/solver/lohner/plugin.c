@@ -21,7 +21,9 @@ static const ambit_param param[] = {
       "formula for the slopes over a step: Taylor, explicit; Hermite-Obreschkoff, implicit; auto: Taylor, and "
       "Hermite-Obreschkoff where slopes of the highest order limit the step" },
   { "step_max", "s", "", "inf", "longest step" },
-  { "step_min", "s", "", "0", "shortest step that is tried before the run gives up; 0: 2^-40 of the time span" },
+  { "step_min", "s", "", "0",
+      "shortest step that is tried before the run gives up; 0: 2^-40 of the time span, and over wide sets also when "
+      "steps shrink so fast that the end is out of reach" },
   { "width_max", "1", "", "0",
       "the run ends when a state is wider than this times its initial magnitude (at least times 1); 0: than 10 times "
       "the "

@@ -68,6 +68,7 @@ static enum why integrate(lohner *s, ambit_sink *sink) {
     enum why why = advance(s);
     if (why != WHY_NOTHING) return why;
     if (emit(s, sink, t_from)) return WHY_STOPPED;
+    if (lohner_creeps(s) && s->next < s->problem.ntime) return WHY_CREEP;
   }
   return WHY_NOTHING;
 }
@@ -142,6 +143,12 @@ static ambit_status explain(const lohner *s, enum why why) {
         "the enclosure of `%s` grew wider than %.4g in the step from t = %.9g s%s; split the initial set, raise "
         "`pieces`, or allow more by `width_max`",
         s->problem.name[s->culprit], s->limit[s->culprit], s->t, rank);
+  case WHY_CREEP:
+    return h->fail(h, AMBIT_UNABLE,
+        "at t = %.9g s steps over an enclosure up to %.3g wide, now of %.3g s, are so short that the end is out of "
+        "reach: a solution may escape near here%s; if not, split the initial set, raise `tolerance`, or give a "
+        "`step_min` to go on",
+        s->t, width(s), s->guess, rank);
   default:
     return h->fail(h, AMBIT_UNABLE,
         "at t = %.9g s no step of at least %.3g s could be proved, with an enclosure up to %.3g wide: a solution may "

@@ -33,10 +33,11 @@ static double curvature(const lohner *s, uint32_t j) {
 static uint32_t choose_cuts(lohner *s) {
   uint32_t pieces = 1;
   double least = CURVED * lohner_share_of_time(s);
-  s->wide = 0;
+  s->wide = 0, s->varies = 0;
   for (uint32_t j = 0; j < s->ndir; j++) {
     double varies = curvature(s, j);
     s->wide |= varies > least;
+    s->varies = larger(s->varies, varies);
     if (j < s->nc) s->cuts[j] = 1, s->curvature[j] = varies;
   }
   while (!s->corrected && 2 * pieces <= s->options.pieces) {

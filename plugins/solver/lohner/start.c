@@ -71,7 +71,8 @@ static options choose_options(const ambit_problem *p, const double *o) {
     .formula = (uint32_t)o[OPTION_FORMULA],
     .step_max = o[OPTION_STEP_MAX],
     .step_min = o[OPTION_STEP_MIN],
-    .width_max = o[OPTION_WIDTH_MAX] };
+    .width_max = o[OPTION_WIDTH_MAX],
+    .patient = o[OPTION_STEP_MIN] != 0 };
   r.tolerance = larger(o[OPTION_TOLERANCE], LEAST_TOLERANCE);
   double counted = smaller(r.tolerance, 1e-3);
   r.order = o[OPTION_ORDER] != 0 ? (uint32_t)o[OPTION_ORDER] : automatic_order(counted);
@@ -267,8 +268,9 @@ enum why lohner_start(lohner *s) {
   if (lohner_contract(s, s->t, 1) != WHY_NOTHING) return WHY_APART;
   lohner_note_rank(s);
   for (uint32_t i = 0; i < s->nx; i++) s->size[i] = larger(fabs(s->lo[i]), fabs(s->hi[i]));
+  lohner_start_pace(s);
   s->next = 1;
-  s->wide = 0;
+  s->wide = 0, s->varies = 0;
   s->longest = INFINITY;
   s->next_slope_order = s->options.slope_order;
   s->guess = smaller(fabs(p->time[1] - p->time[0]), s->options.step_max);

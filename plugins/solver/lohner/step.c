@@ -21,6 +21,7 @@
 #define BEND 0.3
 #define TINY 0x1p-1000  /* so that zero is its own proof */
 #define SLOPPY 0x1p-10  /* most that the excess of slopes may add to the set in a step, relative, ... */
+#define NEAT 0x1p-13    /* the same where data would lose little else, because slopes hardly vary over the set */
 #define MANY_STEPS 64   /* ... in a run of so many steps; of longer runs less, so that the sum stays bounded */
 #define WIDE_SHARE 1e-9 /* of a wide set's radius that truncation may add */
 
@@ -226,7 +227,8 @@ double lohner_share_of_time(const lohner *s) {
 ** component. */
 static double bluntness(lohner *s, const double *added) {
   uint32_t n = s->ndir, q = s->slope_order;
-  double H = s->step.length, worst = 0, share = SLOPPY * lohner_share_of_time(s);
+  double H = s->step.length, worst = 0, share = lohner_share_of_time(s);
+  share *= s->nc == 0 ? SLOPPY : smaller(SLOPPY, larger(NEAT, s->varies));
   for (uint32_t i = 0; i < s->nx; i++) {
     const double *slope = s->slope_mid + (size_t)i * (q + 1u) * n;
     s->grown[i] = s->radius[i];
