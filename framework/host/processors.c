@@ -51,7 +51,7 @@ static int find_group(char group[PATH_MAX]) {
   while (!found && fgets(line, sizeof line, file)) {
     if (strncmp(line, "0::/", 4) != 0) continue;
     line[strcspn(line, "\n")] = '\0';
-    strcpy(group, line + 3);
+    memcpy(group, line + 3, strlen(line + 3) + 1);
     found = 1;
   }
   fclose(file);

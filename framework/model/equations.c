@@ -146,7 +146,7 @@ ambit_status ambit_equations_are_smooth(const ambit_equations *q, ambit_registry
     bool with_data, bool *smooth, ambit_failure *f) {
   ambit_arena *arena = ambit_arena_open();
   ambit_lease *lease = NULL;
-  ambit_ready ready;
+  ambit_ready ready = { 0 };
   *smooth = false;
   ambit_status status = arena ? ambit_equations_prepare(q, arena, &ready, f) : no_memory(f);
   if (status == AMBIT_OK) status = ambit_context_lease(registry, &lease, f);

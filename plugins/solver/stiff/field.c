@@ -78,7 +78,7 @@ static void convolve(fields *f, uint32_t t, const double *x, uint32_t n, const d
 /* the rows of a product; returns what powers beyond the degree are at most */
 static double multiply_rows(fields *f, const field *a, const field *b) {
   const terms *T = f->terms;
-  double norm[TERMS_MAX], above[TERMS_MAX + 1], lost = 0;
+  double norm[TERMS_MAX], above[TERMS_MAX + 1] = { 0 }, lost = 0;
   above[T->count] = 0;
   for (uint32_t t = T->count; t-- > 0;) {
     norm[t] = t ? row_norm(field_row(f, b, t), b->n[t]) : centre_norm(b);

@@ -42,8 +42,8 @@ static void through(const double *C, const iv *Q, uint32_t n, iv *r) {
 void rates_bound(const stiff *s, matrix_bounds *r) {
   const frame *f = &s->frame;
   uint32_t n = s->n, top = f->order + SLOPE_ORDER;
-  iv Q[N_MAX * N_MAX], Y[N_MAX * N_MAX];
-  square size, rest, T;
+  iv Q[N_MAX * N_MAX] = { 0 }, Y[N_MAX * N_MAX] = { 0 };
+  square size = { 0 }, rest, T;
   memset(T, 0, (size_t)n * n * sizeof *T);
   memcpy(T, s->slopes.tail, (size_t)s->nx * n * sizeof *T);
   bound_multiply(n, n, n, T, f->size, rest);
@@ -58,8 +58,9 @@ void rates_bound(const stiff *s, matrix_bounds *r) {
   bound_multiply(n, n, n, f->E, size, rest);
   for (uint32_t i = 0; i < n * n; i++) {
     r->radius[i] += rest[i];
-    if (f->still[i / n]) r->middle[i] = (iv) { 0, 0 }, r->radius[i] = 0;
   }
+  for (uint32_t i = 0; i < n; i++)
+    for (uint32_t k = 0; k < n && f->still[i]; k++) r->middle[i * n + k] = (iv) { 0, 0 }, r->radius[i * n + k] = 0;
 }
 
 /* -- blocks */
@@ -104,7 +105,7 @@ static double growth(const stiff *s, const matrix_bounds *r, const double *upper
 void rates_in_blocks(const stiff *s, const matrix_bounds *r, double *M) {
   const split *p = &s->frame.split;
   uint32_t n = s->n, m = p->blocks, count[N_MAX] = { 0 };
-  square size, upper, squares, only;
+  square size = { 0 }, upper = { 0 }, squares, only = { 0 };
   to_z(s, r, size, upper);
   memset(squares, 0, (size_t)m * m * sizeof *squares);
   for (uint32_t i = 0; i < n; i++) count[p->block[i]]++;

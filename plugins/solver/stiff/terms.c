@@ -38,7 +38,7 @@ uint32_t terms_count(uint32_t nu, uint32_t degree) {
 }
 
 int terms_open(const ambit_host *h, uint32_t nu, uint32_t degree, terms *t) {
-  uint32_t power[TERMS_MAX];
+  uint32_t power[TERMS_MAX] = { 0 };
   uint32_t room = terms_count(nu, degree);
   *t = (terms) { .nu = nu, .degree = degree };
   t->exponent = h->alloc(h, (size_t)room * nu * sizeof *t->exponent);

@@ -58,9 +58,9 @@ static int choose_groups(flow *f) {
     for (uint32_t n = 0; n < f->ns; n++) {
       uint32_t stride = 1, left = n, group = 0;
       for (uint32_t v = 0; v < f->m; v++) {
-        uint32_t parts = f->cuts[v] >> l ? f->cuts[v] >> l : 1, digit = left % f->cuts[v];
-        group += stride * (digit / (f->cuts[v] / parts));
-        stride *= parts, left /= f->cuts[v];
+        uint32_t cuts = f->cuts[v] > 1 ? f->cuts[v] : 1, parts = cuts >> l ? cuts >> l : 1, digit = left % cuts;
+        group += stride * (digit / (cuts / parts));
+        stride *= parts, left /= cuts;
       }
       f->group[(size_t)l * f->ns + n] = group;
       f->ngroup[l] = stride;

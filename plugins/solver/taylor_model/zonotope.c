@@ -196,7 +196,7 @@ void zonotope_push(const zonotope_shape *w, zonotope r, const double *box) {
     size_t fixed = (size_t)r.head[FIXED], half = (size_t)(w->keep / 2) * n;
     condense(w, r, fixed, fixed + half, pad);
     r.head[FIXED] += n;
-    if (r.head[FIXED] >= (double)(w->keep / 2) * n) {
+    if ((size_t)r.head[FIXED] >= (size_t)(w->keep / 2) * n) {
       condense(w, r, 0, (size_t)r.head[FIXED], pad);
       r.head[FIXED] = n;
     }
