@@ -90,7 +90,7 @@ static ambit_expr chain(ambit_graph *g, const ambit_walk *walk, ambit_expr *d, a
       if (kink && !fixed) {
         const char *writer = ambit_graph_writer(g, e);
         ambit_fail(f, AMBIT_INVALID, "%s%s%s has no derivative where it switches: it cannot be differentiated", kink,
-          writer ? " of " : "", writer ? writer : "");
+            writer ? " of " : "", writer ? writer : "");
         return AMBIT_NO_EXPR;
       }
       d[i] = fixed ? AMBIT_ZERO : differential(g, e, x, da, db);

@@ -180,6 +180,19 @@ static void functions_of_unknowns(void **unused) {
   }
 }
 
+/* x' = -x, y' = 100 (x - y) around 0: only the unknowns move anything */
+static void around_zero(void **unused) {
+  (void)unused;
+  static const double time[] = { 0, 0.25, 1 };
+  static const char *const name[] = { "x", "y" };
+  model m;
+  model_open(&m, 2, name);
+  const expr *x = m.state;
+  m.rate[0] = mul(&m, number(&m, -1), x[0]), m.rate[1] = mul(&m, number(&m, 100), sub(&m, x[0], x[1]));
+  m.initial[0] = unknown(&m, "x0", "0.1"), m.initial[1] = number(&m, 0);
+  check_sets(&m, 3, time, 4, 1e-12);
+}
+
 /* -- far runs: solutions with one value of the data each are in the sets */
 
 /* the boxes of runs of `point` models, at the end, are within the set's polynomial, taken at u, with its rest */
@@ -288,6 +301,7 @@ int main(void) {
     cmocka_unit_test(robertson_one_percent),
     cmocka_unit_test(uncertain_relaxation),
     cmocka_unit_test(functions_of_unknowns),
+    cmocka_unit_test(around_zero),
     cmocka_unit_test(robertson_to_1e4),
     cmocka_unit_test(van_der_pol_set),
     cmocka_unit_test(van_der_pol_of_1e5),

@@ -4,83 +4,14 @@
 ** leak 1 percent of its rate into slow ones and back, and bounds grow with 1e-4 of that rate. In coordinates of the
 ** states, of which some are replaced by invariants w . x, those exchanges are what they are in the equations, and often
 ** small.
-** An integer w with w . f = 0 is found from the sums and differences that end the tape of f: coefficients of everything
-** else must cancel exactly. Then w . e moves by the defect alone: its row of the matrix is zero.
+** With an integer w such that w . f = 0 (invariant.c), w . e moves by the defect alone: its row of the matrix is zero.
 */
+#include "invariant.h"
 #include "stiff.h"
 #include <string.h>
 
-#define LARGEST 1e6  /* of integers: products of two are exact */
 #define GAIN 1.0     /* in the exponent of growth, that makes another frame worth a change */
 #define HOPELESS 1e3 /* exponent of a frame that cannot be used */
-
-/* -- invariants: integer combinations of rows that vanish */
-
-/* coefficients of output i over slots that are no sum */
-static void linear_form(const ambit_tape *t, uint32_t i, double *c) {
-  memset(c, 0, t->nslot * sizeof *c);
-  c[t->out[i]] = 1;
-  for (uint32_t k = t->ninstr; k-- > 0;) {
-    double x = c[t->dst[k]];
-    if (x == 0) continue;
-    switch (t->op[k]) {
-    case AMBIT_OP_ADD: c[t->a[k]] += x, c[t->b[k]] += x; break;
-    case AMBIT_OP_SUB: c[t->a[k]] += x, c[t->b[k]] -= x; break;
-    case AMBIT_OP_NEG: c[t->a[k]] -= x; break;
-    default: continue;
-    }
-    c[t->dst[k]] = 0;
-  }
-  for (uint32_t k = 0; k < t->nconst; k++)
-    if (t->lo[k] == 0 && t->hi[k] == 0) c[k] = 0;
-}
-
-static double common_divisor(double a, double b) {
-  while (b != 0) {
-    double rest = fmod(a, b);
-    a = b, b = rest;
-  }
-  return fabs(a);
-}
-
-/* row := (row p - pivot q) / their common divisor, all integers; 0: too large */
-static int reduce(size_t n, double *row, const double *pivot, double p, double q) {
-  double divisor = 0;
-  for (size_t k = 0; k < n; k++) {
-    row[k] = row[k] * p - pivot[k] * q;
-    if (!(fabs(row[k]) < LARGEST)) return 0;
-    divisor = common_divisor(divisor, row[k]);
-  }
-  for (size_t k = 0; k < n && divisor > 1; k++) row[k] /= divisor;
-  return 1;
-}
-
-/* w [at most nx x nx]; rows [nx x (nslot + nx)] is scratch */
-static uint32_t find_invariants(const stiff *s, double *rows, double *w) {
-  const ambit_tape *t = s->problem.rhs;
-  uint32_t nx = s->nx, found = 0, done = 0;
-  size_t n = t->nslot + nx;
-  for (uint32_t i = 0; i < nx; i++) {
-    linear_form(t, i, rows + i * n);
-    for (uint32_t k = 0; k < nx; k++) rows[i * n + t->nslot + k] = i == k;
-  }
-  for (size_t col = 0; col < t->nslot && done < nx; col++) {
-    uint32_t pivot = done;
-    while (pivot < nx && rows[pivot * n + col] == 0) pivot++;
-    if (pivot == nx) continue;
-    for (size_t k = 0; k < n && pivot != done; k++) {
-      double x = rows[pivot * n + k];
-      rows[pivot * n + k] = rows[done * n + k], rows[done * n + k] = x;
-    }
-    for (uint32_t i = done + 1; i < nx; i++) {
-      double q = rows[i * n + col];
-      if (q != 0 && !reduce(n, rows + i * n, rows + done * n, rows[done * n + col], q)) return 0;
-    }
-    done++;
-  }
-  for (uint32_t i = done; i < nx; i++, found++) memcpy(w + found * nx, rows + i * n + t->nslot, nx * sizeof *w);
-  return found;
-}
 
 /* -- frames */
 
@@ -109,7 +40,7 @@ static int fill(stiff *s, const double *w, uint32_t choice) {
   square product;
   matrix_multiply(n, n, n, C, U, product); /* exact: small integers */
   for (uint32_t i = 0; i < n * n; i++)
-    if (product[i] != (i % (n + 1) == 0) || !(fabs(U[i]) < LARGEST)) return 0;
+    if (product[i] != (i % (n + 1) == 0) || !(fabs(U[i]) < INVARIANT_LARGEST)) return 0;
   return 1;
 }
 
@@ -119,7 +50,7 @@ int natural_open(stiff *s) {
   double *w = h->alloc(h, (size_t)nx * nx * sizeof *w);
   double *rows = h->alloc(h, nx * ((size_t)s->problem.rhs->nslot + nx) * sizeof *rows);
   if (!w || !rows) return 0;
-  s->ninvariant = find_invariants(s, rows, w);
+  s->ninvariant = invariant_find(s->problem.rhs, nx, rows, w);
   uint32_t wanted = s->ninvariant ? nx : 1;
   s->natural_C = h->alloc(h, wanted * sizeof *s->natural_C);
   s->natural_U = h->alloc(h, wanted * sizeof *s->natural_U);
@@ -163,7 +94,7 @@ static AMBIT_WORKER int bound_up(stiff *s, double *M) {
 
 /* the largest eigenvalue of the comparison matrix, about */
 static double growth(stiff *s) {
-  square M, padded; /* to the size that the eigenvalue solver was opened for */
+  square M = { 0 }, padded; /* to the size that the eigenvalue solver was opened for */
   double one[N_MAX], least = -1;
   spectrum e;
   uint32_t m = s->frame.split.blocks, n = s->n;

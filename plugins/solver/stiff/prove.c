@@ -105,12 +105,12 @@ static AMBIT_WORKER int slopes_anew(stiff *s, uint32_t j, uint32_t pieces) {
   return good;
 }
 
-/* slopes over the tube of R, computed anew only if the tube outgrew the last one */
+/* slopes over the tube of R, computed anew only if it left the last one, around P as it was then */
 static int cover(stiff *s, const errors *e, uint32_t j, uint32_t pieces) {
   double radius[N_MAX];
   int outgrown = 0;
   spread(s, e->R, radius);
-  for (uint32_t i = 0; i < s->n; i++) outgrown |= !(radius[i] <= s->box[i]);
+  for (uint32_t i = 0; i < s->n; i++) outgrown |= !(radius[i] + s->shift[i] <= s->box[i]);
   if (!outgrown) return 1;
   for (uint32_t i = 0; i < s->n; i++) {
     if (!(radius[i] < INFINITY)) return 0;

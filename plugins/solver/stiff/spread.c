@@ -10,6 +10,7 @@
 #define SLACK (1 + 0x1p-40)
 #define MORE_TURNS 6
 #define SETTLED 1e-18
+#define SHARE 0.1 /* of a state's spread in its unit, next to how far it moves */
 
 static uint32_t count_of(const stiff *s) { return s->terms.count; }
 
@@ -137,9 +138,22 @@ static void to_chebyshev(stiff *s) {
   }
 }
 
+/* How far the unknowns spread each state, and how far what they do to it moves in the step: where the centre stays at 0
+** it has no unit of its own. */
+static void measure(const stiff *s, double *unit) {
+  uint32_t count = count_of(s), nx = s->nx;
+  for (uint32_t a = 0; a < nx; a++) {
+    double moved = 0;
+    for (uint32_t i = 0; i < s->q.N; i++)
+      moved = fmax(moved, matrix_row_sum_norm(1, count - 1, s->Z_row + ((size_t)i * nx + a) * count + 1));
+    unit[a] = moved + SHARE * matrix_row_sum_norm(1, count - 1, s->x_row + a * count + 1);
+  }
+}
+
 int spread_solve(stiff *s) {
   collocation *q = &s->q;
   uint32_t count = count_of(s), nx = s->nx, N = q->N;
+  double unit[N_MAX] = { 0 };
   if (!collocation_linearise(q, s->t, s->h.hi)) return 0;
   memset(s->Z_row, 0, (size_t)N * nx * count * sizeof *s->Z_row);
   for (uint32_t turn = 0; turn < s->terms.degree + MORE_TURNS; turn++) {
@@ -147,14 +161,20 @@ int spread_solve(stiff *s) {
     if (!judge(s)) return 0;
     lu_solve((size_t)N * nx, q->A, q->row, count, s->residual_row);
     for (uint32_t i = 0; i < N * nx; i++)
+      for (uint32_t t = 1; t < count; t++)
+        s->Z_row[(size_t)i * count + t] += s->residual_row[(size_t)i * count + t] * q->unit[i % nx];
+    measure(s, unit);
+    for (uint32_t i = 0; i < N * nx; i++) {
+      double share = q->unit[i % nx] / (q->unit[i % nx] + unit[i % nx]);
       for (uint32_t t = 1; t < count; t++) {
-        double step = s->residual_row[(size_t)i * count + t];
-        s->Z_row[(size_t)i * count + t] += step * q->unit[i % nx];
+        double step = s->residual_row[(size_t)i * count + t] * share;
         if (!(fabs(step) <= most)) most = fabs(step);
       }
+    }
     if (!(most < 1e3)) return 0;
     if (most < SETTLED) break;
   }
+  for (uint32_t a = 0; a < nx; a++) q->unit[a] += unit[a], q->scale[a] += unit[a];
   to_chebyshev(s);
   return 1;
 }
