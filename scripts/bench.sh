@@ -10,10 +10,14 @@ for program in "$build"/bench/*; do
   printf '\n## %s\n\n' "$(basename "$program")"
   "$program"
 done
-printf '\n## figures\n\n'
-"$build/ambit" run --quiet scripts/bench/figures.lua
+missed=0
+for table in figures solvers; do
+  printf '\n## %s\n\n' "$table"
+  "$build/ambit" run --quiet "scripts/bench/$table.lua" || missed=1
+done
 for scene in "andrews 0.03" "n_four_bar 2" "n_four_bar 10" bricard stewart ur5; do
   printf '\n## scripts/%s\n\n' "$scene"
   read -r name words <<<"$scene"
   "$build/ambit" run --quiet "scripts/$name.lua" $words
 done
+exit "$missed"

@@ -56,6 +56,9 @@ local function stays_under(run, names, bound)
   return first, last
 end
 
+print "| figure | required | measured | |"
+print "|---|---|---|---|"
+
 -- P1, P2: the double pendulum in relative angles, equations by hand
 local angles = { "beta1", "beta2", "w1", "w2" }
 local double_pendulum = ambit.ode {

@@ -41,7 +41,7 @@ ambit_scene(double_pendulum 0 "\n3\\.0 .*complete at t = 3 .*unstable.*stable\n$
 ambit_scene(simple_pendulum 0 "\n100 .*complete at t = 100 ")
 ambit_scene(inverse_kinematics 0 "8 postures, 0 undecided\n.*8 postures, 0 undecided\n")
 ambit_scene(lorenz 0 "\n20 .*complete at t = 20 ")
-ambit_scene(van_der_pol 0 "complete at t = 20 .*complete at t = 3 ")
+ambit_scene(van_der_pol 0 "complete at t = 20 .*complete at t = 7 ")
 ambit_scene(leg 0 "1 posture of rest\n.*knee +.-9[0-9.]+, -9[0-9.]+.\n")
 ambit_scene(expressions 0 "interval +\\[0, 1\\].*affine +\\[0, 0\\.25[^\n]*\n.*mpfr +\\[-0\\.82739605994682142, -0\\.8273960599468213\\]")
 ambit_scene(four_bar 0 "\n90 +.30\\.7[0-9., ]+30\\.89[^\n]+ 1[34][0-9] x 11[0-9] +[0-9.]+e-1[12]\n")
