@@ -181,3 +181,19 @@ describe("events", function()
     refused("g depends on `q`", with { { g = other.symbols[1] } })
   end)
 end)
+
+describe("events of sets that are split", function()
+  it("are located in short tubes, since many pieces have no dense enclosure", function()
+    local arm = ambit.mechanism { "arm", gravity = { 0, "-9.81", 0 } }
+    local joint, shoulder = arm:revolute { from = arm.world, axis = "z", name = "upper" }
+    local tip = arm:rigid_link { from = joint, offset = { ambit.around(1, "1%"), 0, 0 } }
+    arm:point_mass { at = tip, mass = ambit.between(1, 2) }
+    arm:joint_damper { joint = shoulder, damping = "0.5" }
+    local start = { upper = ambit.degrees(ambit.around(-60, 1)), ["upper'"] = 0 }
+    local run = ambit.simulate { arm:dynamics(), initial = start,
+      t = 2, solver = "taylor_model", events = { { g = arm:position(tip).x, direction = "falling" } } }
+    assert.equal(1, #run.events)
+    assert.is_true(run.events[1].certain)
+    assert.is_true(run.events[1].t:width() < 0.05)
+  end)
+end)

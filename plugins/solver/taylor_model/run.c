@@ -86,11 +86,12 @@ static enum why go_alone(flow *f) {
 
 /* -- many */
 
-/* as far apart as `outputs` says, but not so close that they would cut steps short */
+/* As far apart as `outputs` says, but not so close that they would cut steps short, unless somebody wants to know where
+** the states are within steps: many pieces have no dense enclosure, so short tubes must serve. */
 static void choose_instant(flow *f) {
   const ambit_problem *p = &f->problem;
   double span = p->time[p->ntime - 1] - p->time[0], grid = span / f->options.outputs, goal = p->time[f->next];
-  for (uint32_t n = 0; n < f->npiece; n++)
+  for (uint32_t n = 0; n < f->npiece && !(p->wish & AMBIT_WISH_DENSE); n++)
     if (f->piece[n].guess > 0.5 * fabs(grid)) grid = grid > 0 ? 2 * f->piece[n].guess : -2 * f->piece[n].guess;
   f->t_to = f->t + grid;
   if (f->t_to == f->t || fabs(goal - f->t) < 1.5 * fabs(grid)) f->t_to = goal;
