@@ -70,7 +70,7 @@ static int solve_slow(
 
 static int propagate_parts(const metzler *m, double *last) {
   parts p = divide(m);
-  double level[N_MAX], begin[N_MAX], end[N_MAX], rho[N_MAX], left[N_MAX] = { 0 };
+  double level[N_MAX], begin[N_MAX] = { 0 }, end[N_MAX] = { 0 }, rho[N_MAX], left[N_MAX] = { 0 };
   for (size_t a = 0; a < p.slow; a++) begin[a] = m->first[p.at_slow[a]];
   for (size_t f = 0; f < p.fast; f++) {
     size_t i = p.at_fast[f];
