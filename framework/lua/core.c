@@ -83,6 +83,10 @@ int luaopen_ambit_core(lua_State *L) {
   ambit_lua_open_system(L, core);
   ambit_lua_open_verbs(L, core);
   ambit_lua_open_variation(L, core);
+  ambit_lua_open_term_tree(L, core);
+  ambit_lua_open_source(L, core);
+  ambit_lua_open_difference(L, core);
+  ambit_lua_open_reduction(L, core);
   ambit_lua_open_watch(L, core);
   ambit_lua_open_events(L, core);
   ambit_lua_open_track(L, core);

@@ -91,6 +91,10 @@ void ambit_lua_open_roots(lua_State *L, ambit_lua *core);      /* roots.c */
 void ambit_lua_open_system(lua_State *L, ambit_lua *core);     /* system.c */
 void ambit_lua_open_verbs(lua_State *L, ambit_lua *core);      /* verbs.c: evaluate, simulate */
 void ambit_lua_open_variation(lua_State *L, ambit_lua *core);  /* variation.c */
+void ambit_lua_open_term_tree(lua_State *L, ambit_lua *core);  /* term_tree.c */
+void ambit_lua_open_source(lua_State *L, ambit_lua *core);     /* source.c */
+void ambit_lua_open_difference(lua_State *L, ambit_lua *core); /* difference.c */
+void ambit_lua_open_reduction(lua_State *L, ambit_lua *core);  /* reduction.c */
 void ambit_lua_open_watch(lua_State *L, ambit_lua *core);      /* watch.c: conditions along a run */
 void ambit_lua_open_events(lua_State *L, ambit_lua *core);     /* events.c: zero crossings along a run */
 void ambit_lua_open_track(lua_State *L, ambit_lua *core);      /* track.c: the recorded steps of a run */

@@ -2,6 +2,7 @@
 #ifndef AMBIT_SOLVER_H
 #define AMBIT_SOLVER_H
 #include "arithmetic.h"
+#include "reduction.h"
 
 #define AMBIT_SOLVER "ambit.solver/1"
 
@@ -22,10 +23,13 @@
 ** set(); a context without it (an older host's) only gives wider results */
 #define AMBIT_WANT_TIME 128u
 
-/* What a solver solves. ROOTS: f(x, p) = 0 with as many equations as unknowns x; rhs and jacobian are those of f, x0
+/* What a solver solves. FLOW: x' = f from a start. ROOTS: f(x, p) = 0 with as many equations as unknowns x; rhs and jacobian are those of f, x0
 ** is the box to be searched, there is no time; invariant: further equations that a root satisfies too, or absent. */
 #define AMBIT_SOLVES_FLOW 0u
 #define AMBIT_SOLVES_ROOTS 1u
+/* which parts of a model may be left out: everything is in `reduction`, in the problem's arithmetic (real); of the
+** rest only nx, np, name, uses_time are set; ends with what was accepted last; sink: progress only */
+#define AMBIT_SOLVES_REDUCTION 2u
 
 /* What the receiver of the records would like besides: a solver that can't, leaves it out; one that can, does so only
 ** on this wish. DENSE: the dense enclosure of each step. SET: the set at the end of each step as a function of the
@@ -57,6 +61,7 @@ typedef struct ambit_problem {
   uint32_t nworker;                                 /* threads that "ambit.pool/1" lends, at least 1 */
   /* [nworker] contexts like actx, one for each thread; worker[0] is actx; NULL unless wanted */
   void *const *worker;
+  const ambit_reduction *reduction; /* AMBIT_SOLVES_REDUCTION; else NULL */
 } ambit_problem;
 
 /* A set of states that still knows what it depends on: for every u in the box of the unknowns, with
