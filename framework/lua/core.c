@@ -84,6 +84,7 @@ int luaopen_ambit_core(lua_State *L) {
   ambit_lua_open_verbs(L, core);
   ambit_lua_open_variation(L, core);
   ambit_lua_open_term_tree(L, core);
+  ambit_lua_open_structure(L, core);
   ambit_lua_open_source(L, core);
   ambit_lua_open_difference(L, core);
   ambit_lua_open_reduction(L, core);

@@ -92,6 +92,7 @@ void ambit_lua_open_system(lua_State *L, ambit_lua *core);     /* system.c */
 void ambit_lua_open_verbs(lua_State *L, ambit_lua *core);      /* verbs.c: evaluate, simulate */
 void ambit_lua_open_variation(lua_State *L, ambit_lua *core);  /* variation.c */
 void ambit_lua_open_term_tree(lua_State *L, ambit_lua *core);  /* term_tree.c */
+void ambit_lua_open_structure(lua_State *L, ambit_lua *core);  /* structure.c */
 void ambit_lua_open_source(lua_State *L, ambit_lua *core);     /* source.c */
 void ambit_lua_open_difference(lua_State *L, ambit_lua *core); /* difference.c */
 void ambit_lua_open_reduction(lua_State *L, ambit_lua *core);  /* reduction.c */

@@ -42,14 +42,15 @@ void ambit_interrupt_watch(lua_State *L) {
 
 void ambit_interrupt_begin(ambit_interrupt *i) {
   i->lent = watched == NULL;
-  pending = 0;
+  i->outer = in_verb;
+  if (!i->outer) pending = 0;
   in_verb = 1;
   if (i->lent) catch_signal(&i->previous);
 }
 
 void ambit_interrupt_end(ambit_interrupt *i) {
   if (i->lent) sigaction(SIGINT, &i->previous, NULL);
-  in_verb = 0;
+  in_verb = i->outer;
 }
 
 bool ambit_interrupt_pending(void) { return pending != 0; }

@@ -11,10 +11,12 @@
 
 /* The command: from here on SIGINT is ours; between verbs it raises "interrupted" in L. [main] */
 void ambit_interrupt_watch(lua_State *L);
-/* A verb begins or ends. A host that does not watch (a stock lua) lends its SIGINT for as long as the verb runs. */
+/* A verb begins or ends. A host that does not watch (a stock lua) lends its SIGINT for as long as the verb runs. Verbs
+** that a callback of another one runs are stopped together with it. */
 typedef struct ambit_interrupt {
   struct sigaction previous;
   bool lent;
+  int outer; /* is another verb running? */
 } ambit_interrupt;
 void ambit_interrupt_begin(ambit_interrupt *i);
 void ambit_interrupt_end(ambit_interrupt *i);

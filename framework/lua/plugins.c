@@ -82,7 +82,10 @@ static int plugin(lua_State *L) {
       push_params(L, solver->param);
       lua_setfield(L, -2, "parameters");
       set_text(L, "arithmetics", solver->arithmetics);
-      set_text(L, "verb", solver->solves == AMBIT_SOLVES_ROOTS ? "roots" : "simulate");
+      set_text(L, "verb",
+          solver->solves == AMBIT_SOLVES_ROOTS       ? "roots"
+          : solver->solves == AMBIT_SOLVES_REDUCTION ? "reduce"
+                                                     : "simulate");
       lua_pushboolean(L, solver->needs_rigorous != 0);
       lua_setfield(L, -2, "rigorous");
     }

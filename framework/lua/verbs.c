@@ -94,6 +94,15 @@ ambit_simulate_request ambit_lua_simulate_request(lua_State *L) {
   return q;
 }
 
+/* A run that is a part of another verb's work writes no records of its own: { silent = true } at idx. */
+static bool is_silent(lua_State *L, int idx) {
+  if (lua_isnoneornil(L, idx)) return false;
+  lua_getfield(L, idx, "silent");
+  bool silent = lua_toboolean(L, -1);
+  lua_pop(L, 1);
+  return silent;
+}
+
 /* simulate(system, solver, arithmetic or nil, solver options, arithmetic options, {initial}, {time}, events or nil,
 ** run options or nil) -> track, result, report */
 static int simulate(lua_State *L) {
@@ -102,6 +111,7 @@ static int simulate(lua_State *L) {
   q.wish = AMBIT_WISH_SET;
   uint32_t keep = ambit_lua_run_options(L, 9, &q);
   ambit_receiver to = ambit_receiver_push(L, q.system->nx, q.system->name, keep);
+  if (is_silent(L, 9)) to.records = NULL;
   q.sink = &to.sink;
   q.prepared = ambit_receiver_prepared;
   q.prepared_user = &to;

@@ -5,16 +5,24 @@
 #include "lua/request.h"
 #include "lua/system.h"
 
-/* {g}, {name}, {"always", "at_end" or "once"} at 8..10 */
+/* {g}, {name}, {"always", "at_end", "once" or "most"} at 8..10; {limit}, {rivals} at 15, 16 or nothing */
 static ambit_watch_condition *conditions(lua_State *L, size_t *n) {
-  static const char *const kind[] = { "always", "at_end", "once", NULL }; /* AMBIT_WATCH_* in order */
+  static const char *const kind[] = { "always", "at_end", "once", "most", NULL }; /* AMBIT_WATCH_* in order */
   const char **name = ambit_lua_texts(L, 9, n);
   const ambit_expr *g = ambit_lua_to_array(L, 8, *n);
   ambit_watch_condition *c = lua_newuserdatauv(L, (*n + 1) * sizeof *c, 0);
   for (size_t k = 0; k < *n; k++) {
     lua_rawgeti(L, 10, (lua_Integer)k + 1);
-    c[k] = (ambit_watch_condition) { g[k], (uint32_t)luaL_checkoption(L, -1, NULL, kind), name[k] };
+    c[k] =
+        (ambit_watch_condition) { .g = g[k], .kind = (uint32_t)luaL_checkoption(L, -1, NULL, kind), .name = name[k] };
     lua_pop(L, 1);
+  }
+  if (lua_isnoneornil(L, 15)) return c;
+  size_t limits, rivals;
+  const double *limit = ambit_lua_numbers(L, 15, &limits), *rival = ambit_lua_numbers(L, 16, &rivals);
+  for (size_t k = 0; k < *n && k < limits && k < rivals; k++) {
+    c[k].limit = limit[k];
+    c[k].rivals = (uint32_t)rival[k];
   }
   return c;
 }
@@ -58,8 +66,10 @@ static void push_findings(lua_State *L, size_t n, const ambit_watch_finding *fin
   }
 }
 
-static void push_outcome(lua_State *L, const ambit_receiver *to, const ambit_simulate_result *result) {
-  lua_createtable(L, 0, 5);
+static void push_outcome(
+    lua_State *L, const ambit_receiver *to, const ambit_simulate_result *result, const ambit_watch *w) {
+  lua_createtable(L, 0, 6);
+  set_flag(L, "gave_up", ambit_watch_gave_up(w));
   ambit_lua_set_text(L, "status", ambit_receiver_status(to, result->status));
   ambit_lua_set_text(L, "reason", ambit_receiver_reason(to, result->reason));
   ambit_lua_set_number(L, "t_reached", result->t_reached);
@@ -67,9 +77,11 @@ static void push_outcome(lua_State *L, const ambit_receiver *to, const ambit_sim
   set_flag(L, "impossible", result->status == AMBIT_DOMAIN);
 }
 
-/* watch(as simulate, {g}, {name}, {kind}, {unknown}, {lo}, {hi}, cuts) -> {finding}, {status, reason, t_reached,
-** rigorous, impossible: no solution meets the constraints}, report */
+/* watch(as simulate, {g}, {name}, {kind}, {unknown}, {lo}, {hi}, cuts [, {limit}, {rivals} [, threads]]) -> {finding},
+** {status, reason, t_reached, rigorous, impossible: no solution meets the constraints, gave_up: a limit is exceeded},
+** report */
 static int watch(lua_State *L) {
+  lua_settop(L, 17);
   ambit_simulate_request q = ambit_lua_simulate_request(L);
   ambit_watch_request request = { .system = q.system, .cuts = (uint32_t)luaL_checkinteger(L, 14) };
   request.initial = q.initial;
@@ -86,13 +98,14 @@ static int watch(lua_State *L) {
   if (ambit_watch_open(&request, ambit_lua_push_system(L)->arena, &w, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
   q.sink = ambit_watch_sink(w);
   q.wish = AMBIT_WISH_DENSE;
+  q.threads = (uint32_t)luaL_optinteger(L, 17, 0);
   ambit_receiver_begin(L, &to);
   ambit_status status = ambit_simulate(&q, &result, &report, &f);
   ambit_receiver_end(&to);
   if (status != AMBIT_OK) ambit_lua_raise(L, &f);
   ambit_watch_end(w, result.status == AMBIT_OK, finding);
   push_findings(L, request.ncondition, finding);
-  push_outcome(L, &to, &result);
+  push_outcome(L, &to, &result, w);
   ambit_lua_push_report(L, &report);
   return 3;
 }

@@ -66,8 +66,9 @@ static ambit_status check_count(const job *j, ambit_failure *f) {
 }
 
 /* Names of the installed solvers that find roots; only for a message. */
-static ambit_status refuse_solver(const ambit_roots_request *q, ambit_failure *f) {
-  return ambit_fail(f, AMBIT_INVALID, "solver `%s` integrates; it does not find roots (krawczyk does)", q->solver);
+static ambit_status refuse_solver(const ambit_roots_request *q, const ambit_solver *solver, ambit_failure *f) {
+  return ambit_fail(f, AMBIT_INVALID, "solver `%s` %s; it does not find roots (krawczyk does)", q->solver,
+      solver->solves == AMBIT_SOLVES_REDUCTION ? "chooses what ambit.reduce leaves out" : "integrates");
 }
 
 /* -- which equations */
@@ -154,7 +155,7 @@ static ambit_status build_problem(job *j, uint32_t want, ambit_failure *f) {
 static ambit_status find_solver(job *j, ambit_failure *f) {
   const ambit_roots_request *q = j->q;
   ambit_status status = ambit_registry_solver(q->registry, q->solver, &j->solver, f);
-  if (status == AMBIT_OK && j->solver->solves != AMBIT_SOLVES_ROOTS) status = refuse_solver(q, f);
+  if (status == AMBIT_OK && j->solver->solves != AMBIT_SOLVES_ROOTS) status = refuse_solver(q, j->solver, f);
   if (status == AMBIT_OK)
     status = ambit_pair_choose(q->registry, q->solver, j->solver, q->arithmetic, j->arithmetic, f);
   if (status == AMBIT_OK) status = ambit_context_lease(q->registry, &j->lease, f);

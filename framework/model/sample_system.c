@@ -112,8 +112,8 @@ static ambit_status prepare(job *j, ambit_failure *f) {
   const ambit_simulate_request *q = j->q;
   ambit_status status = ambit_registry_solver(q->registry, j->solver_name, &j->solver, f);
   if (status == AMBIT_OK && j->solver->solves != AMBIT_SOLVES_FLOW)
-    return ambit_fail(f, AMBIT_INVALID,
-        "solver `%s` finds roots and does not advance in time; `sample` needs one that does", j->solver_name);
+    return ambit_fail(f, AMBIT_INVALID, "solver `%s` %s and does not advance in time; `sample` needs one that does",
+        j->solver_name, j->solver->solves == AMBIT_SOLVES_ROOTS ? "finds roots" : "is for ambit.reduce");
   if (status == AMBIT_OK)
     status = ambit_pair_choose(q->registry, j->solver_name, j->solver, q->arithmetic, j->arithmetic, f);
   if (status == AMBIT_OK) status = ambit_context_lease(q->registry, &j->options, f);

@@ -96,8 +96,8 @@ static ambit_status prepare(job *j, ambit_failure *f) {
   if (status == AMBIT_OK) status = ambit_context_lease(q->registry, &j->lease, f);
   if (status != AMBIT_OK) return status;
   if (j->solver->solves != AMBIT_SOLVES_FLOW)
-    return ambit_fail(f, AMBIT_INVALID,
-        "solver `%s` finds roots and does not advance in time; `simulate` needs one that does", q->solver);
+    return ambit_fail(f, AMBIT_INVALID, "solver `%s` %s and does not advance in time; `simulate` needs one that does",
+        q->solver, j->solver->solves == AMBIT_SOLVES_ROOTS ? "finds roots" : "is for ambit.reduce");
   ambit_failure own = { 0 };
   j->option =
       ambit_context_options(j->lease, j->solver->param, "solver", q->solver, q->nsolver_option, q->solver_option, &own);

@@ -5,40 +5,20 @@
 ** and of dg/dt is defined over the whole box (no flag), and off the cut of atan2, where g would jump. Points of
 ** time are doubles inside the step; the ends of a step take the record's own boxes.
 */
-#include "model/watch.h"
+#include "model/watch_inside.h"
 #include "graph/hull.h"
 #include "graph/tape.h"
 #include "model/dense.h"
 #include "model/unknowns.h"
 #include <string.h>
 
-#define STACK 1200 /* halving an interval of doubles ends before */
-
-typedef struct watched {
-  const ambit_watch_condition *condition;
-  const ambit_tape *value, *slope; /* slope: NULL if g has no derivative */
-  bool open;                       /* some part of time was not settled */
-  ambit_watch_finding finding;
-} watched;
-
-struct ambit_watch {
-  ambit_sink sink; /* first */
-  const ambit_watch_request *q;
-  size_t n;
-  watched *watched;
-  ambit_interval *in, *slot; /* inputs of the tapes: states, unknowns, time */
-  size_t nx, nin;
-  ambit_interval *before; /* [nx] the box at the end of the last step */
-  double reached;
-  bool started;
-};
-
 /* -- one part of a step */
 
-/* The states while t is in `when`, in the inputs. */
-static void place(ambit_watch *w, const ambit_record *r, ambit_interval when) {
+/* The states that c depends on while t is in `when`, in the inputs. */
+void ambit_watch_place(ambit_watch *w, const watched *c, const ambit_record *r, ambit_interval when) {
   bool point = when.lo == when.hi;
   for (uint32_t i = 0; i < w->nx; i++) {
+    if (!c->wanted[i]) continue;
     ambit_interval x = ambit_dense_state(r, i, when);
     if (point && when.lo == r->t_to) x = (ambit_interval) { r->lo[i], r->hi[i] };
     if (point && when.lo == r->t_from && w->started && w->reached == r->t_from) x = w->before[i];
@@ -47,20 +27,19 @@ static void place(ambit_watch *w, const ambit_record *r, ambit_interval when) {
   w->in[w->nin - 1] = when;
 }
 
-/* AMBIT_EMPTY: not known to be defined */
-static ambit_interval run(ambit_watch *w, const ambit_tape *t) {
+ambit_interval ambit_watch_run(ambit_watch *w, const ambit_tape *t) {
   uint32_t flags = ambit_hull(t, w->in, w->slot);
   ambit_interval x = w->slot[t->out[0]];
   return flags & AMBIT_F_PARTIAL ? AMBIT_EMPTY : x;
 }
 
 static ambit_interval value_at(ambit_watch *w, const watched *c, const ambit_record *r, double t) {
-  place(w, r, (ambit_interval) { t, t });
-  return run(w, c->value);
+  ambit_watch_place(w, c, r, (ambit_interval) { t, t });
+  return ambit_watch_run(w, c->value);
 }
 
 /* In the run just made: may the argument of some atan2 cross its cut? */
-static bool jumps(const ambit_watch *w, const ambit_tape *t) {
+bool ambit_watch_jumps(const ambit_watch *w, const ambit_tape *t) {
   for (uint32_t i = 0; i < t->ninstr; i++) {
     if (t->op[i] != AMBIT_OP_ATAN2) continue;
     ambit_interval y = w->slot[t->a[i]], x = w->slot[t->b[i]];
@@ -76,8 +55,8 @@ typedef struct part {
 } part;
 
 static void narrow_by_slope(ambit_watch *w, const watched *c, part *p) {
-  if (ambit_interval_is_empty(p->g) || !c->slope || jumps(w, c->value)) return;
-  ambit_interval slope = run(w, c->slope); /* the states are still those of the whole part */
+  if (ambit_interval_is_empty(p->g) || !c->slope || ambit_watch_jumps(w, c->value)) return;
+  ambit_interval slope = ambit_watch_run(w, c->slope); /* the states are still those of the whole part */
   if (ambit_interval_is_empty(slope)) return;
   for (int k = 0; k < 3; k++) {
     if (ambit_interval_is_empty(p->value[k])) continue;
@@ -91,8 +70,8 @@ static void narrow_by_slope(ambit_watch *w, const watched *c, part *p) {
 static part look(ambit_watch *w, const watched *c, const ambit_record *r, ambit_interval when) {
   part p = { .when = when, .time = { when.lo, ambit_interval_mid(when), when.hi } };
   for (int k = 0; k < 3; k++) p.value[k] = value_at(w, c, r, p.time[k]);
-  place(w, r, when);
-  p.g = run(w, c->value);
+  ambit_watch_place(w, c, r, when);
+  p.g = ambit_watch_run(w, c->value);
   narrow_by_slope(w, c, &p);
   return p;
 }
@@ -173,15 +152,33 @@ static void scan(ambit_watch *w, watched *c, const ambit_record *r) {
 
 /* -- the sink */
 
+static bool is_over(const watched *c) { return c->condition->limit > 0 && c->finding.bound.hi > c->condition->limit; }
+
+/* A condition and all its rivals are over their limits. */
+static bool is_hopeless(const ambit_watch *w, size_t k) {
+  size_t last = k + w->watched[k].condition->rivals;
+  bool all = last < w->n;
+  for (size_t i = k; i <= last && all; i++) all = is_over(&w->watched[i]);
+  return all;
+}
+
+bool ambit_watch_gave_up(const ambit_watch *w) { return w->gave_up; }
+
 static int32_t emit(ambit_sink *s, const ambit_record *r) {
   ambit_watch *w = (ambit_watch *)(void *)s;
   if (r->kind != AMBIT_REC_STEP) return 0;
-  for (size_t k = 0; k < w->n; k++)
-    if (w->watched[k].condition->kind != AMBIT_WATCH_END) scan(w, &w->watched[k], r);
+  for (size_t k = 0; k < w->n; k++) {
+    uint32_t kind = w->watched[k].condition->kind;
+    if (kind == AMBIT_WATCH_MOST)
+      ambit_watch_scan_most(w, &w->watched[k], r);
+    else if (kind != AMBIT_WATCH_END)
+      scan(w, &w->watched[k], r);
+  }
   for (size_t i = 0; i < w->nx; i++) w->before[i] = (ambit_interval) { r->lo[i], r->hi[i] };
   w->reached = r->t_to;
   w->started = true;
-  return 0;
+  for (size_t k = 0; k < w->n && !w->gave_up; k++) w->gave_up = is_hopeless(w, k);
+  return w->gave_up;
 }
 
 static int32_t progress(ambit_sink *s, double done, const char *message) {
@@ -197,7 +194,7 @@ ambit_sink *ambit_watch_sink(ambit_watch *w) { return &w->sink; }
 static void look_at_the_end(ambit_watch *w, watched *c) {
   for (size_t i = 0; i < w->nx; i++) w->in[i] = w->before[i];
   w->in[w->nin - 1] = (ambit_interval) { w->reached, w->reached };
-  part p = { .when = w->in[w->nin - 1], .g = run(w, c->value) };
+  part p = { .when = w->in[w->nin - 1], .g = ambit_watch_run(w, c->value) };
   witness(c, p.when, p.g);
   conclude(c, &p);
 }
@@ -221,6 +218,16 @@ void ambit_watch_end(ambit_watch *w, bool complete, ambit_watch_finding *finding
 }
 
 /* -- opening */
+
+/* Marks the states that a tape reads. */
+static void want(const ambit_watch *w, const ambit_tape *t, bool *wanted) {
+  for (uint32_t i = 0; i < t->ninstr; i++) {
+    uint32_t a = t->a[i] - t->nconst, b = t->op[i] == AMBIT_OP_POWN ? a : t->b[i] - t->nconst;
+    if (a < w->nx) wanted[a] = true;
+    if (b < w->nx) wanted[b] = true;
+  }
+  if (t->out[0] - t->nconst < w->nx) wanted[t->out[0] - t->nconst] = true;
+}
 
 static ambit_status seal(ambit_watch *w, ambit_arena *arena, ambit_expr e, const ambit_expr *input,
     const ambit_tape **tape, ambit_failure *f) {
@@ -310,6 +317,7 @@ static ambit_status open_conditions(ambit_watch *w, ambit_arena *arena, ambit_fa
     c->finding.bound = c->condition->kind == AMBIT_WATCH_ONCE ? (ambit_interval) { INFINITY, INFINITY }
                                                               : (ambit_interval) { -INFINITY, -INFINITY };
     c->finding.when = c->finding.value = c->finding.worst = AMBIT_EMPTY;
+    if (c->condition->kind == AMBIT_WATCH_MOST) c->finding.bound = (ambit_interval) { 0, 0 };
     status = check(w, c, arena, f);
   }
   if (status == AMBIT_OK) status = collect_inputs(w, arena, &input, f);
@@ -318,6 +326,10 @@ static ambit_status open_conditions(ambit_watch *w, ambit_arena *arena, ambit_fa
     status = seal(w, arena, c->condition->g, input, &c->value, f);
     if (status == AMBIT_OK) status = seal_slope(w, arena, c, input, f);
     if (status != AMBIT_OK) return status;
+    c->wanted = ambit_arena_alloc(arena, w->nx * sizeof *c->wanted);
+    if (!c->wanted) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+    want(w, c->value, c->wanted);
+    if (c->slope) want(w, c->slope, c->wanted);
     if (c->value->nslot > slots) slots = c->value->nslot;
     if (c->slope && c->slope->nslot > slots) slots = c->slope->nslot;
   }

@@ -16,11 +16,16 @@
 #define AMBIT_WATCH_ALWAYS 0u /* at all times */
 #define AMBIT_WATCH_END 1u    /* at the end */
 #define AMBIT_WATCH_ONCE 2u   /* at some time */
+#define AMBIT_WATCH_MOST 3u   /* g is no condition: a bound of max |g| over time is wanted */
 
 typedef struct ambit_watch_condition {
   ambit_expr g; /* over states, unknowns and time */
   uint32_t kind;
   const char *name; /* for messages */
+  /* MOST: as soon as the bound of this condition and those of its `rivals` next ones exceed their limits, the run is
+  ** given up (rivals bound the same quantity in other ways). limit 0: none; more rivals than there are: never. */
+  double limit;
+  uint32_t rivals;
 } ambit_watch_condition;
 
 typedef struct ambit_watch_request {
@@ -40,7 +45,7 @@ typedef struct ambit_watch_request {
 typedef struct ambit_watch_finding {
   bool holds, fails;    /* for all of them */
   bool undefined;       /* g is not known to be defined everywhere it is needed */
-  ambit_interval bound; /* encloses max g over time (ALWAYS), g at the end, min g over time (ONCE) of each of them */
+  ambit_interval bound; /* encloses max g over time (ALWAYS), |g| (MOST), g at the end, min g over time (ONCE) */
   /* where `fails` (ALWAYS, END) or `holds` (ONCE) was seen: g is in `value` at all times of `when`, s; else empty */
   ambit_interval when, value;
   ambit_interval worst; /* the part of time with the bound that is worst for a proof, s; empty: nothing was seen */
@@ -51,6 +56,8 @@ typedef struct ambit_watch ambit_watch;
 /* INVALID: a condition depends on something that is neither a state nor an uncertain datum nor time (named). */
 ambit_status ambit_watch_open(const ambit_watch_request *q, ambit_arena *arena, ambit_watch **watch, ambit_failure *f);
 ambit_sink *ambit_watch_sink(ambit_watch *w);
+/* Was the run given up because of a limit? */
+bool ambit_watch_gave_up(const ambit_watch *w);
 /* After the run: complete, if it reached its end. finding [ncondition] */
 void ambit_watch_end(ambit_watch *w, bool complete, ambit_watch_finding *finding);
 #endif

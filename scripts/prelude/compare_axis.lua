@@ -1,4 +1,5 @@
--- compare_axis.lua -- logarithmic axes: a range around positive values, and ticks at round numbers however far it goes.
+-- compare_axis.lua -- axes: a range around values, and ticks at round numbers however far it goes. Logarithmic ones
+-- for positive values, linear ones.
 local axis = {}
 
 local ticks_at_least = 4
@@ -51,8 +52,12 @@ function axis.range(values, least)
   return { lo = lo, hi = hi, ticks = ticks(lo, hi) }
 end
 
+-- A linear axis from lo to hi, lo < hi.
+function axis.linear(lo, hi) return { lo = lo, hi = hi, ticks = round_steps(lo, hi), linear = true } end
+
 -- Where v is between the pixels `from` and `to`.
 function axis.pixel(range, v, from, to)
+  if range.linear then return from + (v - range.lo) / (range.hi - range.lo) * (to - from) end
   local log_lo = math.log(range.lo)
   return from + (math.log(v) - log_lo) / (math.log(range.hi) - log_lo) * (to - from)
 end

@@ -14,22 +14,17 @@ local panels_at_most = 6
 local notes_at_most = 12
 local char, line_height = 6.9, 17 -- pixels, of 13 px sans-serif
 
-local colours = { "#4477aa", "#ee6677", "#228833", "#aa3377", "#ccaa22", "#33aacc", "#885522", "#555555" }
+picture.colours = { "#4477aa", "#ee6677", "#228833", "#aa3377", "#ccaa22", "#33aacc", "#885522", "#555555" }
 local markers = { 7, 5, 9, 13, 11, 15, 4, 6 }
 
 local function quoted(text) return "'" .. tostring(text):gsub("'", "''"):gsub("[\r\n]+", " ") .. "'" end
 
 -- What an SVG file may contain: names are the scene's, whatever bytes they have.
-local function printable(text)
+function picture.printable(text)
   return (utf8.len(text) and text or text:gsub("[\128-\255]", "?")):gsub("%c+", " ")
 end
 
-local function short(text, pixels)
-  local room = math.floor(pixels / char)
-  if compare_table.length(text) <= room then return text end
-  local cut = utf8.len(text) and utf8.offset(text, room - 2) or room - 2
-  return text:sub(1, cut - 1) .. "..."
-end
+local function short(text, pixels) return compare_table.short(text, math.floor(pixels / char)) end
 
 -- -- what is drawn
 
@@ -63,11 +58,11 @@ local function styles_of(comparisons)
       if drawable(row, key) and not styles[row.family] then
         local base = arithmetics[row.arithmetic]
         if not base then
-          base = { number = count % #colours + 1, families = 0 }
+          base = { number = count % #picture.colours + 1, families = 0 }
           arithmetics[row.arithmetic], count = base, count + 1
         end
         base.families = base.families + 1
-        styles[row.family] = { colour = colours[base.number], marker = markers[base.number],
+        styles[row.family] = { colour = picture.colours[base.number], marker = markers[base.number],
           dash = (base.families - 1) % 5 + 1, axis = row.axis, name = row.family }
         styles[#styles + 1] = styles[row.family]
       end
@@ -160,7 +155,8 @@ local function writer()
 end
 
 local function text_at(write, l, x, y, text, extra) -- the middle of its height at y
-  write("set label %s at screen %.5f,%.5f %s", quoted(printable(text)), x / l.width, y / l.height, extra or "left")
+  write("set label %s at screen %.5f,%.5f %s", quoted(picture.printable(text)), x / l.width, y / l.height,
+    extra or "left")
 end
 
 local function segment(write, l, x1, y1, x2, y2, style)

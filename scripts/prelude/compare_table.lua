@@ -59,9 +59,30 @@ end
 -- Characters, or bytes where the text is no UTF-8: the names of results are the scene's, whatever bytes they have.
 function compare_table.length(text) return utf8.len(text) or #text end
 
+-- The first so many characters; "..." where some are missing.
+function compare_table.short(text, room)
+  if compare_table.length(text) <= room then return text end
+  local cut = utf8.len(text) and utf8.offset(text, math.max(room - 2, 1)) or math.max(room - 2, 1)
+  return text:sub(1, cut - 1) .. "..."
+end
+
 local function pad(text, width, left)
   local space = (" "):rep(width - compare_table.length(text))
   return left and text .. space or space .. text
+end
+
+-- Rows of texts -> lines in columns, each to the right unless columns[k].left.
+function compare_table.aligned(cells, columns)
+  local widths, lines = {}, {}
+  for _, line in ipairs(cells) do
+    for k, text in ipairs(line) do widths[k] = math.max(widths[k] or 0, compare_table.length(text)) end
+  end
+  for i, line in ipairs(cells) do
+    local padded = {}
+    for k, text in ipairs(line) do padded[k] = pad(text, widths[k], columns[k].left) end
+    lines[i] = table.concat(padded, "  "):gsub("%s+$", "")
+  end
+  return lines
 end
 
 local colours = { failed = "\27[31m", skipped = "\27[33m", unbounded = "\27[33m", empty = "\27[33m" }
@@ -83,22 +104,16 @@ end
 -- Several lines, without a newline at the end; coloured for a terminal.
 function compare_table.text(comparison, coloured)
   if #comparison.rows == 0 then return "compare: nothing was compared" end
-  local columns, cells, widths = columns_of(comparison), { {} }, {}
+  local columns, cells = columns_of(comparison), { {} }
   for k, column in ipairs(columns) do cells[1][k] = column[1] end
   for i, row in ipairs(comparison.rows) do
     cells[i + 1] = {}
     for k, column in ipairs(columns) do cells[i + 1][k] = column[2](row) end
   end
-  for _, line in ipairs(cells) do
-    for k, text in ipairs(line) do widths[k] = math.max(widths[k] or 0, compare_table.length(text)) end
-  end
-  local lines = {}
-  for i, line in ipairs(cells) do
-    local padded = {}
-    for k, text in ipairs(line) do padded[k] = pad(text, widths[k], columns[k].left) end
-    local text = table.concat(padded, "  "):gsub("%s+$", "")
-    local colour = coloured and i > 1 and colour_of(comparison.rows[i - 1])
-    lines[i] = colour and colour .. text .. "\27[0m" or text
+  local lines = compare_table.aligned(cells, columns)
+  for i, row in ipairs(comparison.rows) do
+    local colour = coloured and colour_of(row)
+    if colour then lines[i + 1] = colour .. lines[i + 1] .. "\27[0m" end
   end
   if comparison.sample_problem then lines[#lines + 1] = "no samples: " .. comparison.sample_problem end
   if comparison.reason then lines[#lines + 1] = comparison.reason end

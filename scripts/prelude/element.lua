@@ -107,12 +107,16 @@ end
 -- What a part was made of: its connections and parameters, as core.add takes them.
 local made = setmetatable({}, { __mode = "k" })
 
-local function remember(self, part, links, values)
+function element.made(m, part) return made[m][part] end
+
+-- Adds a part whose connections and parameters are checked already; returns its number.
+function element.enter(self, d, name, where, values, links)
+  local part = core.add(self.handle, d.name, name, where, values, links)
+  self.declared[part] = d
   made[self] = made[self] or {}
   made[self][part] = { links = links, values = values }
+  return part
 end
-
-function element.made(m, part) return made[m][part] end
 
 -- Adds one element; returns its OUT frames and joints, in the order of their declaration.
 function element.add(self, name, t)
@@ -122,10 +126,7 @@ function element.add(self, name, t)
   if t.name ~= nil then check.text(t.name, name .. ": name") end
   local where = core.where():gsub(": $", "")
   local links = connections(self, d, t)
-  local values = parameters(self, d, t)
-  local part = core.add(self.handle, name, t.name, where, values, links)
-  self.declared[part] = d
-  remember(self, part, links, values)
+  local part = element.enter(self, d, t.name, where, parameters(self, d, t), links)
   local outs = {}
   for i, port in ipairs(d.outs) do outs[i] = frame.new(self, part, port) end
   return table.unpack(outs)

@@ -43,6 +43,7 @@ function frame.place(mechanism, value, kind, what)
   local meta = getmetatable(value)
   if type(meta) == "table" and meta.place then value = meta.place(value, kind, what) end -- a chain stands for its own
   if not frame.is(value) then check.fail("%s: expected a %s, got %s", what, kind, check.kind(value)) end
+  if value.mechanism ~= mechanism and mechanism.counterparts then value = mechanism.counterparts(value) end
   if value.mechanism ~= mechanism then
     check.fail('%s: the %s belongs to another mechanism, `%s`', what, tostring(value), value.mechanism.name)
   end

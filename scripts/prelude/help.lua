@@ -47,6 +47,18 @@ periodic orbit?]],
 hybrid { modes = { fly = { ode, guards = { { g = function(s, p, t) ... end, direction = "falling", to = "fly", reset =
 function(s, p, t) return { v = -s.v } end } } } }, mode = "fly", initial = { y = 1, v = 0 }, t = { 0, 3 } }: a model
 that switches where a guard crosses 0: status, reason, t_reached, x, events, modes, :at(t), :steps().]],
+  reduce = [[
+reduce { ode or m:dynamics(), t = { 0, 10 }, initial = ..., outputs = { "x", y = function(s, p, t) ... end },
+  error = { x = "0.1", y = 1 }, scenarios = { { parameters = { v = ... }, inputs = { u = function(t) ... end } }, ... },
+  reductions = { "branch", "neglect", "constant", "enclosure", "linearise", "merge" }, elements = true }
+  The smallest equations whose outputs provably stay within `error` of the detailed ones, for all data of all
+  scenarios, at all times: .ode, .error, .terms; :report(), :decisions(), :sample { draws = 100 }, :json(FILE), :picture(FILE).]],
+  certify = [[
+certify { detailed, reduced, t = { 0, 10 }, initial = ..., outputs = { "x", y = function(s, p, t) ... end },
+  error = { x = 0.1 }, criterion = "difference" | "bounds", parameters, inputs, scenarios = { { ... }, ... },
+  reduced_outputs, split, refine = 16 (further runs over parts of the data), solver and its options }
+  proves how far the outputs of a reduced model are off, for all data of all scenarios, at all times
+  -> .status "proved" | "exceeded" | "unable" | "stopped", .error.x, .when.x, .scenarios, :curve()]],
   verify = [[
 verify { ode, initial = { x = 1 }, t = { 0, 1 }, safe = expression or function(s, p, t), at_end = ..., reach = ...,
 budget = 200 }: proves or refutes that conditions are never positive: status, reason, bound, counterexample,

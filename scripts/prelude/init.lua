@@ -1,4 +1,5 @@
 -- init.lua -- the module `ambit`: what a scene sees.
+local certify = require "ambit.certify"
 local chain = require "ambit.chain"
 local check = require "ambit.check"
 local compare = require "ambit.compare"
@@ -12,6 +13,7 @@ local mechanism = require "ambit.mechanism"
 local ode = require "ambit.ode"
 local plugin = require "ambit.plugin"
 local poincare = require "ambit.poincare"
+local reduce = require "ambit.reduce"
 local roots = require "ambit.roots"
 local sample = require "ambit.sample"
 local sensitivity = require "ambit.sensitivity"
@@ -40,6 +42,8 @@ local ambit = {
   eigenvalues = stability.eigenvalues,
   inverse_kinematics = inverse_kinematics.inverse_kinematics,
   verify = verify.verify,
+  certify = certify.certify,
+  reduce = reduce.reduce,
   compare = compare.compare,
   view = view.view,
   plugins = plugin.plugins,

@@ -37,6 +37,7 @@ end
 
 local function usage(p)
   if p.kind == "element" or p.kind == "chain" then return ("m:%s { ... }"):format(p.name) end
+  if p.verb == "reduce" then return "ambit.reduce { ... }, which chooses what to leave out with it" end
   if p.kind == "solver" then return ('ambit.%s { ..., solver = "%s" }'):format(p.verb, p.name) end
   if p.kind == "arithmetic" then return ('arithmetic = "%s"'):format(p.name) end
 end
@@ -49,7 +50,9 @@ local function text(p)
     lines[#lines + 1] = ""
     lines[#lines + 1] = "use: " .. usage(p)
   end
-  if p.rigorous ~= nil then
+  if p.verb == "reduce" then
+    lines[#lines + 1] = "it proves nothing itself: the verb proves each of its choices"
+  elseif p.rigorous ~= nil then
     lines[#lines + 1] = p.rigorous and "its results are proved enclosures" or "its results prove nothing"
   end
   if p.arithmetics then lines[#lines + 1] = "arithmetics that fit: " .. p.arithmetics end

@@ -77,17 +77,24 @@ chain.reserved = methods
 
 local mechanism = {}
 
+-- A mechanism without parts that nobody has been told of. counterparts: of a copy, a function from the frames and
+-- joints of the mechanism that it was made from to its own (reduce_mechanism_copy.lua).
+function mechanism.blank(name)
+  local self = setmetatable({ name = name, handle = core.mechanism(name), declared = {}, places = {}, closures = {},
+    scope = false,
+    cached = false, cached_parts = false, counterparts = false },
+    Mechanism)
+  self.world = frame.new(self, 0, { index = 0, kind = "frame" })
+  return self
+end
+
 -- mechanism "name" or mechanism { "name", gravity = { 0, "-9.81", 0 } }
 function mechanism.new(t)
   if type(t) == "string" or t == nil then t = { t } end
   check.table(t, "mechanism")
   check.keys(t, { "name", "gravity" }, "mechanism", 1)
   local name = check.text(t[1] or t.name or "mechanism", "mechanism: name")
-  local self = setmetatable({ name = name, handle = core.mechanism(name), declared = {}, places = {}, closures = {},
-    scope = false,
-    cached = false, cached_parts = false },
-    Mechanism)
-  self.world = frame.new(self, 0, { index = 0, kind = "frame" })
+  local self = mechanism.blank(name)
   session.add(session.mechanisms, self)
   if t.gravity ~= nil then self:gravity(type(t.gravity) == "table" and t.gravity or { t.gravity }) end
   return self

@@ -20,15 +20,22 @@ function Ode:rate(name)
   check.fail('ode `%s`: no state `%s`%s', self.name, tostring(name), check.suggest(name, self.states))
 end
 
+require("ambit.source").install(Ode)
 check.methods(Ode, Ode)
 
 local ode = {}
 
--- mechanism: the one whose equations of motion these are, if they are of one; parameters: { name = expression }
-function ode.of_system(system, name, mechanism, parameters)
+local function object(system, name, mechanism, parameters, declaration)
   local names, units, symbols, rates = core.system_parts(system)
-  local self = setmetatable({ name = name, system = system, states = names, units = units, symbols = symbols,
-    rates = rates, mechanism = mechanism or false, parameters = parameters or {} }, Ode)
+  return setmetatable({ name = name, system = system, states = names, units = units, symbols = symbols,
+    rates = rates, mechanism = mechanism or false, parameters = parameters or {}, declaration = declaration or false },
+    Ode)
+end
+
+-- mechanism: the one whose equations of motion these are, if they are of one; parameters: { name = expression };
+-- declaration: the equations as they were written, function(s, p, t), if they can be written again
+function ode.of_system(system, name, mechanism, parameters, declaration)
+  local self = object(system, name, mechanism, parameters, declaration)
   session.add(session.odes, self)
   return self
 end
@@ -50,18 +57,21 @@ local function strict(values, what)
   })
 end
 
--- What a function(s, p, t) of a system is called with.
+-- What a function(s, p, t) of a system is called with; of that of a mechanism function(s, p, t, m).
 function ode.arguments(self)
   local s = {}
   for i, name in ipairs(self.states) do s[name] = self.symbols[i] end
-  return strict(s, "states"), strict(self.parameters, "parameters"), core.time()
+  return strict(s, "states"), strict(self.parameters, "parameters"), core.time(), self.mechanism or nil
 end
 
--- { "x", "v" } or { x = "m", v = "m/s" }: a state with its unit
+-- { "x", "v" } or { x = "m", v = "m/s" } or, where the order counts, { { "x", "m" }, { "v", "m/s" } }
 local function read_states(list)
   check.table(list, "ode: states")
   local names, units, seen = {}, {}, {}
-  for i, name in ipairs(list) do names[i], units[i] = check.text(name, "ode: states"), "1" end
+  for i, name in ipairs(list) do
+    local pair = type(name) == "table" and name or { name, "1" }
+    names[i], units[i] = check.text(pair[1], "ode: states"), check.text(pair[2], "ode: unit of a state")
+  end
   for _, key in ipairs(check.sorted(list)) do
     if type(key) == "string" then
       names[#names + 1], units[#units + 1] = key, check.text(list[key], "ode: unit of " .. key)
@@ -101,6 +111,24 @@ local function read_rates(result, names, s, p, t)
   return rates
 end
 
+local function write_rates(equations, names, symbols, parameters)
+  local by_name = {}
+  for i, name in ipairs(names) do by_name[name] = symbols[i] end
+  local s, p, time = strict(by_name, "ode: states"), strict(parameters, "ode: parameters"), core.time()
+  local result = equations
+  if type(result) == "function" then result = result(s, p, time) end
+  return read_rates(result, names, s, p, time)
+end
+
+-- Is there something to be called again with other parameters?
+local function is_rewritable(equations)
+  if type(equations) == "function" then return true end
+  for _, rate in pairs(type(equations) == "table" and equations or {}) do
+    if type(rate) ~= "function" then return false end
+  end
+  return type(equations) == "table"
+end
+
 -- ambit.ode { states = { "x" }, parameters = { a = 1 }, equations = function(s, p, t) return { x = -p.a * s.x } end }
 function ode.new(t)
   check.table(t, "ode")
@@ -116,11 +144,68 @@ function ode.new(t)
     values[name] = symbols[i]
   end
   local parameters = read_parameters(t.parameters, values)
-  local s, p = strict(values, "ode: states"), strict(parameters, "ode: parameters")
-  local result = t.equations
-  if type(result) == "function" then result = result(s, p, core.time()) end
-  local rates = read_rates(result, names, s, p, core.time())
-  return ode.of_system(core.system(names, units, symbols, rates), t.name or t[1] or "ode", nil, parameters)
+  local rates = write_rates(t.equations, names, symbols, parameters)
+  return ode.of_system(core.system(names, units, symbols, rates), t.name or t[1] or "ode", nil, parameters,
+    is_rewritable(t.equations) and t.equations)
+end
+
+-- u such that a datum of one unknown u, of which it is a linear function, has a value; nil: it is none.
+local function unknown_for(datum, value)
+  local leaves = core.leaves { datum }
+  if #leaves ~= 1 or leaves[1].kind ~= "unknown" then return nil end
+  local u = leaves[1].expression
+  local slope = core.derivative(datum, u)
+  if not core.is_constant(slope) then return nil end
+  return u, (value - core.substitute({ datum }, { u }, { core.expression(0) })[1]) / slope
+end
+
+-- { [name of a parameter or uncertain datum] = expression } -> what is written anew, and leaves to be replaced.
+local function read_values(self, values, what)
+  local parameters, anew, from, to = {}, false, {}, {}
+  for name, value in pairs(self.parameters) do parameters[name] = value end
+  for _, key in ipairs(check.sorted(values)) do
+    local value, datum = core.expression(values[key]), key
+    if type(key) == "string" then
+      datum = self.parameters[key]
+      if not datum then
+        check.fail("%s: `%s` has no parameter `%s`%s", what, self.name, key,
+          check.suggest(key, check.sorted(self.parameters)))
+      end
+      parameters[key] = value
+    end
+    if type(key) == "string" and self.declaration then
+      anew = true
+    else
+      local u, inverse = unknown_for(core.expression(datum), value)
+      if not u then
+        check.fail("%s: `%s` cannot be replaced in the equations of `%s`: give ambit.ode its equations as a \z
+          function(s, p, t), or make it an uncertain datum", what, tostring(key), self.name)
+      end
+      from[#from + 1], to[#to + 1] = u, inverse
+    end
+  end
+  return parameters, anew, from, to
+end
+
+-- The same equations with other values of parameters: { v = expression }, by name, or by the uncertain datum that is
+-- to be replaced.
+function ode.instance(self, values, what)
+  if next(values) == nil then return self end
+  local parameters, anew, from, to = read_values(self, values, what or "instance")
+  local rates = anew and write_rates(self.declaration, self.states, self.symbols, parameters) or self.rates
+  rates = core.substitute(rates, from, to)
+  for name, value in pairs(parameters) do parameters[name] = core.substitute({ value }, from, to)[1] end
+  local invariants, names = core.system_invariants(self.system)
+  local system = core.system(self.states, self.units, self.symbols, rates, core.substitute(invariants, from, to), names)
+  local instance = object(system, self.name, self.mechanism, parameters, self.declaration)
+  instance.replaced = { from, to }
+  return instance
+end
+
+-- Expressions that were written with the data of the system, as an instance of it has them.
+function ode.as_instance(self, list)
+  local replaced = rawget(self, "replaced")
+  return replaced and core.substitute(list, replaced[1], replaced[2]) or list
 end
 
 return ode

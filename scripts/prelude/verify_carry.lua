@@ -8,7 +8,7 @@ local core = require "ambit.core"
 local carry = {}
 
 -- g_x f + g_t, or nil where g has no derivative, or may jump (atan2) so that it is not the integral of this.
-local function rate_of(system, g)
+function carry.rate_of(system, g)
   if core.jumps { g } then return nil end
   local good, sum = pcall(core.derivative, g, core.time())
   if not good then return nil end
@@ -30,7 +30,7 @@ function carry.of(q, conditions)
   local leaves, values, initial = copy(system.symbols), copy(q.initial), copy(q.initial)
   leaves[#leaves + 1], values[#values + 1] = core.time(), core.expression(q.times[1])
   for k, condition in ipairs(conditions) do
-    local rate = rate_of(system, condition.g)
+    local rate = carry.rate_of(system, condition.g)
     if rate then
       local n = #names + 1
       names[n], units[n] = ("condition %s"):format(condition.name), "1"

@@ -334,6 +334,14 @@ local ode = {}
 ---@param name string
 ---@return ambit.expression # the right-hand side of that state
 function ode:rate(name) end
+---@return string # the equations, a line each
+function ode:text() end
+---@return string # a program that declares the same system
+function ode:lua() end
+---@return string # an aligned environment
+function ode:latex() end
+---@return string # a model ... end
+function ode:modelica() end
 
 ---@param t { states: string[]|table<string, string>, parameters: table<string, ambit.datum>?, equations: (fun(s: table<string, ambit.expression>, p: table<string, ambit.expression>, t: ambit.expression): table<string, ambit.datum>)|table<string, ambit.datum|function>, name: string? }
 ---@return ambit.ode
@@ -591,6 +599,100 @@ function sensitivity:unit(state, by) end
 ---@param t ambit.sensitivity.request
 ---@return ambit.sensitivity
 function ambit.sensitivity(t) end
+
+---@class ambit.scenario
+---@field name? string
+---@field t? number|string|(number|string)[]
+---@field initial? table<string|integer, ambit.datum>|fun(p: table<string, ambit.expression>): table<string, ambit.datum>
+---@field parameters? table<string|ambit.expression, ambit.datum>
+---@field inputs? table<string|ambit.expression, ambit.datum|fun(t: ambit.expression): ambit.datum>
+
+---What ambit.reduce and ambit.certify share; keys of `scenarios` fall back to those given here.
+---@class ambit.certify.problem: ambit.solver.options, ambit.scenario
+---@field scenarios? ambit.scenario[]
+---@field outputs table<string|integer, string|ambit.datum|function> names of states; name = function(s, p, t)
+---@field criterion? "difference"|"bounds" of both models on the same data; of the ranges of the outputs
+---@field threads? integer
+---@field split? integer|table<string|ambit.expression, integer>
+---@field nodes? integer instants that "bounds" looks at, 100 unless given
+---@field refine? integer further runs over parts of the data (certify: 8 where it helps, reduce: none, unless given)
+
+---@class ambit.certificate
+---@field status "proved"|"exceeded"|"unable"|"stopped"
+---@field reason string
+---@field error table<string, number> a proved bound for each output
+---@field when table<string, number> where it is worst, s
+---@field scenarios table[] the same for each
+---@field cpu_seconds number
+local certificate = {}
+---@return { t: number[], error: table<string, number[]> }
+function certificate:curve() end
+---@param t? { draws: integer?, seed: integer? }
+---@return table # the error seen in samples, from inside
+function certificate:sample(t) end
+
+---@class ambit.certify.request: ambit.certify.problem
+---@field [1] ambit.ode|ambit.mechanism the detailed model
+---@field [2] ambit.ode|ambit.mechanism the reduced one
+---@field reduced_outputs? table<string, string|ambit.datum|function> where the reduced model's differ
+---@field error? table<string, number|string>
+
+---Proves how far a given reduced model is off, for all data of all scenarios, at all times.
+---@param t ambit.certify.request
+---@return ambit.certificate
+function ambit.certify(t) end
+
+---@class ambit.reduction
+---@field status "complete"|"stopped"|"unable"
+---@field reason string
+---@field ode ambit.ode the reduced model
+---@field mechanism ambit.mechanism? the reduced mechanism
+---@field error table<string, number> a proved bound for each output
+---@field terms table[]
+---@field log table[]
+---@field terms_before integer
+---@field terms_after integer
+---@field equations_before integer
+---@field equations_after integer
+---@field proofs integer
+---@field cpu_seconds number
+local reduction = {}
+---@return table[] # a row for each term that was tried
+function reduction:report() end
+---@param width integer?
+---@return string
+function reduction:table(width) end
+---@return string[] # the undo log
+function reduction:decisions() end
+---@return table[] # how well each ranking foretold the exact effect
+function reduction:judge() end
+---@param file string?
+---@return string
+function reduction:json(file) end
+---@param file string an SVG file
+---@param options table?
+function reduction:picture(file, options) end
+---@param t? { draws: integer?, seed: integer? }
+---@return table # the error seen in samples, from inside
+function reduction:sample(t) end
+
+---@class ambit.reduce.request: ambit.certify.problem
+---@field [1] ambit.ode|ambit.mechanism
+---@field error table<string, number|string> what each output may be off by
+---@field reductions? ("branch"|"neglect"|"constant"|"enclosure"|"linearise"|"merge")[]|string in this order
+---@field ranking? string|string[] "adjoint" unless given; the first decides, the others are judged
+---@field strategy? "predicted"|"clusters"
+---@field cluster? number factor, 10 unless given; 1: one by one
+---@field give_up? number a cluster of which each alone is so many bounds off is not halved, 10 unless given
+---@field levels? integer 0: whole right-hand sides, 1: their summands, 2: sums inside those (unless given), ...
+---@field budget? number|string s
+---@field keep? string|string[] states and terms never to be cut
+---@field elements? boolean|(string|table)[] of a mechanism: parts that may be left out
+
+---The smallest set of equations whose outputs provably stay within their bounds of the detailed ones.
+---@param t ambit.reduce.request
+---@return ambit.reduction
+function ambit.reduce(t) end
 
 ---@class ambit.sample
 ---@field status "complete"|"stopped"

@@ -97,7 +97,7 @@ static void feed(const world *w, ambit_sink *sink) {
 }
 
 static ambit_watch_finding watch(const world *w, ambit_expr g, uint32_t kind, bool complete) {
-  const ambit_watch_condition condition = { g, kind, "g" };
+  const ambit_watch_condition condition = { .g = g, .kind = kind, .name = "g" };
   const ambit_watch_request q = { .system = &w->system, .ncondition = 1, .condition = &condition, .cuts = 64 };
   ambit_watch *watch;
   ambit_watch_finding finding;
@@ -208,6 +208,68 @@ static void is_sharp_with_dense_enclosures(void **unused) {
   close_world(&w);
 }
 
+/* max |g| over time and over the offsets of a solution: never below what is sampled, and not far above it. */
+static void bounds_the_greatest_value(void **unused) {
+  (void)unused;
+  ambit_random r = { 777 };
+  const ambit_interval unit = { -1, 1 };
+  double loosest = 0;
+  for (int n = 0; n < 100; n++) {
+    world w = open_world();
+    form q;
+    for (int i = 0; i < N; i++)
+      for (int k = 0; k <= DEGREE; k++) w.a[i][k] = ambit_random_in(&r, unit);
+    for (int k = 0; k < 7; k++) q.c[k] = ambit_random_in(&r, unit);
+    w.radius = n % 2 ? 0 : 0.01;
+    w.dense = n % 5 != 0;
+    w.tube = n % 5 != 1;
+    if (n % 7 == 0) w.from = 2, w.to = -1;
+    write_rates(&w);
+    double most = 0;
+    for (int i = -1; i <= 1; i++)
+      for (int j = -1; j <= 1; j++) {
+        double all[3];
+        sample(&w, &q, i * w.radius, j * w.radius, all);
+        most = fmax(most, fmax(fabs(all[0]), fabs(all[1])));
+      }
+    ambit_watch_finding f = watch(&w, express(&w, &q), AMBIT_WATCH_MOST, true);
+    assert_true(f.bound.hi >= most - SLACK);
+    if (w.dense) loosest = fmax(loosest, f.bound.hi / most);
+    close_world(&w);
+  }
+  assert_true(loosest < 1.2);
+}
+
+static void gives_up_at_a_limit(void **unused) {
+  (void)unused;
+  world w = open_world();
+  w.a[0][1] = 1; /* x = t, y = 0 */
+  write_rates(&w);
+  ambit_watch_condition c[] = { { .g = w.state[0], .kind = AMBIT_WATCH_MOST, .name = "g", .limit = 0.6, .rivals = 1 },
+    { .g = w.state[0], .kind = AMBIT_WATCH_MOST, .name = "h", .limit = 1.2, .rivals = UINT32_MAX } };
+  const ambit_watch_request q = { .system = &w.system, .ncondition = 2, .condition = c, .cuts = 64 };
+  const double end[] = { 0.5, 1, 1.5, 2 };
+  ambit_watch *one;
+  ambit_failure f = { 0 };
+  assert_int_equal(ambit_watch_open(&q, w.arena, &one, &f), AMBIT_OK);
+  for (int n = 0; n < 4; n++) {
+    double lo[N] = { end[n] }, hi[N] = { end[n] }, tube_lo[N] = { end[n] - 0.5 };
+    const ambit_record record = { .size = sizeof record,
+      .kind = AMBIT_REC_STEP,
+      .t_from = end[n] - 0.5,
+      .t_to = end[n],
+      .nx = N,
+      .lo = lo,
+      .hi = hi,
+      .tube_lo = tube_lo,
+      .tube_hi = hi };
+    int32_t stop = ambit_watch_sink(one)->emit(ambit_watch_sink(one), &record);
+    assert_int_equal(stop != 0, end[n] > 1.2); /* both limits */
+    assert_int_equal(ambit_watch_gave_up(one), end[n] > 1.2);
+  }
+  close_world(&w);
+}
+
 /* -- where g is not smooth or not defined */
 
 /* x = t - 1/2 on [0, 1]: the angle of (-1, x) jumps from -pi to pi at t = 1/2 */
@@ -301,7 +363,7 @@ static void knows_the_start_without_the_solver(void **unused) {
   write_rates(&w);
   ambit_expr u = ambit_graph_unknown(w.graph, "u", (ambit_interval) { 0, 1 });
   const ambit_expr initial[] = { op(&w, AMBIT_OP_ADD, number(&w, 0.5), u), number(&w, 0) };
-  const ambit_watch_condition condition = { op(&w, AMBIT_OP_SUB, w.state[0], number(&w, 0.999)), 0, "x" };
+  const ambit_watch_condition condition = { .g = op(&w, AMBIT_OP_SUB, w.state[0], number(&w, 0.999)), .name = "x" };
   const ambit_interval range = { 0.5, 0.5 };
   for (int known = 0; known < 2; known++) {
     const ambit_watch_request q = { .system = &w.system,
@@ -329,7 +391,7 @@ static void takes_narrower_ranges(void **unused) {
   world w = open_world();
   write_rates(&w);
   ambit_expr u = ambit_graph_unknown(w.graph, "u", (ambit_interval) { 0, 2 });
-  const ambit_watch_condition condition = { op(&w, AMBIT_OP_SUB, u, number(&w, 1)), AMBIT_WATCH_ALWAYS, "u" };
+  const ambit_watch_condition condition = { .g = op(&w, AMBIT_OP_SUB, u, number(&w, 1)), .name = "u" };
   const ambit_interval range[] = { { 0, 2 }, { 0, 0.5 }, { 1.5, 2 } };
   for (int n = 0; n < 3; n++) {
     const ambit_watch_request q = { .system = &w.system,
@@ -353,7 +415,7 @@ static void refuses_strangers(void **unused) {
   (void)unused;
   world w = open_world();
   write_rates(&w);
-  const ambit_watch_condition condition = { ambit_graph_symbol(w.graph, "z", "1"), AMBIT_WATCH_ALWAYS, "far" };
+  const ambit_watch_condition condition = { .g = ambit_graph_symbol(w.graph, "z", "1"), .name = "far" };
   const ambit_watch_request q = { .system = &w.system, .ncondition = 1, .condition = &condition, .cuts = 4 };
   ambit_watch *one;
   ambit_failure f = { 0 };
@@ -366,6 +428,8 @@ int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(agrees_with_sampling),
     cmocka_unit_test(is_sharp_with_dense_enclosures),
+    cmocka_unit_test(bounds_the_greatest_value),
+    cmocka_unit_test(gives_up_at_a_limit),
     cmocka_unit_test(sees_the_jump_of_atan2),
     cmocka_unit_test(does_not_claim_where_nothing_is_defined),
     cmocka_unit_test(bounds_kinks_without_a_derivative),

@@ -41,6 +41,9 @@ enum why {
   WHY_STOPPED
 };
 
+/* how far states may count as more than they are by themselves (size.c) */
+enum leniency { LENIENT_NOT, LENIENT_NEAR, LENIENT_FAR };
+
 /* How slopes get over a step (step.c) */
 enum formula { FORMULA_AUTO, FORMULA_TAYLOR, FORMULA_HERMITE_OBRESCHKOFF };
 
@@ -115,7 +118,8 @@ typedef struct lohner {
   history history;
   double *rest, *radius; /* [nx] bounds of |G e|, and of |C xi + G e + low| */
   double *size;          /* [nx] how large each state is, for tolerances */
-  double *unit, *grown;  /* [nx] sizes of states, and of the set, in a step, also of what is zero (step.c) */
+  double *unit, *grown;  /* [nx] sizes of states, and of the set, in a step, also of what is zero (size.c) */
+  double *euler;         /* [nx x (nx + 1)] scratch of these */
   double *limit;         /* [nx] widest that each state may be */
 
   /* -- the step */
@@ -125,7 +129,7 @@ typedef struct lohner {
   int corrected;                          /* slopes at the end are those of the corrector */
   int wide;                               /* slopes varied over the set in the last step */
   double varies;                          /* how much, relative to the set */
-  int lenient;                            /* about states that start from zero (step.c) */
+  enum leniency lenient;                  /* at first of this step, then of the next */
   uint32_t slope_order, next_slope_order; /* of this step, and of the next */
   double guess, longest;                  /* next step length to try; what its slopes are likely to allow */
   uint32_t next;                          /* the instant ahead */
@@ -172,6 +176,13 @@ ambit_status lohner_run(void *self, ambit_sink *sink);
 /* step.c */
 double lohner_share_of_time(const lohner *s); /* that of the step in the run, 1 if it is a large one */
 enum why lohner_find_step(lohner *s);         /* series, a length, and its proof */
+
+/* size.c, all after the series of the step */
+void lohner_choose_units(lohner *s); /* unit: sizes of states in the step */
+void lohner_choose_grown(lohner *s); /* grown: what the step makes of the set */
+/* what rounding adds to state i in the step: more than its size, where it stays at zero */
+double lohner_noise(const lohner *s, uint32_t i);
+int lohner_is_filled(const lohner *s); /* some state counts as more than it is */
 
 /* pace.c */
 void lohner_start_pace(lohner *s);

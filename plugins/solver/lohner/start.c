@@ -179,7 +179,7 @@ static int allocate_vectors(lohner *s) {
   } list[] = { { &s->start, nx }, { &s->start_rest, nx }, { &s->start_column, nx * nc }, { &s->fixed, np },
     { &s->fixed_column, np * nc }, { &s->centre, nx }, { &s->low, nx }, { &s->column, nx * nc }, { &s->new_centre, nx },
     { &s->new_low, nx }, { &s->rest, nx }, { &s->radius, nx }, { &s->size, nx }, { &s->unit, nx }, { &s->grown, nx },
-    { &s->limit, nx }, { &s->series_mid, nx * (p + 1) }, { &s->series_rad, nx * (p + 1) },
+    { &s->euler, nx * (nx + 1) }, { &s->limit, nx }, { &s->series_mid, nx * (p + 1) }, { &s->series_rad, nx * (p + 1) },
     { &s->slope_mid, nx * (q + 1) * nd }, { &s->slope_rad, nx * (q + 1) * nd }, { &s->excess, nx },
     { &s->box_excess, nx }, { &s->slope_excess, nx * nd }, { &s->slope_guess, nx * nd }, { &s->tail_in, nin },
     { &s->dtail_in, nin * nd }, { &s->tail_out, nx }, { &s->dtail_out, nx * nd }, { &s->transfer_mid, m * nx * nd },
@@ -271,6 +271,7 @@ enum why lohner_start(lohner *s) {
   lohner_start_pace(s);
   s->next = 1;
   s->wide = 0, s->varies = 0;
+  s->lenient = LENIENT_NOT;
   s->longest = INFINITY;
   s->next_slope_order = s->options.slope_order;
   s->guess = smaller(fabs(p->time[1] - p->time[0]), s->options.step_max);

@@ -10,6 +10,7 @@
 
 #define TRIES 200
 #define TRIES_OF_PROOF 6
+#define KINDS_OF_GUESSES 3
 #define GUESS 5.0      /* eps over the tail with eps = 0 */
 #define AGAIN 2.0      /* over the last tail */
 #define AIM 0.2        /* share of the tolerance that a new length aims at */
@@ -71,58 +72,13 @@ static int centre_excess(lohner *s, const double *eps) {
   return 1;
 }
 
-/* how far state i gets in the step by its first derivatives: its size where it starts from zero */
-static double swing(const lohner *s, uint32_t i) {
-  const double *mid = s->series_mid + (size_t)i * (s->options.order + 1u);
-  double H = s->step.length;
-  return H * (fabs(mid[1]) + H * (fabs(mid[2]) + H * fabs(mid[3])));
-}
-
-/* what rounding adds to state i in the step: more than its size, where it stays at zero */
-static double noise(const lohner *s, uint32_t i) {
-  const double *rad = s->series_rad + (size_t)i * (s->options.order + 1u);
-  double H = s->step.length;
-  return H * (rad[1] + H * (rad[2] + H * rad[3]));
-}
-
-/* in which some state changes by its own size; at least the step */
-static double natural_time(const lohner *s) {
-  double least = INFINITY;
-  for (uint32_t i = 0; i < s->nx; i++) {
-    const double *mid = s->series_mid + (size_t)i * (s->options.order + 1u);
-    if (s->size[i] > 0) least = smaller(least, smaller(s->size[i] / fabs(mid[1]), sqrt(s->size[i] / fabs(mid[2]))));
-  }
-  return least < INFINITY ? larger(least, s->step.length) : s->step.length;
-}
-
-/* Sizes of states that are zero, and stay so for their first derivatives (the far end of a chain), have no size of
-** their own; before the run ends for that (`lenient`), they get what the others could make of them in their time. */
-static void fill(const lohner *s, double *size) {
-  int more = s->lenient;
-  double time = more ? natural_time(s) : 0;
-  for (uint32_t sweep = 0; sweep < s->nx && more; sweep++) {
-    more = 0;
-    for (uint32_t i = 0; i < s->nx; i++) {
-      if (size[i] > 0) continue;
-      const double *rate = s->slope_mid + ((size_t)i * (s->slope_order + 1u) + 1) * s->ndir + s->nc;
-      for (uint32_t j = 0; j < s->nx; j++) size[i] = larger(size[i], time * fabs(rate[j]) * size[j]);
-      more |= size[i] > 0;
-    }
-  }
-}
-
-static void choose_units(lohner *s) {
-  for (uint32_t i = 0; i < s->nx; i++) s->unit[i] = larger(s->size[i], swing(s, i));
-  fill(s, s->unit);
-}
-
 /* truncation error over what is allowed, the worst component */
 static double truncation(lohner *s) {
   double worst = 0;
   if (!centre_excess(s, NULL)) return INFINITY;
   for (uint32_t i = 0; i < s->nx; i++) {
     double allowed = s->options.tolerance * s->unit[i] + WIDE_SHARE * s->radius[i];
-    if (s->lenient) allowed += noise(s, i);
+    if (s->lenient) allowed += lohner_noise(s, i);
     double ratio = s->excess[i] / (allowed + TINY);
     if (!(ratio <= worst)) worst = ratio; /* NaN too */
   }
@@ -135,11 +91,17 @@ static int within(size_t n, const double *a, const double *b) {
   return 1;
 }
 
-/* The first guess is a multiple of what eps = 0 gave, the next ones of what the last guess gave, and more and more
-** of the largest: a component whose own derivatives vanish at this order learns from the others, even from far ones.
-** eps [nx x n], a column for each direction. Where states are of very different size (angles and their rates of 1 kHz)
-** that is far too much for some: what none of these guesses proves is tried once more with floors in units of each
-** state, direction by direction. */
+/* The first guess is a multiple of what eps = 0 gave, the next ones of what the last guess gave: as in the power method,
+** they come to fit how states feed each other, whatever units these are measured in (a force of 1e-8 N and a wheel speed
+** of 50 rad/s in one loop). Where that is not enough, because components are zero whose own derivatives vanish at this
+** order, more and more of the largest is added: they learn from the others, even from far ones. Where states are of very
+** different size (angles and their rates of 1 kHz) that is far too much for some: what none of these guesses proves is
+** tried once more with floors in units of each state, direction by direction. eps [nx x n], a column for each direction.
+*/
+static void guess_plainly(int attempt, size_t n, const double *excess, double *eps) {
+  for (size_t k = 0; k < n; k++) eps[k] = (attempt ? AGAIN : GUESS) * excess[k] + TINY;
+}
+
 static void guess(int attempt, size_t n, const double *excess, double *eps) {
   static const double share[TRIES_OF_PROOF] = { 0, 1e-6, 1e-4, 1e-2, 0.1, 1 };
   double largest = 0;
@@ -161,18 +123,21 @@ static void guess_in_units(const lohner *s, int attempt, size_t n, const double 
   }
 }
 
-/* attempts in turn, without and with units */
+/* attempts in turn: without floors, with floors, with floors in units */
 static void next_guess(const lohner *s, int attempt, size_t n, const double *excess, double *eps) {
+  int again = attempt % TRIES_OF_PROOF;
   if (attempt < TRIES_OF_PROOF)
-    guess(attempt, s->nx * n, excess, eps);
+    guess_plainly(again, s->nx * n, excess, eps);
+  else if (attempt < 2 * TRIES_OF_PROOF)
+    guess(again, s->nx * n, excess, eps);
   else
-    guess_in_units(s, attempt - TRIES_OF_PROOF, n, excess, eps);
+    guess_in_units(s, again, n, excess, eps);
 }
 
 static int centre_is_proved(lohner *s) {
   double *eps = s->added; /* free until the set moves */
-  for (int i = 0; i < 2 * TRIES_OF_PROOF; i++) {
-    if (i == TRIES_OF_PROOF && !centre_excess(s, NULL)) return 0;
+  for (int i = 0; i < KINDS_OF_GUESSES * TRIES_OF_PROOF; i++) {
+    if (i && i % TRIES_OF_PROOF == 0 && !centre_excess(s, NULL)) return 0;
     next_guess(s, i, 1, s->excess, eps);
     if (!centre_excess(s, eps)) continue;
     if (within(s->nx, s->excess, eps)) return 1;
@@ -206,7 +171,7 @@ static int slope_excess(lohner *s, const double *eps, const double *deps) {
 
 static int slopes_are_proved(lohner *s) {
   size_t entries = (size_t)s->nx * s->ndir;
-  for (int i = 0; i < 2 * TRIES_OF_PROOF; i++) {
+  for (int i = 0; i < KINDS_OF_GUESSES * TRIES_OF_PROOF; i++) {
     if (i % TRIES_OF_PROOF == 0 && !slope_excess(s, NULL, NULL)) return 0;
     next_guess(s, i, 1, s->box_excess, s->added);
     next_guess(s, i, s->ndir, s->slope_excess, s->slope_guess);
@@ -226,19 +191,12 @@ double lohner_share_of_time(const lohner *s) {
 ** that starts from zero and feels others by its third derivative only has none of these (see `fill`). The worst
 ** component. */
 static double bluntness(lohner *s, const double *added) {
-  uint32_t n = s->ndir, q = s->slope_order;
-  double H = s->step.length, worst = 0, share = lohner_share_of_time(s);
+  double worst = 0, share = lohner_share_of_time(s);
   share *= s->nc == 0 ? SLOPPY : smaller(SLOPPY, larger(NEAT, s->varies));
-  for (uint32_t i = 0; i < s->nx; i++) {
-    const double *slope = s->slope_mid + (size_t)i * (q + 1u) * n;
-    s->grown[i] = s->radius[i];
-    for (uint32_t j = 0; j < n; j++)
-      s->grown[i] += H * (fabs(slope[n + j]) + H * fabs(slope[2u * n + j])) * lohner_reach(s, j);
-  }
-  fill(s, s->grown);
+  lohner_choose_grown(s);
   for (uint32_t i = 0; i < s->nx; i++) {
     double allowed = s->options.tolerance * (s->lenient ? s->unit[i] : s->size[i]);
-    if (s->lenient) allowed += noise(s, i);
+    if (s->lenient) allowed += lohner_noise(s, i);
     double ratio = added[i] / (share * s->grown[i] + allowed + TINY);
     if (!(ratio <= worst)) worst = ratio; /* NaN too */
   }
@@ -310,12 +268,21 @@ static void plan_next(lohner *s, int cut_short, double length, double ratio, dou
   s->longest = larger(s->guess, by_slopes);
 }
 
+/* 1: no step is short enough, because some state that is zero, and stays so for its first derivatives, has no size */
+static int has_no_size(const lohner *s) {
+  for (uint32_t i = 0; i < s->nx; i++)
+    if (s->unit[i] == 0 && s->radius[i] == 0 && s->excess[i] > 0) return 1;
+  return 0;
+}
+
 static enum why search(lohner *s) {
+  double before = INFINITY;
   double most = smaller(s->longest, s->options.step_max), length = smaller(larger(s->guess, s->options.step_min), most);
   for (int i = 0; i < TRIES; i++) {
     if (!plan(s, length) || (s->step.length < s->options.step_min && !s->at_instant)) return WHY_NO_STEP;
-    choose_units(s);
+    lohner_choose_units(s);
     double ratio = truncation(s), slope_ratio;
+    if (s->lenient == LENIENT_NOT && ratio < INFINITY && has_no_size(s)) return WHY_NO_STEP;
     if (ratio > 1) { /* never again as long: an infinite ratio would otherwise shrink and grow in turn */
       most = smaller(most, SHRINK * s->step.length);
       length = smaller(rescaled(s, ratio, s->options.order), most);
@@ -331,8 +298,11 @@ static enum why search(lohner *s) {
     else if ((slope_ratio = find_slopes(s)) <= 1) {
       plan_next(s, cut_short, length, ratio, slope_ratio);
       return WHY_NOTHING;
-    } else
+    } else {
+      if (s->lenient == LENIENT_NEAR && slope_ratio > before) return WHY_NO_STEP; /* sizes shrink faster than errors */
+      before = slope_ratio;
       most = length = smaller(SHRINK * s->step.length, rescaled(s, slope_ratio, s->slope_order));
+    }
   }
   return WHY_NO_STEP;
 }
@@ -341,8 +311,12 @@ enum why lohner_find_step(lohner *s) {
   s->slope_order = s->next_slope_order;
   uint32_t centre = lohner_centre_series(s), box = lohner_box_series(s, s->all_from, s->all_to);
   if (centre || box) return centre ? WHY_CENTRE : WHY_BOX;
-  s->lenient = 0;
-  if (search(s) == WHY_NOTHING) return WHY_NOTHING;
-  s->lenient = 1;
-  return search(s);
+  for (enum leniency now = s->lenient; now <= LENIENT_FAR; now++) {
+    s->lenient = now;
+    if (search(s) == WHY_NOTHING) {
+      if (now != LENIENT_FAR || !lohner_is_filled(s)) s->lenient = LENIENT_NOT;
+      return WHY_NOTHING;
+    }
+  }
+  return WHY_NO_STEP;
 }

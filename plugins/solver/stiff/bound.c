@@ -23,41 +23,39 @@ static void turn(size_t n, const double *K, const double *X, double *r) {
   for (size_t i = 0; i < n * n; i++) r[i] += K[i];
 }
 
-static int verified(size_t n, const double *K, const double *X) {
-  square next;
+/* 1: K + K X <= X, and nothing else counts; next := K + K X */
+static int verified(size_t n, const double *K, const double *X, double *next) {
+  int good = 1;
   turn(n, K, X, next);
-  for (size_t j = 0; j < n * n; j++)
-    if (!(next[j] <= X[j])) return 0;
-  return 1;
+  for (size_t j = 0; j < n * n; j++) good &= next[j] <= X[j];
+  return good;
 }
 
-/* where far entries have not settled, all are lifted by a little: ones shrink under K if its row sums are below 1 */
+/* where entries that underflow do not settle, all are lifted by a little: ones shrink under K if its row sums are below
+** 1 */
 static int lift(size_t n, const double *K, double *X) {
+  square next;
   double most = 0;
   for (size_t j = 0; j < n * n; j++) most = larger(most, X[j]);
-  if (verified(n, K, X)) return 1;
   for (double share = 0x1p-80; share < 0x1p-20; share *= 0x1p20) {
     for (size_t j = 0; j < n * n; j++) X[j] += share * most;
-    if (verified(n, K, X)) return 1;
+    if (verified(n, K, X, next)) return 1;
   }
   return 0;
 }
 
-/* Whatever X >= 0 is: K + K X <= X makes X a bound of every partial sum, by induction, so the series converges. */
+/* Whatever X >= 0 is: K + K X <= X makes X a bound of every partial sum, by induction, so the series converges. What
+** X = (K + K X) ROOM tends to has room in every entry, also in those where K is 0. */
 int bound_neumann(size_t n, const double *K, double *X) {
   square next;
-  memcpy(X, K, n * n * sizeof *X);
+  for (size_t j = 0; j < n * n; j++) X[j] = ROOM * K[j];
   for (int i = 0; i < TURNS; i++) {
-    int settled = 1;
-    turn(n, K, X, next);
+    if (verified(n, K, X, next)) return 1;
     for (size_t j = 0; j < n * n; j++) {
-      if (!(next[j] <= X[j] * (1 + 0x1p-20))) settled = 0;
       if (!(next[j] < 1e3)) return 0;
+      X[j] = ROOM * next[j];
     }
-    memcpy(X, next, n * n * sizeof *X);
-    if (settled) break;
   }
-  for (size_t j = 0; j < n * n; j++) X[j] *= ROOM;
   return lift(n, K, X);
 }
 

@@ -68,7 +68,7 @@ int frame_choose(stiff *s, uint32_t j) {
     s->rate + (size_t)(j + 1) * n * n };
   if (!split_choose(&e, &s->carried, p)) return 0;
   uint32_t g = p->slow, f = p->fast;
-  square V0 = { 0 }, V1 = { 0 }, F0 = { 0 }, F1 = { 0 }, A, inverse, X = { 0 };
+  square V0, V1, F0, F1, A, inverse, X;
   square G[SLOPE_ORDER + 3];
   halves((size_t)n * g, p->slow0, p->slow1, V0, V1);
   halves((size_t)n * f, p->fast0, p->fast1, F0, F1);
@@ -93,8 +93,9 @@ int frame_choose(stiff *s, uint32_t j) {
 
 /* U(-1) or U(1) times diag(G0, I) */
 static void end_of(const frame *r, uint32_t n, int at, iv *B) {
-  iv U[N_MAX * N_MAX] = { 0 };
+  iv U[N_MAX * N_MAX];
   for (uint32_t i = 0; i < n * n; i++) {
+    U[i] = (iv) { 0, 0 };
     for (uint32_t l = r->order + 1; l-- > 0;) {
       double x = at < 0 && l % 2 ? -r->U[l][i] : r->U[l][i];
       U[i] = iv_add(U[i], iv_of(x));

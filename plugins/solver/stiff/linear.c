@@ -43,20 +43,46 @@ void lu_solve(size_t n, const double *A, const uint32_t *row, size_t m, double *
   }
 }
 
+/* the power of two near 1 / the largest entry of a row; 0: there is none */
+static double row_unit(size_t n, const double *row) {
+  double most = 0;
+  int exponent;
+  for (size_t j = 0; j < n; j++) most = fmax(most, fabs(row[j]));
+  if (!(most > 0 && most < INFINITY)) return 0;
+  frexp(most, &exponent);
+  return ldexp(1, -exponent);
+}
+
+/* Rows of states that are small by many orders would lose all digits in the elimination: all become of one size. */
 int matrix_inverse(size_t n, const double *A, double *inverse) {
   square factors;
   uint32_t row[N_MAX];
-  memcpy(factors, A, n * n * sizeof *A);
+  for (size_t i = 0; i < n; i++) {
+    double unit = row_unit(n, A + i * n);
+    for (size_t j = 0; j < n; j++) {
+      factors[i * n + j] = unit * A[i * n + j];
+      inverse[i * n + j] = i == j ? unit : 0;
+    }
+  }
   if (!lu_factor(n, factors, row)) return 0;
-  for (size_t i = 0; i < n * n; i++) inverse[i] = i % (n + 1) == 0;
   lu_solve(n, factors, row, n, inverse);
   return 1;
 }
 
+/* r += sum of four rows of b, so that r is loaded once */
+static inline void add_four(size_t n, double *restrict r, const double *restrict x, const double *restrict b) {
+  for (size_t j = 0; j < n; j++) r[j] += (x[0] * b[j] + x[1] * b[n + j]) + (x[2] * b[2 * n + j] + x[3] * b[3 * n + j]);
+}
+
 void matrix_multiply(size_t rows, size_t inner, size_t cols, const double *a, const double *b, double *r) {
+  memset(r, 0, rows * cols * sizeof *r);
   for (size_t i = 0; i < rows; i++) {
-    for (size_t j = 0; j < cols; j++) r[i * cols + j] = 0;
-    for (size_t k = 0; k < inner; k++) subtract(cols, r + i * cols, -a[i * inner + k], b + k * cols);
+    const double *x = a + i * inner;
+    size_t k = 0;
+    for (; k + 4 <= inner; k += 4)
+      if (x[k] != 0 || x[k + 1] != 0 || x[k + 2] != 0 || x[k + 3] != 0)
+        add_four(cols, r + i * cols, x + k, b + k * cols);
+    for (; k < inner; k++) subtract(cols, r + i * cols, -x[k], b + k * cols);
   }
 }
 

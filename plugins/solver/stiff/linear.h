@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define N_MAX 32 /* states and parameters */
+#define N_MAX 64 /* states and parameters: matrices have their place on the stack, about 3 MB in all */
 
 typedef double square[N_MAX * N_MAX]; /* any matrix of at most N_MAX rows and columns; the pitch is what is stated */
 

@@ -94,7 +94,7 @@ static AMBIT_WORKER int bound_up(stiff *s, double *M) {
 
 /* the largest eigenvalue of the comparison matrix, about */
 static double growth(stiff *s) {
-  square M = { 0 }, padded; /* to the size that the eigenvalue solver was opened for */
+  square M, padded; /* to the size that the eigenvalue solver was opened for */
   double one[N_MAX], least = -1;
   spectrum e;
   uint32_t m = s->frame.split.blocks, n = s->n;

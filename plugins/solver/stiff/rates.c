@@ -42,8 +42,8 @@ static void through(const double *C, const iv *Q, uint32_t n, iv *r) {
 void rates_bound(const stiff *s, matrix_bounds *r) {
   const frame *f = &s->frame;
   uint32_t n = s->n, top = f->order + SLOPE_ORDER;
-  iv Q[N_MAX * N_MAX] = { 0 }, Y[N_MAX * N_MAX] = { 0 };
-  square size = { 0 }, rest, T;
+  iv Q[N_MAX * N_MAX], Y[N_MAX * N_MAX];
+  square size, rest, T;
   memset(T, 0, (size_t)n * n * sizeof *T);
   memcpy(T, s->slopes.tail, (size_t)s->nx * n * sizeof *T);
   bound_multiply(n, n, n, T, f->size, rest);
@@ -105,7 +105,7 @@ static double growth(const stiff *s, const matrix_bounds *r, const double *upper
 void rates_in_blocks(const stiff *s, const matrix_bounds *r, double *M) {
   const split *p = &s->frame.split;
   uint32_t n = s->n, m = p->blocks, count[N_MAX] = { 0 };
-  square size = { 0 }, upper = { 0 }, squares, only = { 0 };
+  square size, upper, squares, only;
   to_z(s, r, size, upper);
   memset(squares, 0, (size_t)m * m * sizeof *squares);
   for (uint32_t i = 0; i < n; i++) count[p->block[i]]++;

@@ -25,7 +25,7 @@ void frame_apply_slopes(const stiff *s, uint32_t l, uint32_t cols, const double 
     for (uint32_t k = 0; k < n; k++)
       if (l < s->slopes.count[i * n + k]) {
         double x = s->slopes.coefficient[(size_t)(i * n + k) * (SLOPE_ORDER + 1) + l];
-        matrix_add_scaled(cols, r + (size_t)i * cols, x, X + (size_t)k * cols);
+        if (x != 0) matrix_add_scaled(cols, r + (size_t)i * cols, x, X + (size_t)k * cols);
       }
 }
 
@@ -100,7 +100,7 @@ static void solve_block(
 
 static void solve_slow(uint32_t n, uint32_t g, series_of_matrices Y, series_of_matrices S) {
   square part, start;
-  memset(start, 0, sizeof start);
+  memset(start, 0, (size_t)g * g * sizeof *start);
   for (uint32_t l = 0; l + 1 < ORDERS; l++) {
     cut(n, Y[l], 0, g, 0, g, part);
     paste(n, S[l + 1], 0, g, 0, g, 1.0 / (l + 1), part);

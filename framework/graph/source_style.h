@@ -1,0 +1,64 @@
+/* source_style.h -- how a language writes the nodes of the graph, and the writer that all languages share. */
+#ifndef AMBIT_SOURCE_STYLE_H
+#define AMBIT_SOURCE_STYLE_H
+#include "graph/source.h"
+#include "graph/store.h"
+#include "num/decimal.h"
+
+/* Binding strength of an expression, and what an operand's place demands. */
+enum {
+  AMBIT_BINDS_SUM = 1,
+  AMBIT_BINDS_SIGN = 2,
+  AMBIT_BINDS_PRODUCT = 3,
+  AMBIT_BINDS_POWER = 4,
+  AMBIT_BINDS_ATOM = 5
+};
+#define AMBIT_BINDS_ADDEND 0 /* right of a plus: anything but a sign */
+#define AMBIT_LEAF_MAX (3 * AMBIT_DECIMAL_MAX)
+
+/* A node is written as head, a, middle, b, tail; b only if there are two operands. */
+typedef struct ambit_layout {
+  char head[32], middle[16], tail[32];
+  ambit_expr a, b;
+  int place_a, place_b; /* what the operand has to bind as strongly as */
+  bool two;
+  bool wrap; /* a, a number, is to be more than a number of the language */
+} ambit_layout;
+
+typedef struct ambit_writer ambit_writer;
+
+typedef struct ambit_style {
+  const char *open, *close;                             /* brackets */
+  int (*strength)(const ambit_writer *w, ambit_expr e); /* unless it has a name */
+  ambit_layout (*layout)(const ambit_writer *w, ambit_expr e);
+  bool (*leaf)(ambit_writer *w, ambit_expr e, bool wrap); /* writes a leaf that has no name; false: out of memory */
+} ambit_style;
+
+extern const ambit_style ambit_style_text, ambit_style_lua, ambit_style_latex, ambit_style_modelica;
+
+struct ambit_writer {
+  const ambit_graph *g;
+  const ambit_style *style;
+  const ambit_source_names *names; /* or NULL */
+  char *out;                       /* [room], terminated at the end */
+  size_t room, used;
+  bool grows;    /* otherwise, writing stops when the room is used up */
+  bool too_high; /* an exponent beyond 1e9 was met */
+  struct ambit_piece *stack;
+  size_t depth, capacity;
+};
+
+/* e into w->out, which is terminated then. False: out of memory. The stack is freed, out is not. */
+bool ambit_writer_run(ambit_writer *w, ambit_expr e);
+bool ambit_writer_put(ambit_writer *w, const char *text);           /* false: out of memory */
+const char *ambit_writer_name(const ambit_writer *w, ambit_expr e); /* or NULL */
+bool ambit_writer_brackets(const ambit_writer *w, ambit_expr e, int place);
+/* The usual strength of an operation; MUL and DIV that begin with a sign bind as one. Leaves: AMBIT_BINDS_ATOM. */
+int ambit_writer_strength(const ambit_writer *w, ambit_expr e);
+/* The text of a leaf in ambit_graph_text; the buffer holds it if it has to be made. */
+const char *ambit_leaf_text(const ambit_graph *g, ambit_expr e, char buffer[AMBIT_LEAF_MAX]);
+/* "sin" of an operation, by the names of tape.h */
+const char *ambit_op_symbol(uint32_t op);
+/* The layout of an operation with usual operators and functions sin(a), atan2(a, b). */
+ambit_layout ambit_layout_infix(const ambit_writer *w, ambit_expr e);
+#endif

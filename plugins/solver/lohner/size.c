@@ -1,0 +1,151 @@
+/* size.c -- how large a state counts as, where tolerances are relative: guesses, which no proof rests on.
+**
+** A state is as large as it is, or as it gets in the step (the error of a model that has forgotten what happens at rest
+** begins with t^5). One that starts at zero, and stays there for its first
+** derivatives too (the far end of a chain), has no size of its own; with leniency it gets what others could make of it:
+**   NEAR: in the time in which some state changes by its own size, by one derivative after the other;
+**   FAR: in one implicit Euler step over all the time that is left, |(I - T J)^-1 size|. The far end of a chain counts
+**        as what diffuses there in the end, however small it is now: relative to what it is in its first steps, it could
+**        only be followed by a series of as many orders as it has links to the source.
+*/
+#include "lohner.h"
+
+#define FAR_SHARE 0x1p-10 /* of what the set grows to in the end, that counts now */
+#define FILLED 2.0        /* times its size, that a state counts as */
+
+static const double *series(const lohner *s, uint32_t i) { return s->series_mid + (size_t)i * (s->options.order + 1u); }
+
+/* df/dx, row i */
+static const double *rates(const lohner *s, uint32_t i) {
+  return s->slope_mid + ((size_t)i * (s->slope_order + 1u) + 1) * s->ndir + s->nc;
+}
+
+/* sum over k = 1 .. first of |c_k| H^k; if that is zero, the first term beyond that is not. c: `stride` apart */
+static double departure(const double *c, size_t stride, uint32_t first, uint32_t last, double H) {
+  double sum = 0, power = 1;
+  for (uint32_t k = 1; k <= last && (k <= first || sum == 0); k++) {
+    power *= H;
+    sum += power * fabs(c[k * stride]);
+  }
+  return sum;
+}
+
+/* how far state i gets in the step by its first derivatives: its size where it starts from zero */
+static double swing(const lohner *s, uint32_t i) {
+  return departure(series(s, i), 1, 3, s->options.order, s->step.length);
+}
+
+double lohner_noise(const lohner *s, uint32_t i) {
+  const double *rad = s->series_rad + (size_t)i * (s->options.order + 1u);
+  double H = s->step.length;
+  return H * (rad[1] + H * (rad[2] + H * rad[3]));
+}
+
+/* -- near */
+
+/* in which some state changes by its own size; at least the step */
+static double natural_time(const lohner *s) {
+  double least = INFINITY;
+  for (uint32_t i = 0; i < s->nx; i++) {
+    const double *mid = series(s, i);
+    if (s->size[i] > 0) least = smaller(least, smaller(s->size[i] / fabs(mid[1]), sqrt(s->size[i] / fabs(mid[2]))));
+  }
+  return least < INFINITY ? larger(least, s->step.length) : s->step.length;
+}
+
+static void fill_near(const lohner *s, double *size) {
+  double time = natural_time(s);
+  int more = 1;
+  for (uint32_t sweep = 0; sweep < s->nx && more; sweep++) {
+    more = 0;
+    for (uint32_t i = 0; i < s->nx; i++) {
+      if (size[i] > 0) continue;
+      for (uint32_t j = 0; j < s->nx; j++) size[i] = larger(size[i], time * fabs(rates(s, i)[j]) * size[j]);
+      more |= size[i] > 0;
+    }
+  }
+}
+
+/* -- far */
+
+static void subtract(size_t n, double *restrict x, double factor, const double *restrict y) {
+  for (size_t k = 0; k < n; k++) x[k] -= factor * y[k];
+}
+
+static void swap(uint32_t n, double *a, double *b) {
+  for (uint32_t k = 0; k < n; k++) {
+    double keep = a[k];
+    a[k] = b[k], b[k] = keep;
+  }
+}
+
+/* A x = b by elimination with row exchanges; A [n x (n + 1)] has b as its last column, which becomes x */
+static void eliminate(uint32_t n, double *A) {
+  size_t pitch = n + 1u;
+  for (uint32_t k = 0; k < n; k++) {
+    uint32_t best = k;
+    for (uint32_t i = k + 1; i < n; i++)
+      if (fabs(A[i * pitch + k]) > fabs(A[best * pitch + k])) best = i;
+    if (best != k) swap(n + 1, A + k * pitch, A + best * pitch);
+    for (uint32_t i = k + 1; i < n; i++)
+      if (A[i * pitch + k] != 0)
+        subtract(pitch - k, A + i * pitch + k, A[i * pitch + k] / A[k * pitch + k], A + k * pitch + k);
+  }
+  for (uint32_t k = n; k-- > 0;) {
+    double *x = A + k * pitch + n;
+    *x /= A[k * pitch + k];
+    for (uint32_t i = 0; i < k; i++) A[i * pitch + n] -= A[i * pitch + k] * *x;
+  }
+}
+
+static void fill_far(const lohner *s, double share, double *size) {
+  uint32_t n = s->nx;
+  size_t pitch = n + 1u;
+  double *A = s->euler, time = fabs(s->problem.time[s->problem.ntime - 1] - s->t);
+  for (uint32_t i = 0; i < n; i++) {
+    for (uint32_t j = 0; j < n; j++) A[i * pitch + j] = (i == j) - time * rates(s, i)[j];
+    A[i * pitch + n] = size[i];
+  }
+  eliminate(n, A);
+  for (uint32_t i = 0; i < n; i++) {
+    double x = share * fabs(A[i * pitch + n]);
+    if (x > size[i] && x < INFINITY) size[i] = x;
+  }
+}
+
+/* States that only second derivatives reach (a product of two that start at zero) count as the smallest of the others. */
+static void fill_rest(const lohner *s, double *size) {
+  double least = INFINITY;
+  for (uint32_t i = 0; i < s->nx; i++)
+    if (size[i] > 0) least = smaller(least, size[i]);
+  for (uint32_t i = 0; i < s->nx && least < INFINITY; i++)
+    if (!(size[i] > 0)) size[i] = least;
+}
+
+/* -- sizes */
+
+void lohner_choose_units(lohner *s) {
+  for (uint32_t i = 0; i < s->nx; i++) s->unit[i] = larger(s->size[i], swing(s, i));
+  if (s->lenient == LENIENT_NEAR) fill_near(s, s->unit);
+  if (s->lenient == LENIENT_FAR) fill_far(s, 1, s->unit), fill_rest(s, s->unit);
+}
+
+void lohner_choose_grown(lohner *s) {
+  uint32_t n = s->ndir, q = s->slope_order;
+  for (uint32_t i = 0; i < s->nx; i++) {
+    s->grown[i] = s->radius[i];
+    for (uint32_t j = 0; j < n; j++) {
+      const double *slope = s->slope_mid + (size_t)i * (q + 1u) * n + j;
+      s->grown[i] += departure(slope, n, 2, s->radius[i] > 0 ? 2 : q, s->step.length) * lohner_reach(s, j);
+    }
+  }
+  if (s->lenient == LENIENT_NEAR) fill_near(s, s->grown);
+  if (s->lenient == LENIENT_FAR) fill_far(s, FAR_SHARE, s->grown), fill_rest(s, s->grown);
+}
+
+/* 1: what is small by itself counts as more */
+int lohner_is_filled(const lohner *s) {
+  for (uint32_t i = 0; i < s->nx; i++)
+    if (s->unit[i] > FILLED * s->size[i]) return 1;
+  return 0;
+}
