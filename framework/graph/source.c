@@ -29,6 +29,9 @@ const char *ambit_writer_name(const ambit_writer *w, ambit_expr e) {
 
 bool ambit_writer_brackets(const ambit_writer *w, ambit_expr e, int place) {
   if (place == AMBIT_BINDS_SUM || ambit_writer_name(w, e)) return false;
+  uint32_t op = ambit_at(w->g, e)->op;
+  if (place == AMBIT_BINDS_SIGN && (op == AMBIT_OP_MUL || op == AMBIT_OP_DIV))
+    return false; /* with a sign or without */
   int s = w->style->strength(w, e);
   return place == AMBIT_BINDS_ADDEND ? s == AMBIT_BINDS_SIGN : s < place;
 }

@@ -181,7 +181,7 @@ nothing, exit_code, problems = view(scene [[
   local third = pendulum "still"
 ]])
 if exit_code ~= 3 then fail("a run that proves nothing", ("exit code %s\n%s"):format(exit_code, problems)) end
-inspect("a run that proves nothing", nothing, { texts = { { "#status", "unable at t = 0 s" }, { "#reason", "no step" },
+inspect("a run that proves nothing", nothing, { texts = { { "#status", "unable at t = 0 s" }, { "#reason", "grew wider" },
   { "#which option", "approximate" }, { "#which option", "still" } }, counts = { { "#which option", 3 } } }, 800, 600)
 
 -- -- a thousand parts
