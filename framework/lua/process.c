@@ -42,6 +42,12 @@ static int libraries(lua_State *L) {
   return 1;
 }
 
+/* deadline(t): runs that begin from now on are stopped when cpu() is t; nil: never */
+static int deadline(lua_State *L) {
+  AMBIT_LUA(L)->deadline = luaL_optnumber(L, 1, 0);
+  return 0;
+}
+
 /* cpu() -> s of CPU time of this process */
 static int cpu(lua_State *L) {
   struct timespec t;
@@ -96,9 +102,9 @@ static int literal(lua_State *L) {
 }
 
 void ambit_lua_open_process(lua_State *L, ambit_lua *core) {
-  static const luaL_Reg functions[] = { { "libraries", libraries }, { "cpu", cpu }, { "terminal", terminal },
-    { "where", where }, { "fail", fail }, { "progress", progress }, { "notes", notes }, { "interrupted", interrupted },
-    { "literal", literal }, { NULL, NULL } };
+  static const luaL_Reg functions[] = { { "libraries", libraries }, { "cpu", cpu }, { "deadline", deadline },
+    { "terminal", terminal }, { "where", where }, { "fail", fail }, { "progress", progress }, { "notes", notes },
+    { "interrupted", interrupted }, { "literal", literal }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
   lua_pushliteral(L, AMBIT_VERSION);
   lua_setfield(L, -2, "version");

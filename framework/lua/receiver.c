@@ -1,5 +1,10 @@
 /* receiver.c -- records on their way from a solver to Lua and to JSON lines. */
 #include "lua/receiver.h"
+#include "model/context.h"
+
+static bool is_to_stop(const ambit_receiver *r) {
+  return ambit_interrupt_pending() || (r->deadline > 0 && ambit_context_seconds() >= r->deadline);
+}
 
 static int32_t emit(ambit_sink *s, const ambit_record *record) {
   ambit_receiver *r = (ambit_receiver *)(void *)s;
@@ -9,13 +14,13 @@ static int32_t emit(ambit_sink *s, const ambit_record *record) {
     return 1;
   }
   if (r->records && ambit_records_solver(r->records, record, r->name, &r->failure) != AMBIT_OK) return 1;
-  return ambit_interrupt_pending();
+  return is_to_stop(r);
 }
 
 static int32_t progress(ambit_sink *s, double done, const char *message) {
   ambit_receiver *r = (ambit_receiver *)(void *)s;
   ambit_progress_draw(&r->progress, done, message);
-  return ambit_interrupt_pending();
+  return is_to_stop(r);
 }
 
 void ambit_receiver_prepared(void *user, size_t nu, const ambit_expr *unknown) {
@@ -38,6 +43,7 @@ ambit_receiver ambit_receiver_silent(void) {
 void ambit_receiver_begin(lua_State *L, ambit_receiver *r) {
   ambit_progress_begin(&r->progress, AMBIT_LUA(L)->progress);
   ambit_interrupt_begin(&r->interrupt);
+  r->deadline = AMBIT_LUA(L)->deadline;
 }
 
 void ambit_receiver_end(ambit_receiver *r) {

@@ -14,6 +14,7 @@ typedef struct ambit_receiver {
   const char *const *name; /* [nx] */
   ambit_progress progress;
   ambit_interrupt interrupt;
+  double deadline;       /* s of CPU time of this process; 0: none */
   ambit_failure failure; /* why the receiver stopped the run: memory, a full disk */
 } ambit_receiver;
 
@@ -23,7 +24,7 @@ ambit_receiver ambit_receiver_push(lua_State *L, size_t nx, const char *const *n
 void ambit_receiver_prepared(void *user, size_t nu, const ambit_expr *unknown);
 /* One that only draws progress. */
 ambit_receiver ambit_receiver_silent(void);
-/* Around the run: progress and interrupt. Nothing between them may raise. */
+/* Around the run: progress, interrupt and deadline. Nothing between them may raise. */
 void ambit_receiver_begin(lua_State *L, ambit_receiver *r);
 void ambit_receiver_end(ambit_receiver *r);
 /* "complete", "stopped" or "unable"; and the reason, which is the receiver's own if it stopped the run. */

@@ -98,6 +98,15 @@ local function spent(job)
     core.literal(job.asked.budget)) }
 end
 
+-- f(...), whose runs stop when the budget is spent.
+local function within_budget(job, f, ...)
+  core.deadline(job.asked.budget and job.start + job.asked.budget)
+  local result = table.pack(pcall(f, ...))
+  core.deadline(nil)
+  if not result[1] then error(result[2], 0) end
+  return table.unpack(result, 2, result.n)
+end
+
 -- The settings of a trial: it may be given up as soon as it cannot be accepted, unless its error is to rank it.
 local function trial_settings(job, how)
   local ranks = how == "lowered"
@@ -118,7 +127,8 @@ local function begin(job)
   job.prove = function(m, how)
     if is_spent(job) then return spent(job) end
     job.count()
-    return proof.prove(job.detailed, m, job.scenarios, trial_settings(job, how))
+    local result = within_budget(job, proof.prove, job.detailed, m, job.scenarios, trial_settings(job, how))
+    return result.status == "stopped" and is_spent(job) and spent(job) or result
   end
 end
 
@@ -214,7 +224,7 @@ end
 local function certify(job)
   if #job.history == 1 or is_spent(job) then return end
   job.count()
-  local whole = proof.prove(job.detailed, job.model, job.scenarios, job.settings)
+  local whole = within_budget(job, proof.prove, job.detailed, job.model, job.scenarios, job.settings)
   if whole.status == "proved" then job.proof = whole end
 end
 

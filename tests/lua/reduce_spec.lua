@@ -324,6 +324,16 @@ describe("reduce, techniques", function()
     assert_proved(smaller, true_error(smaller, draw, 0, 2, 400, 6))
   end)
 
+  it("ends a single long proof when the budget is spent", function()
+    local f = ambit.ode { states = { "x", "v" }, parameters = { k = ambit.between("0.9", "1.1") },
+      equations = function(s, p) return { x = s.v - s.x, v = ambit.min(s.x, 1) - p.k * s.v } end }
+    local small = ambit.reduce { f, t = { 0, 2 }, initial = { x = ambit.around(2, "0.1"), v = "0.5" },
+      outputs = { "x" }, error = { x = "0.05" }, solver = "valencia", reductions = { "neglect" }, budget = "0.2 s" }
+    assert.equal("stopped", small.status) -- without v*k the steps creep for minutes
+    assert.matches("budget of 0.2 s is spent", small.reason)
+    assert.same({ x = 0 }, small.error)
+  end)
+
   it("simplifies branches after cuts as well as before them", function()
     local f = ambit.ode { states = { "x", "v" }, equations = function(s)
       return { x = -s.x + "0.001" * s.v, v = -ambit.abs(s.v) }
