@@ -219,6 +219,14 @@ local function search(job)
   return "complete", ""
 end
 
+-- f(job), which Ctrl-C may end anywhere, also between kernel calls: what was accepted until then stands.
+local function until_interrupted(job, f)
+  local good, status, reason = pcall(f, job)
+  if good then return status, reason end
+  if core.interrupted() and tostring(status):find("interrupted", 1, true) then return "stopped", "stopped on request" end
+  error(status, 0)
+end
+
 -- The model that is left, proved once more as a whole, for the certificate. Where there is no time for it, the trial
 -- that it was accepted by was such a proof; where nothing was cut, there is nothing to prove.
 local function certify(job)
@@ -298,8 +306,8 @@ function verb.reduce(t)
   request.keep_terms(job.stays, terms, job.model, job.keep)
   job.model.starts = model.starts(job.model, job.scenarios, job.stays)
   job.history[1] = { terms = candidate.count(job.model), error = job.proof.error }
-  local status, reason = look_at_detailed(job)
-  if status == "complete" then status, reason = search(job) end
+  local status, reason = until_interrupted(job, look_at_detailed)
+  if status == "complete" then status, reason = until_interrupted(job, search) end
   if status == "complete" then certify(job) end
   local result = result_of(job, before, status, reason)
   finish(job, result)
