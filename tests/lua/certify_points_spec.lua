@@ -5,9 +5,9 @@ local core = require "ambit.core"
 
 local exp, abs, max = math.exp, math.abs, math.max
 
-local fast, loss = 1e4, 2 ^ -10 -- exact in binary
+local fast, loss = 400, 2 ^ -10 -- exact in binary; references of stiffer chains are by methods of GSL that allocate
 
--- a decays and drives b, which follows 1e4 times faster; c collects b and drives nothing
+-- a decays and drives b, which follows 400 times faster; c collects b and drives nothing
 local function chain(decay)
   return ambit.ode { states = { "a", "b", "c" }, equations = function(s)
     return { a = -s.a - decay * s.a, b = fast * (s.a - s.b), c = s.b }
