@@ -41,6 +41,7 @@ static int transient(const metzler *m, const parts *p, size_t f, double *rho) {
   size_t i = p->at_fast[f], g = p->slow;
   double mu = -m->M[i * m->n + i];
   square K, X;
+  K[0] = 0; /* there may be no slow ones */
   for (size_t a = 0; a < g * g; a++) K[a] = fabs(m->M[p->at_slow[a / g] * m->n + p->at_slow[a % g]]) / mu;
   if (!bound_neumann(g, K, X)) return 0;
   double A[N_MAX];
