@@ -6,6 +6,7 @@
 local carry = require "ambit.verify_carry"
 local core = require "ambit.core"
 local refine = require "ambit.certify_refine"
+local uncertain = require "ambit.uncertain"
 
 local run = {}
 
@@ -19,13 +20,7 @@ function run.data(q)
   local all = table.move(q.initial, 1, #q.initial, 1, {})
   table.move(q.system.rates, 1, #q.system.rates, #all + 1, all)
   table.move(q.outputs, 1, #q.outputs, #all + 1, all)
-  local unknowns, lo, hi = {}, {}, {}
-  for _, leaf in ipairs(core.leaves(all)) do
-    if leaf.kind == "unknown" and leaf.lo < leaf.hi then
-      unknowns[#unknowns + 1], lo[#lo + 1], hi[#hi + 1] = leaf.expression, leaf.lo, leaf.hi
-    end
-  end
-  return unknowns, lo, hi
+  return uncertain.data(all)
 end
 
 -- Into how many parts each datum is cut; a number of pieces is spread evenly over all.

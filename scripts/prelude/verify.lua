@@ -9,6 +9,7 @@ local report = require "ambit.verify_report"
 local search = require "ambit.verify_search"
 local session = require "ambit.session"
 local simulate = require "ambit.simulate"
+local uncertain = require "ambit.uncertain"
 
 local verb = {}
 
@@ -39,13 +40,7 @@ local function uncertain_data(q, list)
   local invariants = core.system_invariants(q.system.system)
   table.move(invariants, 1, #invariants, #all + 1, all)
   for _, c in ipairs(list) do all[#all + 1] = c.g end
-  local unknowns, lo, hi = {}, {}, {}
-  for _, leaf in ipairs(core.leaves(all)) do
-    if leaf.kind == "unknown" and leaf.lo < leaf.hi then
-      unknowns[#unknowns + 1], lo[#lo + 1], hi[#hi + 1] = leaf.expression, leaf.lo, leaf.hi
-    end
-  end
-  return unknowns, lo, hi
+  return uncertain.data(all)
 end
 
 -- Do the initial values meet the constraints (closed loops) by themselves, whatever the data? Then every choice of the
