@@ -1,4 +1,5 @@
-# scripts/<folder>/** -> a Lua module that returns their texts by path: skeletons for `ambit new`, parts of the page of `ambit view`.
+# scripts/<folder>/** -> a Lua module that returns their texts by path: skeletons for `ambit new`, parts of the pages of `ambit view`
+# and of reports.
 function(ambit_text_module folder output)
   file(GLOB_RECURSE names CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/scripts/${folder} ${PROJECT_SOURCE_DIR}/scripts/${folder}/*)
   set(module "return {\n")
@@ -20,3 +21,5 @@ set(AMBIT_SKELETONS ${PROJECT_BINARY_DIR}/skeletons.lua)
 ambit_text_module(skeleton ${AMBIT_SKELETONS})
 set(AMBIT_VIEW_PARTS ${PROJECT_BINARY_DIR}/view_parts.lua)
 ambit_text_module(view ${AMBIT_VIEW_PARTS})
+set(AMBIT_PAGE_PARTS ${PROJECT_BINARY_DIR}/page_parts.lua)
+ambit_text_module(page ${AMBIT_PAGE_PARTS})

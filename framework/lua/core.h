@@ -102,6 +102,8 @@ void ambit_lua_open_events(lua_State *L, ambit_lua *core);     /* events.c: zero
 void ambit_lua_open_track(lua_State *L, ambit_lua *core);      /* track.c: the recorded steps of a run */
 void ambit_lua_open_records(lua_State *L, ambit_lua *core);    /* records.c: JSON lines */
 void ambit_lua_open_process(lua_State *L, ambit_lua *core);    /* process.c: libraries, clocks, terminals */
+void ambit_lua_open_child(lua_State *L, ambit_lua *core);      /* child.c: functions in processes of their own */
+void ambit_lua_open_profile(lua_State *L, ambit_lua *core);    /* profile.c: where the time goes, counted work */
 void ambit_lua_open_foreign(lua_State *L, ambit_lua *core);    /* foreign.c: plugin exports by libffi */
 
 /* A metatable for the named type with the given functions, all with the state as upvalue; left on the stack. */

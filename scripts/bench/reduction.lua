@@ -6,7 +6,7 @@
 -- ambit.certify is listened to.
 local ambit = require "ambit"
 local core = require "ambit.core"
-local reference = require "ambit.reduce_reference"
+local reference = require "ambit.reduce.reference"
 local session = require "ambit.session"
 
 local folder = debug.getinfo(1, "S").source:match "^@(.*)bench/[^/]*$" or "scripts/"

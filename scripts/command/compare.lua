@@ -1,7 +1,7 @@
 -- compare.lua -- `ambit compare`: runs a scene once, then everything that it evaluates again in each arithmetic.
 local compare = require "ambit.compare"
 local compare_files = require "ambit.command.compare_files"
-local compare_table = require "ambit.compare_table"
+local compare_table = require "ambit.compare.table"
 local core = require "ambit.core"
 local scene = require "ambit.command.scene"
 local session = require "ambit.session"

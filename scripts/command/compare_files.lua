@@ -1,7 +1,7 @@
 -- compare_files.lua -- what `ambit compare` writes besides its tables: CSV, JSON lines, a picture.
 local compare = require "ambit.compare"
 local core = require "ambit.core"
-local picture = require "ambit.compare_picture"
+local picture = require "ambit.compare.picture"
 
 local files = {}
 

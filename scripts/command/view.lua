@@ -1,8 +1,8 @@
 -- view.lua -- `ambit view`: runs a scene and writes a page that shows its mechanisms.
 local check = require "ambit.check"
 local core = require "ambit.core"
-local data = require "ambit.view_data"
-local page = require "ambit.view_page"
+local data = require "ambit.view.data"
+local page = require "ambit.view.page"
 local scene = require "ambit.command.scene"
 local session = require "ambit.session"
 local target = require "ambit.command.view_target"

@@ -1,14 +1,14 @@
 -- certify.lua -- ambit.certify { detailed, reduced, t = ..., initial = ..., outputs = ..., error = ... }: proves how
 -- far a given reduced model is off, for all data of all scenarios, at all times. docs/numerics/reduction.md.
-local certificate = require "ambit.reduce_report_certificate"
-local certify_bound = require "ambit.certify_bound"
+local certificate = require "ambit.reduce.report_certificate"
+local certify_bound = require "ambit.certify.bound"
 local check = require "ambit.check"
-local model = require "ambit.certify_model"
-local number = require "ambit.reduce_report_number"
-local proof = require "ambit.certify_proof"
-local scenario = require "ambit.certify_scenario"
+local model = require "ambit.certify.model"
+local number = require "ambit.reduce.report_number"
+local proof = require "ambit.certify.proof"
+local scenario = require "ambit.certify.scenario"
 local session = require "ambit.session"
-local settings = require "ambit.certify_settings"
+local settings = require "ambit.certify.settings"
 
 local verb = {}
 

@@ -8,10 +8,10 @@ local binding = require "ambit.binding"
 local check = require "ambit.check"
 local core = require "ambit.core"
 local evaluate = require "ambit.evaluate"
-local grid = require "ambit.compare_grid"
+local grid = require "ambit.compare.grid"
 local session = require "ambit.session"
 local shape = require "ambit.shape"
-local compare_table = require "ambit.compare_table"
+local compare_table = require "ambit.compare.table"
 
 local verb = {}
 

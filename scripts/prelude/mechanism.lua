@@ -78,7 +78,7 @@ chain.reserved = methods
 local mechanism = {}
 
 -- A mechanism without parts that nobody has been told of. counterparts: of a copy, a function from the frames and
--- joints of the mechanism that it was made from to its own (reduce_mechanism_copy.lua).
+-- joints of the mechanism that it was made from to its own (reduce/mechanism_copy.lua).
 function mechanism.blank(name)
   local self = setmetatable({ name = name, handle = core.mechanism(name), declared = {}, places = {}, closures = {},
     scope = false,

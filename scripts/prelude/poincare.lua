@@ -3,12 +3,12 @@
 local check = require "ambit.check"
 local core = require "ambit.core"
 local event = require "ambit.event"
-local leg = require "ambit.event_leg"
+local leg = require "ambit.event.leg"
 local orbit = require "ambit.poincare_orbit"
 local session = require "ambit.session"
 local simulate = require "ambit.simulate"
-local condense = require "ambit.event_condense"
-local surface = require "ambit.event_surface"
+local condense = require "ambit.event.condense"
+local surface = require "ambit.event.surface"
 
 local verb = {}
 

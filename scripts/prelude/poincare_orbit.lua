@@ -3,7 +3,7 @@
 -- The section must fix one state (g is linear in it and depends on nothing else), the initial values of the others must
 -- each be linear in an uncertain datum of its own. Then the initial set is a box of the section; if its image lies
 -- inside, every value of the remaining data has a periodic orbit through it. Proof: docs/numerics/events.md.
-local condense = require "ambit.event_condense"
+local condense = require "ambit.event.condense"
 local core = require "ambit.core"
 
 local orbit = {}

@@ -1,9 +1,9 @@
 -- source.lua -- equations as source: ode:text(), ode:lua(), ode:latex(), ode:modelica().
 local core = require "ambit.core"
-local source_latex = require "ambit.source_latex"
-local source_lua = require "ambit.source_lua"
-local source_model = require "ambit.source_model"
-local source_modelica = require "ambit.source_modelica"
+local source_latex = require "ambit.source.latex"
+local source_lua = require "ambit.source.lua"
+local source_model = require "ambit.source.model"
+local source_modelica = require "ambit.source.modelica"
 
 local source = {}
 

@@ -2,14 +2,14 @@
 -- function(s, p, t) return { v = -0.8 * s.v } end } } } }, mode = "fly", initial = ..., t = { 0, 3 } }: a model that
 -- switches from mode to mode where a guard's g crosses 0. A solution stays in a mode until the first guard is met.
 local check = require "ambit.check"
-local condense = require "ambit.event_condense"
+local condense = require "ambit.event.condense"
 local core = require "ambit.core"
 local event = require "ambit.event"
-local leg = require "ambit.event_leg"
+local leg = require "ambit.event.leg"
 local ode = require "ambit.ode"
 local session = require "ambit.session"
 local simulate = require "ambit.simulate"
-local surface = require "ambit.event_surface"
+local surface = require "ambit.event.surface"
 local switch_run = require "ambit.switch_run"
 
 local verb = {}

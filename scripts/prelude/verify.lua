@@ -2,11 +2,11 @@
 -- every solution that the uncertain data allow, refining until it is decided or the budget is spent. What each verdict
 -- means and why it holds: docs/numerics/verify.md.
 local check = require "ambit.check"
-local conditions = require "ambit.verify_condition"
+local conditions = require "ambit.verify.condition"
 local core = require "ambit.core"
 local option = require "ambit.option"
-local report = require "ambit.verify_report"
-local search = require "ambit.verify_search"
+local report = require "ambit.verify.report"
+local search = require "ambit.verify.search"
 local session = require "ambit.session"
 local simulate = require "ambit.simulate"
 local uncertain = require "ambit.uncertain"

@@ -412,8 +412,8 @@ describe("certify", function()
   end)
 
   it("is not made unsound by what a solver is told: lowered order and coarse tolerance only widen", function()
-    local proof = require "ambit.certify_proof"
-    local model, scenario = require "ambit.certify_model", require "ambit.certify_scenario"
+    local proof = require "ambit.certify.proof"
+    local model, scenario = require "ambit.certify.model", require "ambit.certify.scenario"
     local full = ambit.ode { states = { "x" }, equations = function(s) return { x = -s.x + 0.5 * ambit.sin(s.x) } end }
     local less = ambit.ode { states = { "x" }, equations = function(s) return { x = -s.x } end }
     local t = { t = { 0, 2 }, initial = { x = ambit.between(1, 2) } }

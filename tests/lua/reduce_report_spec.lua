@@ -2,9 +2,9 @@
 -- them, whose true errors are known in closed form.
 local ambit = require "ambit"
 local core = require "ambit.core"
-local report = require "ambit.reduce_report"
-local judge = require "ambit.reduce_report_judge"
-local number = require "ambit.reduce_report_number"
+local report = require "ambit.reduce.report"
+local judge = require "ambit.reduce.report_judge"
+local number = require "ambit.reduce.report_number"
 
 local between = ambit.between
 
@@ -375,7 +375,7 @@ describe("rankings", function()
 end)
 
 describe("the picture", function()
-  local picture = require "ambit.reduce_picture"
+  local picture = require "ambit.reduce.picture"
 
   it("draws both panels and needs nothing but itself", function()
     local self = facts { outputs = { "x" } }

@@ -1,0 +1,283 @@
+/* child.c -- a Lua function in a process of its own: whatever it does (crash, hang, take all memory), the caller goes
+** on and is told. The child is a fork, so it sees everything that the caller built; what it returns is one text.
+**
+** Three limits: `cpu` is the budget, at which running verbs are stopped and keep what they proved (as core.deadline);
+** the child is killed at `wall` seconds, and by the system when it takes much more CPU than its budget; allocations
+** beyond `memory` bytes more than it started with fail. Sanitized builds know no memory limit: they reserve address
+** space by the terabyte.
+*/
+#include "lua/core.h"
+#include "lua/interrupt.h"
+#include "lua/request.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <poll.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#define TYPE "ambit.child"
+#define SLICE_MS 50 /* how often limits and Ctrl-C are looked at */
+
+typedef struct child {
+  pid_t pid; /* 0: waited for */
+  int pipe;  /* -1: closed */
+  double began, wall;
+  bool late;           /* killed at its wall limit */
+  size_t resident;     /* bytes at the start */
+  size_t length, room; /* of what it has said so far */
+  char *text;          /* [room], malloc */
+} child;
+
+typedef struct limits {
+  double cpu, wall, memory; /* s, s, bytes; INFINITY: none */
+} limits;
+
+static double now(void) {
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static double cpu_now(void) {
+  struct timespec t;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* -- in the child */
+
+/* Bytes of address space and of resident memory, 0 if the system does not say. */
+static void memory_now(size_t *space, size_t *resident) {
+  unsigned long pages = 0, held = 0;
+  FILE *f = fopen("/proc/self/statm", "r");
+  if (f && fscanf(f, "%lu %lu", &pages, &held) != 2) pages = held = 0;
+  if (f) fclose(f);
+  size_t page = (size_t)sysconf(_SC_PAGESIZE);
+  *space = pages * page;
+  *resident = held * page;
+}
+
+static void set_limit(int resource, double most) {
+  struct rlimit old;
+  if (!(most < 1e18) || getrlimit(resource, &old) != 0) return;
+  rlim_t n = (rlim_t)most;
+  if (old.rlim_max != RLIM_INFINITY && n > old.rlim_max) n = old.rlim_max;
+  struct rlimit limit = { n, old.rlim_max };
+  setrlimit(resource, &limit);
+}
+
+static void limit_child(ambit_lua *core, const limits *most) {
+  core->deadline = isfinite(most->cpu) ? cpu_now() + most->cpu : 0;
+  set_limit(RLIMIT_CPU, ceil(cpu_now() + 2 * most->cpu + 5));
+  struct rlimit none = { 0, 0 };
+  setrlimit(RLIMIT_CORE, &none);
+#if !defined(__SANITIZE_ADDRESS__)
+  size_t space, resident;
+  memory_now(&space, &resident);
+  set_limit(RLIMIT_AS, (double)space + most->memory);
+#endif
+}
+
+static void say(int fd, const char *text, size_t length) {
+  while (length) {
+    ssize_t n = write(fd, text, length);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return;
+    text += n;
+    length -= (size_t)n;
+  }
+}
+
+/* The first byte says how it went: '+' and what was returned, '-' and the error, 'm' for no memory. */
+_Noreturn static void be_child(lua_State *L, ambit_lua *core, const limits *most, int fd, pid_t parent) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(1);
+  int null = open("/dev/null", O_WRONLY);
+  if (null >= 0) dup2(null, STDOUT_FILENO);
+  core->records = NULL; /* the lines in it are the parent's to write */
+  core->progress = false;
+  limit_child(core, most);
+  lua_pushvalue(L, 1);
+  int status = lua_pcall(L, 0, 1, 0);
+  size_t length = 0;
+  const char *text = lua_tolstring(L, -1, &length);
+  say(fd, status == LUA_OK ? "+" : status == LUA_ERRMEM ? "m" : "-", 1);
+  if (text) say(fd, text, length);
+  _exit(0);
+}
+
+/* -- in the parent */
+
+static double limit_field(lua_State *L, const char *key) {
+  double value = INFINITY;
+  if (lua_istable(L, 2) && lua_getfield(L, 2, key) != LUA_TNIL) value = luaL_checknumber(L, -1);
+  if (lua_istable(L, 2)) lua_pop(L, 1);
+  return value;
+}
+
+/* child(function, { cpu =, wall =, memory = }) -> a child that runs it */
+static int start(lua_State *L) {
+  ambit_lua *core = AMBIT_LUA(L);
+  luaL_checktype(L, 1, LUA_TFUNCTION);
+  limits most = { limit_field(L, "cpu"), limit_field(L, "wall"), limit_field(L, "memory") };
+  child *c = lua_newuserdatauv(L, sizeof *c, 0);
+  *c = (child) { .pipe = -1, .began = now(), .wall = most.wall };
+  luaL_setmetatable(L, TYPE);
+  size_t space;
+  memory_now(&space, &c->resident);
+  int end[2];
+  if (pipe2(end, O_CLOEXEC) != 0) ambit_lua_error(L, "no pipe to a child process: %s", strerror(errno));
+  fflush(NULL);
+  pid_t parent = getpid(), pid = fork();
+  if (pid == 0) be_child(L, core, &most, end[1], parent);
+  close(end[1]);
+  c->pipe = end[0];
+  if (pid < 0) ambit_lua_error(L, "no child process: %s", strerror(errno));
+  c->pid = pid;
+  return 1;
+}
+
+static child *check_child(lua_State *L, int idx) { return luaL_checkudata(L, idx, TYPE); }
+
+/* Takes what there is; false: that was all. */
+static bool listen_to(child *c) {
+  if (c->length + 65536 > c->room) {
+    char *larger = realloc(c->text, 2 * c->room + 131072);
+    if (!larger) return false;
+    c->text = larger;
+    c->room = 2 * c->room + 131072;
+  }
+  ssize_t n = read(c->pipe, c->text + c->length, c->room - c->length);
+  if (n < 0) return errno == EINTR || errno == EAGAIN;
+  c->length += (size_t)n;
+  return n > 0;
+}
+
+static const char *outcome_of(const child *c, int status) {
+  if (c->late) return "late";
+  if (WIFSIGNALED(status)) return WTERMSIG(status) == SIGXCPU ? "late" : "crashed";
+  if (WEXITSTATUS(status) != 0 || c->length == 0) return "crashed";
+  return c->text[0] == '+' ? "done" : c->text[0] == 'm' ? "out of memory" : "failed";
+}
+
+static void forget(child *c) {
+  if (c->pipe >= 0) close(c->pipe);
+  free(c->text);
+  c->pipe = -1;
+  c->text = NULL;
+  c->length = c->room = 0;
+}
+
+/* Pushes { outcome, value or message, signal, cpu_seconds, wall_seconds, peak_memory, memory }. */
+static void push_result(lua_State *L, child *c) {
+  int status = 0;
+  struct rusage use;
+  memset(&use, 0, sizeof use);
+  while (wait4(c->pid, &status, 0, &use) < 0 && errno == EINTR) continue;
+  c->pid = 0;
+  const char *outcome = outcome_of(c, status);
+  lua_createtable(L, 0, 8);
+  ambit_lua_set_text(L, "outcome", outcome);
+  if (c->length > 1) {
+    lua_pushlstring(L, c->text + 1, c->length - 1);
+    lua_setfield(L, -2, strcmp(outcome, "done") == 0 ? "value" : "message");
+  }
+  if (WIFSIGNALED(status)) ambit_lua_set_count(L, "signal", (uint32_t)WTERMSIG(status));
+  double peak = 1024.0 * (double)use.ru_maxrss, before = (double)c->resident;
+  ambit_lua_set_number(L, "cpu_seconds",
+      (double)(use.ru_utime.tv_sec + use.ru_stime.tv_sec) +
+          1e-6 * (double)(use.ru_utime.tv_usec + use.ru_stime.tv_usec));
+  ambit_lua_set_number(L, "wall_seconds", now() - c->began);
+  ambit_lua_set_number(L, "peak_memory", peak);
+  ambit_lua_set_number(L, "memory", peak > before ? peak - before : 0);
+  forget(c);
+}
+
+/* Listens until one has ended, Ctrl-C, or `until`; its place in the array, or -1. */
+static int wait_for_one(child **c, uint32_t n, double until) {
+  struct pollfd *watch = calloc(n, sizeof *watch);
+  if (!watch) return -1;
+  int ended = -1;
+  while (ended < 0 && !ambit_interrupt_pending() && now() < until) {
+    for (uint32_t i = 0; i < n; i++) watch[i] = (struct pollfd) { .fd = c[i]->pipe, .events = POLLIN };
+    if (poll(watch, n, SLICE_MS) < 0 && errno != EINTR) break;
+    for (uint32_t i = 0; i < n && ended < 0; i++) {
+      if (!c[i]->late && now() - c[i]->began > c[i]->wall) {
+        c[i]->late = true;
+        kill(c[i]->pid, SIGKILL);
+      }
+      if ((watch[i].revents & (POLLIN | POLLHUP | POLLERR)) && !listen_to(c[i])) ended = (int)i;
+    }
+  }
+  free(watch);
+  return ended;
+}
+
+/* child_wait({child, ...}, seconds or nil) -> index, result of the first that ends; nil: none within that time, or
+** Ctrl-C (then the second value is "interrupted"; the children go on) */
+static int wait_any(lua_State *L) {
+  luaL_checktype(L, 1, LUA_TTABLE);
+  double until = now() + luaL_optnumber(L, 2, INFINITY);
+  int n = (int)luaL_len(L, 1);
+  child **c = lua_newuserdatauv(L, (size_t)(n + 1) * sizeof *c, 0);
+  for (int i = 0; i < n; i++) {
+    lua_rawgeti(L, 1, i + 1);
+    c[i] = check_child(L, -1);
+    lua_pop(L, 1);
+    if (!c[i]->pid) return luaL_error(L, "child_wait: child %d was already waited for", i + 1);
+  }
+  ambit_interrupt interrupt;
+  ambit_interrupt_begin(&interrupt);
+  int ended = n ? wait_for_one(c, (uint32_t)n, until) : -1;
+  bool stopped = ambit_interrupt_pending();
+  ambit_interrupt_end(&interrupt);
+  if (ended < 0) {
+    lua_pushnil(L);
+    if (!stopped) return 1;
+    lua_pushliteral(L, "interrupted");
+    return 2;
+  }
+  lua_pushinteger(L, ended + 1);
+  push_result(L, c[ended]);
+  return 2;
+}
+
+/* child_kill(child): ends it at once, whatever it did so far is lost */
+static int end_child(lua_State *L) {
+  child *c = check_child(L, 1);
+  if (c->pid) {
+    kill(c->pid, SIGKILL);
+    while (waitpid(c->pid, NULL, 0) < 0 && errno == EINTR) continue;
+    c->pid = 0;
+  }
+  forget(c);
+  return 0;
+}
+
+/* memory() -> bytes resident now, most ever */
+static int memory(lua_State *L) {
+  size_t space, resident;
+  struct rusage use;
+  memory_now(&space, &resident);
+  getrusage(RUSAGE_SELF, &use);
+  lua_pushnumber(L, (double)resident);
+  lua_pushnumber(L, 1024.0 * (double)use.ru_maxrss);
+  return 2;
+}
+
+void ambit_lua_open_child(lua_State *L, ambit_lua *core) {
+  static const luaL_Reg functions[] = { { "child", start }, { "child_wait", wait_any }, { "child_kill", end_child },
+    { "memory", memory }, { NULL, NULL } };
+  static const luaL_Reg type[] = { { "__gc", end_child }, { NULL, NULL } };
+  ambit_lua_new_type(L, core, TYPE, type);
+  lua_pop(L, 1);
+  ambit_lua_set_functions(L, core, functions);
+}

@@ -1,0 +1,178 @@
+-- verify/report.lua -- what ambit.verify gives back: a verdict for each condition, with bounds, counterexamples and
+-- reasons.
+local box = require "ambit.verify.box"
+local check = require "ambit.check"
+local core = require "ambit.core"
+
+local report = {}
+
+-- -- counterexamples: one choice of the data, the middle of a box
+
+local Counterexample = { __name = "counterexample" }
+local methods = {}
+
+-- What an expression of the data is for this choice.
+function methods:value(expression)
+  return core.evaluate("interval", {}, { core.expression(expression) }, self.unknowns, self.values)[1]
+end
+
+check.methods(methods, Counterexample)
+Counterexample.__index = methods
+
+-- Data that have no name: { text of the range, value }
+local function nameless(job, values)
+  local named = {}
+  for _, name in ipairs(check.sorted(job.asked.system.parameters)) do
+    named[#named + 1] = job.asked.system.parameters[name]
+  end
+  local known, list = core.leaves(named), {}
+  for _, leaf in ipairs(core.leaves(job.asked.system.rates)) do
+    local has_name = leaf.kind ~= "unknown"
+    for _, other in ipairs(known) do has_name = has_name or other.expression == leaf.expression end
+    for j, unknown in ipairs(has_name and {} or job.unknowns) do
+      if unknown == leaf.expression then
+        list[#list + 1] = { ("datum in %s"):format(tostring(core.interval(leaf.lo, leaf.hi))), values[j] }
+      end
+    end
+  end
+  return list
+end
+
+-- The middle of a box as a choice of the data: initial values, parameters by name, nameless data.
+local function choice(job, part)
+  local q = job.asked
+  local self = setmetatable({ unknowns = job.unknowns, values = {}, initial = {}, parameters = {} }, Counterexample)
+  local middle = {}
+  for j, lo in ipairs(part.lo) do
+    local hi = part.hi[j]
+    middle[j] = math.min(math.max(0.5 * lo + 0.5 * hi, lo), hi)
+  end
+  for j, x in ipairs(box.allowed(job, middle)) do self.values[j] = core.expression(x) end
+  for i, name in ipairs(q.system.states) do self.initial[name] = self:value(q.initial[i]) end
+  for _, name in ipairs(check.sorted(q.system.parameters)) do
+    local parameter = q.system.parameters[name]
+    if not core.is_constant(parameter) then self.parameters[name] = self:value(parameter) end
+  end
+  self.others = nameless(job, self.values)
+  return self
+end
+
+-- "x = 1", "mu = 2", "datum in [1, 2] = 1.5"
+local function described(self)
+  local parts = {}
+  for _, values in ipairs { self.initial, self.parameters } do
+    for _, name in ipairs(check.sorted(values)) do
+      parts[#parts + 1] = ("%s = %s"):format(name, tostring(values[name]))
+    end
+  end
+  for _, other in ipairs(self.others) do parts[#parts + 1] = ("%s = %s"):format(other[1], tostring(other[2])) end
+  return parts
+end
+
+function Counterexample.__tostring(self)
+  return ("g in %s at t in %s, from\n    %s"):format(tostring(self.g), tostring(self.t),
+    table.concat(described(self), "\n    "))
+end
+
+-- -- verdicts
+
+local Verdict = { __name = "verdict" }
+Verdict.__index = Verdict
+
+local quantity = { always = "max g", at_end = "g at the end", once = "min g" }
+
+function Verdict.__tostring(self)
+  local text = ("%s: %s, %s in %s"):format(self.name, self.status, quantity[self.kind], tostring(self.bound))
+  if self.counterexample then text = text .. "\n  " .. tostring(self.counterexample) end
+  return self.reason ~= "" and text .. "\n  " .. self.reason or text
+end
+
+local function reason_of(job, condition, k)
+  if condition.status ~= "undecided" then return "" end
+  local worst = condition.worst
+  local why = { job.stopped and "stopped on request" or job.spent and "the budget is spent"
+    or "there is nothing left to refine" }
+  if #job.lo > 0 then why[#why + 1] = "hardest about " .. table.concat(described(choice(job, worst)), ", ") end
+  if worst.outcome.status ~= "complete" then
+    why[#why + 1] = worst.outcome.reason
+  elseif worst[k].undefined then
+    why[#why + 1] = "the condition is not known to be defined along the whole run"
+  elseif worst[k].worst then
+    why[#why + 1] = "the worst bound is at t in " .. tostring(worst[k].worst)
+  end
+  return table.concat(why, "; ")
+end
+
+local function counterexample(job, condition)
+  local c, times = choice(job, condition.box), job.asked.times
+  c.t = condition.finding.when or core.interval(times[1]):hull(times[#times])
+  c.g = condition.finding.value or core.interval(condition.finding.lo, condition.finding.hi)
+  return c
+end
+
+-- Empty if no part of the data is a start.
+local function bound_of(condition)
+  if condition.hi == -math.huge then return core.interval "[empty]" end
+  return core.interval(condition.lo, math.max(condition.hi, condition.lo))
+end
+
+local function verdict(job, condition, k)
+  return setmetatable({ name = condition.name, kind = condition.kind, status = condition.status,
+    bound = bound_of(condition), reason = reason_of(job, condition, k),
+    counterexample = condition.status == "refuted" and counterexample(job, condition) or nil }, Verdict)
+end
+
+-- -- the whole
+
+local Report = { __name = "verification" }
+Report.__index = Report
+
+function Report.__tostring(self)
+  local lines = { ("%s after %d run%s"):format(self.status, self.refinements + 1, self.refinements == 0 and "" or "s") }
+  for _, c in ipairs(self.list) do lines[#lines + 1] = tostring(c) end
+  return table.concat(lines, "\n")
+end
+
+-- Refuted if one condition is, proved if all are.
+local function overall(list)
+  local status = "proved"
+  for _, c in ipairs(list) do
+    if c.status == "refuted" then return "refuted" end
+    if c.status == "undecided" then status = "undecided" end
+  end
+  return status
+end
+
+local function reasons(list)
+  local lines = {}
+  for _, c in ipairs(list) do
+    if c.reason ~= "" then lines[#lines + 1] = c.name .. ": " .. c.reason end
+  end
+  return table.concat(lines, "; ")
+end
+
+-- A finished search -> its report; bound and counterexample of the first condition that has the report's status.
+function report.of(job)
+  local list, by_name = {}, {}
+  for k, condition in ipairs(job.conditions) do
+    list[k] = verdict(job, condition, k)
+    by_name[condition.name] = list[k]
+  end
+  local self = setmetatable({ list = list, conditions = by_name, status = overall(list), reason = reasons(list),
+    refinements = job.runs - 1, cpu_seconds = core.cpu() - job.start, report = job.report }, Report)
+  for _, c in ipairs(list) do
+    if c.status == self.status and not self.bound then self.bound, self.counterexample = c.bound, c.counterexample end
+  end
+  return self
+end
+
+-- { name, { "status", ..., "bound", ... }, ... }: for the result's record
+function report.fields(self)
+  local fields = {}
+  for _, c in ipairs(self.list) do
+    fields[#fields + 1], fields[#fields + 2] = c.name, { "status", c.status, "bound", c.bound }
+  end
+  return fields
+end
+
+return report
