@@ -1,23 +1,14 @@
 -- figures.lua: the figures that docs/results.md quotes, from the scene to the proof, in one run.
 -- ambit run scripts/bench/figures.lua         prints a table: what, required, measured, verdict; exit 1 if one is missed
+package.path = (arg[0]:match ".*/" or "./") .. "?.lua;" .. package.path
 local ambit = require "ambit"
+local bench = require "bench"
 local around, degrees, pi = ambit.around, ambit.degrees, ambit.pi
 
-local missed = 0
-local function row(what, required, measured, ok)
-  if not ok then missed = missed + 1 end
-  print(("| %-52s | %-34s | %-34s | %s |"):format(what, required, measured, ok and "reached" or "MISSED"))
-end
-local function number(x) return ("%.4g"):format(x) end
-local function numbers(list)
-  local text = {}
-  for i, x in ipairs(list) do text[i] = number(x) end
-  return table.concat(text, " ")
-end
+local number, numbers, row = bench.number, bench.numbers, bench.figure
 local function contains(set, lo, hi) return set.lo <= lo and hi <= set.hi end
 
-print "| figure | required | measured | |"
-print "|---|---|---|---|"
+bench.head("figure", "required", "measured", "")
 
 -- 1. the five-arm manipulator: true hulls by vertex search and optimisation (SmartMOBILE paper, Table 1, which was
 -- computed with length tolerances of +-0.1 %, not the printed +-1 %)
@@ -177,4 +168,4 @@ for _, arithmetic in ipairs { "real", "interval" } do
   row("1000 links, build and evaluate in " .. arithmetic .. ", s", "< 2", number(seconds), seconds < 2 and tip.x.lo <= tip.x.hi)
 end
 
-os.exit(missed == 0 and 0 or 1)
+bench.leave()

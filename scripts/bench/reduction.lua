@@ -4,42 +4,26 @@
 --
 -- The reductions are those of the scenes themselves: each scene runs silently, and what it asks of ambit.reduce and
 -- ambit.certify is listened to.
+package.path = (arg[0]:match ".*/" or "./") .. "?.lua;" .. package.path
 local ambit = require "ambit"
 local core = require "ambit.core"
+local bench = require "bench"
 local reference = require "ambit.reduce.reference"
-local session = require "ambit.session"
 
-local folder = debug.getinfo(1, "S").source:match "^@(.*)bench/[^/]*$" or "scripts/"
-local missed, wanted = 0, {}
-for _, name in ipairs(arg or {}) do wanted[name] = true end
-local function is_wanted(name) return next(wanted) == nil or wanted[name] end
-
-local function number(x) return x and ("%.3g"):format(x) or "-" end
 local function verdict(ok)
-  if not ok then missed = missed + 1 end
-  return ok and "reached" or "MISSED"
+  if not ok then bench.missed = bench.missed + 1 end
+  return ok and "reached" or "**missed**"
 end
 
--- -- listening to scenes
+local function number(x) return x and ("%.3g"):format(x) or "-" end
 
--- What a scene asks: { { t, result }, ... } of ambit.reduce, then of ambit.certify; its own output is dropped.
+-- What a scene asks of ambit.reduce, and of ambit.certify.
 local function listen(name)
-  local calls, proofs, reduce, certify = {}, {}, ambit.reduce, ambit.certify
-  local show, write, exit, words = print, io.write, os.exit, arg
-  local function heard(verb, list)
-    return function(t)
-      local result = verb(t)
-      list[#list + 1] = { t = t, result = result }
-      return result
-    end
+  local calls, proofs = {}, {}
+  for _, call in ipairs(bench.listen(name, { "reduce", "certify" })) do
+    local list = call.verb == "reduce" and calls or proofs
+    list[#list + 1] = call
   end
-  ambit.reduce, ambit.certify = heard(reduce, calls), heard(certify, proofs)
-  print, io.write, os.exit, arg = function() end, function() return io.stdout end, function() error "left" end, {}
-  local good, problem = pcall(dofile, folder .. name .. ".lua")
-  ambit.reduce, ambit.certify = reduce, certify
-  session.unable = false -- scenes may well ask what cannot be proved
-  print, io.write, os.exit, arg = show, write, exit, words
-  if not good and not tostring(problem):find "left$" then error(problem, 0) end
   return calls, proofs
 end
 
@@ -103,17 +87,16 @@ local function row_of(title, result, linear)
   local solver = settings.solver or "lohner"
   local inside = (sampled.error[name] or 0) <= 1.001 * (result.error[name] or 0) + ROUNDING
   local ok = result.error[name] and result.error[name] <= bound and inside and not (linear and over and over > 2)
-  print(("| %-34s | %-12s | %-9s | %-12s | %-5s | %-5s | %-7s | %-8s | %-8s | %-6s | %3d | %-6s | %s |"):format(title,
+  bench.line(title,
     of(result.terms_before, result.terms_after), of(result.equations_before, result.equations_after),
     of(result.operations_before, result.operations_after), number(speed_up(result, "gsl")),
     number(speed_up(result, solver, settings.options)), number(bound), number(result.error[name]),
-    number(sampled.error[name]), number(over), result.proofs, number(result.cpu_seconds), verdict(ok)))
+    number(sampled.error[name]), number(over), result.proofs, number(result.cpu_seconds), verdict(ok))
 end
 
 local function table_of_scenes()
-  print(("| %s | |"):format(table.concat({ "reduction", "terms", "equations", "operations", "gsl x", "validated x",
-    "bound", "proved", "sampled", "proved / sampled", "proofs", "s" }, " | ")))
-  print "|---|---|---|---|---|---|---|---|---|---|---|---|---|"
+  bench.head("reduction", "terms", "equations", "operations", "gsl x", "validated x",
+    "bound", "proved", "sampled", "proved / sampled", "proofs", "s", "")
   local certificates = {}
   local function measure(scene)
     local calls, proofs = listen(scene[1])
@@ -126,9 +109,9 @@ local function table_of_scenes()
     end
   end
   for _, scene in ipairs(scenes) do
-    if is_wanted(scene[1]) then
+    if bench.wants(scene[1]) then
       local good, problem = pcall(measure, scene)
-      if not good then print(("| %s | %s | %s |"):format(scene[1], tostring(problem), verdict(false))) end
+      if not good then bench.line(scene[1], tostring(problem), verdict(false)) end
     end
   end
   return certificates
@@ -137,14 +120,14 @@ end
 -- Models that scenes prove without a search.
 local function table_of_certificates(certificates)
   if #certificates == 0 then return end
-  print "\n| given model | criterion | output | bound | proved | sampled | proved / sampled | verdict |"
-  print "|---|---|---|---|---|---|---|---|"
+  print()
+  bench.head("given model", "criterion", "output", "bound", "proved", "sampled", "proved / sampled", "verdict")
   for _, entry in ipairs(certificates) do
     local c = entry[2]
     local sampled = c:sample { draws = 200 }
     for _, name in ipairs(c.outputs) do
-      print(("| %s | %s | %s | %s | %s | %s | %s | %s |"):format(entry[1], c.criterion, name, number(c.bounds[name]),
-        number(c.error[name]), number(sampled.error[name]), number(sampled.over[name]), c.status))
+      bench.line(entry[1], c.criterion, name, number(c.bounds[name]),
+        number(c.error[name]), number(sampled.error[name]), number(sampled.over[name]), c.status)
     end
   end
 end
@@ -152,29 +135,29 @@ end
 -- -- clusters against one by one, and what the residual ranking costs
 
 local function clusters()
-  print "\n| 50-stage RC ladder | required | measured | |"
-  print "|---|---|---|---|"
+  print()
+  bench.head("50-stage RC ladder", "required", "measured", "")
   local t = listen("rc_ladder")[1].t
   local single = ambit.reduce(changed(t, { strategy = "clusters", cluster = 1, give_up = math.huge }))
   local paper = ambit.reduce(changed(t, { ranking = "residual", strategy = "clusters", give_up = math.huge }))
   local many = ambit.reduce(t)
-  print(("| proofs, one by one / clusters as predicted | at least 5 | %d / %d = %s | %s |"):format(single.proofs,
-    many.proofs, number(single.proofs / many.proofs), verdict(single.proofs >= 5 * many.proofs)))
-  print(("| proofs, clusters within a factor of 10 of the residual | | %d | |"):format(paper.proofs))
-  print(("| terms left, one by one / predicted / by the residual | | %d / %d / %d | |"):format(single.terms_after,
-    many.terms_after, paper.terms_after))
+  bench.figure("proofs, one by one / clusters as predicted", "at least 5", ("%d / %d = %s"):format(single.proofs,
+    many.proofs, number(single.proofs / many.proofs)), single.proofs >= 5 * many.proofs)
+  bench.line("proofs, clusters within a factor of 10 of the residual", "", paper.proofs, "")
+  bench.line("terms left, one by one / predicted / by the residual", "", ("%d / %d / %d"):format(single.terms_after,
+    many.terms_after, paper.terms_after), "")
   local run = seconds(paper.detailed, paper.given[1], paper.settings.solver or "lohner", paper.settings.options)
   local rank = paper.cpu_seconds_rank / math.max(#paper.rankings, 1)
-  print(("| residual ranking of a pass / one validated run | below 1 | %s s / %s s = %s | %s |"):format(number(rank),
-    number(run), number(rank / run), verdict(rank < run)))
+  bench.figure("residual ranking of a pass / one validated run", "below 1", ("%s s / %s s = %s"):format(number(rank),
+    number(run), number(rank / run)), rank < run)
 end
 
 -- -- rankings against the exact one
 
 local function rankings()
-  print(("\n| ranking against exact effect (Spearman) | %s |"):format(table.concat({ "pass", "candidates", "residual",
-    "one_step", "adjoint", "lowered_order" }, " | ")))
-  print "|---|---|---|---|---|---|---|"
+  print()
+  bench.head("ranking against exact effect (Spearman)", "pass", "candidates", "residual", "one_step", "adjoint",
+    "lowered_order")
   for _, name in ipairs { "rc_ladder", "reduce_double_pendulum", "one_track" } do
     local call = listen(name)[1]
     local result = ambit.reduce(changed(call.t, { reductions = { "neglect" },
@@ -189,13 +172,13 @@ local function rankings()
     end
     for _, pass in ipairs(order) do
       local p = passes[pass]
-      print(("| %s | %s | %d | %s | %s | %s | %s |"):format(name, pass, p.candidates, number(p.residual),
-        number(p.one_step), number(p.adjoint), number(p.lowered_order)))
+      bench.line(name, pass, p.candidates, number(p.residual),
+        number(p.one_step), number(p.adjoint), number(p.lowered_order))
     end
   end
 end
 
 table_of_certificates(table_of_scenes())
-if is_wanted "clusters" then clusters() end
-if is_wanted "rankings" then rankings() end
-if missed > 0 then os.exit(1) end
+if bench.wants "clusters" then clusters() end
+if bench.wants "rankings" then rankings() end
+bench.leave()
