@@ -16,7 +16,7 @@ typedef struct block {
 
 struct ambit_arena {
   block *newest;
-  size_t next_size, total;
+  size_t next_size, total, count;
 };
 
 static size_t round_up(size_t bytes) { return (bytes + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT; }
@@ -60,6 +60,7 @@ void *ambit_arena_alloc(ambit_arena *arena, size_t bytes) {
   void *place = (char *)b + header + b->used;
   b->used += bytes;
   arena->total += bytes;
+  arena->count++;
   return place;
 }
 
@@ -70,3 +71,4 @@ char *ambit_arena_text(ambit_arena *arena, const char *text) {
 }
 
 size_t ambit_arena_bytes(const ambit_arena *arena) { return arena->total; }
+size_t ambit_arena_count(const ambit_arena *arena) { return arena->count; }

@@ -25,6 +25,7 @@ struct ambit_batch {
   uint32_t *place;       /* [nslot] */
   uint32_t *dst, *a, *b; /* [ninstr] places */
   bool initialised;      /* clear() is due */
+  ambit_work work;
 };
 
 /* -- places */
@@ -163,6 +164,7 @@ void ambit_batch_close(ambit_batch *batch) {
 
 size_t ambit_batch_places(const ambit_batch *batch) { return batch->places; }
 size_t ambit_batch_width(const ambit_batch *batch) { return batch->width; }
+const ambit_work *ambit_batch_work(const ambit_batch *batch) { return &batch->work; }
 
 /* -- running */
 
@@ -198,6 +200,7 @@ uint32_t ambit_batch_run(ambit_batch *batch, size_t lanes, const double *lo, con
       size_t at = i * lanes + done;
       full->set(batch->ctx, element(batch, t->nconst + i), n, lo + at, hi + at, var ? var[i] : -1);
     }
+    ambit_work_evaluate(&batch->work, t->ninstr, n);
     flags |= run_all(batch, n);
     for (uint32_t o = 0; o < t->nout; o++) {
       size_t at = o * lanes + done;

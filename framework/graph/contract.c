@@ -8,12 +8,14 @@
 ** repeats it while it pays.
 */
 #include "graph/contract.h"
+#include <ambit/work.h>
 #include <string.h>
 
 struct ambit_contractor {
   const ambit_tape *tape;
   ambit_interval *slot; /* [nslot] */
   uint32_t *lowest;     /* [nslot] the first input that the slot depends on, or nin */
+  ambit_work *work;     /* or NULL */
 };
 
 static int32_t exponent(const ambit_tape *t, uint32_t i) {
@@ -38,7 +40,7 @@ static ambit_status open(const ambit_host *h, const ambit_tape *t, ambit_contrac
   ambit_interval *slot = h->alloc(h, (t->nslot + 1u) * sizeof *slot);
   uint32_t *lowest = h->alloc(h, (t->nslot + 1u) * sizeof *lowest);
   if (!c || !slot || !lowest) return h->fail(h, AMBIT_NOMEM, "out of memory");
-  *c = (ambit_contractor) { t, slot, lowest };
+  *c = (ambit_contractor) { t, slot, lowest, ambit_work_open(h) };
   find_lowest(t, lowest);
   for (uint32_t i = 0; i < t->nconst; i++) slot[i] = (ambit_interval) { t->lo[i], t->hi[i] };
   *out = c;
@@ -108,6 +110,7 @@ static bool backward(const ambit_contractor *c) {
 
 static ambit_status narrow(ambit_contractor *c, double *lo, double *hi, const double *out_lo, const double *out_hi) {
   const ambit_tape *t = c->tape;
+  if (c->work) c->work->contractions++, c->work->operations += 2 * (uint64_t)t->ninstr;
   if (forward(c, lo, hi, 0) & AMBIT_F_EMPTY) return AMBIT_DOMAIN;
   if (!demand(c, out_lo, out_hi) || !backward(c)) return AMBIT_DOMAIN;
   for (uint32_t i = 0; i < t->nin; i++) {
@@ -118,6 +121,7 @@ static ambit_status narrow(ambit_contractor *c, double *lo, double *hi, const do
 }
 
 static uint32_t inspect_in(ambit_contractor *c, const double *lo, const double *hi, uint32_t n) {
+  ambit_work_evaluate(c->work, c->tape->ninstr, 1);
   return forward(c, lo, hi, n);
 }
 

@@ -75,11 +75,20 @@ static bool fold_constants(const ambit_graph *g, uint32_t op, ambit_expr a, ambi
   return ambit_fold_exact(op, ambit_at(g, a)->value.lo, ambit_at(g, b)->value.lo, r);
 }
 
-ambit_expr ambit_graph_op(ambit_graph *g, uint32_t op, ambit_expr a, ambit_expr b) {
-  if (op == AMBIT_OP_POWN) return ambit_graph_pown(g, a, (int32_t)b);
-  if (op >= AMBIT_OP_COUNT) return AMBIT_NO_EXPR;
-  if (!ambit_op_is_binary(op)) b = a;
-  if (a >= g->count || b >= g->count) return AMBIT_NO_EXPR;
+/* e answers an operation on a and b, before which there were so many nodes. */
+static ambit_expr counted(ambit_graph *g, size_t before, ambit_expr a, ambit_expr b, ambit_expr e) {
+  if (e == AMBIT_NO_EXPR) return e;
+  g->tally.asked++;
+  if (e == a || e == b || ambit_at(g, e)->op == AMBIT_LEAF_CONSTANT)
+    g->tally.folded++;
+  else if (e < before)
+    g->tally.shared++;
+  return e;
+}
+
+ambit_graph_tally ambit_graph_answers(const ambit_graph *g) { return g->tally; }
+
+static ambit_expr fold(ambit_graph *g, uint32_t op, ambit_expr a, ambit_expr b) {
   double c;
   if (fold_constants(g, op, a, b, &c)) return ambit_graph_number(g, c);
   switch (op) {
@@ -96,8 +105,19 @@ ambit_expr ambit_graph_op(ambit_graph *g, uint32_t op, ambit_expr a, ambit_expr 
   }
 }
 
+ambit_expr ambit_graph_op(ambit_graph *g, uint32_t op, ambit_expr a, ambit_expr b) {
+  if (op == AMBIT_OP_POWN) return ambit_graph_pown(g, a, (int32_t)b);
+  if (op >= AMBIT_OP_COUNT) return AMBIT_NO_EXPR;
+  if (!ambit_op_is_binary(op)) b = a;
+  if (a >= g->count || b >= g->count) return AMBIT_NO_EXPR;
+  size_t before = g->count;
+  return counted(g, before, a, b, fold(g, op, a, b));
+}
+
 ambit_expr ambit_graph_pown(ambit_graph *g, ambit_expr a, int32_t n) {
-  return a < g->count ? ambit_fold_power(g, a, n) : AMBIT_NO_EXPR;
+  if (a >= g->count) return AMBIT_NO_EXPR;
+  size_t before = g->count;
+  return counted(g, before, a, a, ambit_fold_power(g, a, n));
 }
 
 ambit_expr ambit_store_rebuild(ambit_graph *g, ambit_expr e, ambit_expr a, ambit_expr b) {

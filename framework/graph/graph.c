@@ -12,6 +12,7 @@
 #include "graph/store.h"
 #include "graph/walk.h"
 #include "num/decimal.h"
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -160,6 +161,8 @@ void ambit_graph_close(ambit_graph *g) {
 const ambit_node *ambit_graph_node(const ambit_graph *g, ambit_expr e) { return ambit_at(g, e); }
 uint32_t ambit_graph_count(const ambit_graph *g) { return (uint32_t)g->count; }
 
+double ambit_graph_sealing_seconds(const ambit_graph *g) { return g->sealing; }
+
 ambit_expr ambit_graph_number(ambit_graph *g, double x) {
   if (!isfinite(x)) return AMBIT_NO_EXPR;
   if (x == 0) x = 0; /* one zero */
@@ -196,7 +199,11 @@ static const char *bare_literal(ambit_graph *g, const char *text, bool *negative
 ambit_expr ambit_graph_decimal(ambit_graph *g, const char *text, ambit_failure *f) {
   ambit_interval x, magnitude;
   if (ambit_decimal_read(text, &x, NULL, f) != AMBIT_OK) return AMBIT_NO_EXPR;
-  if (strpbrk(text, "[?") || !ambit_interval_is_bounded(x)) {
+  if (!strpbrk(text, "[?") && !ambit_interval_is_bounded(x)) {
+    ambit_fail(f, AMBIT_INVALID, "\"%s\" is beyond the largest number, %.1e", text, DBL_MAX);
+    return AMBIT_NO_EXPR;
+  }
+  if (strpbrk(text, "[?")) {
     ambit_fail(f, AMBIT_INVALID, "\"%s\" is not one number: expected a decimal, a fraction or \"pi\"", text);
     return AMBIT_NO_EXPR;
   }

@@ -40,6 +40,7 @@ ambit_graph *ambit_graph_open(void); /* NULL: out of memory; node 0 is the const
 void ambit_graph_close(ambit_graph *g);
 const ambit_node *ambit_graph_node(const ambit_graph *g, ambit_expr e); /* valid until the next node is made */
 uint32_t ambit_graph_count(const ambit_graph *g);                       /* nodes ever made */
+double ambit_graph_sealing_seconds(const ambit_graph *g);               /* of CPU time, for all tapes so far */
 
 /* exactly this double; NaN or infinite: NO_EXPR */
 ambit_expr ambit_graph_number(ambit_graph *g, double x);
@@ -53,6 +54,14 @@ ambit_expr ambit_graph_unknown(ambit_graph *g, const char *name, ambit_interval 
 /* the same name is the same node */
 ambit_expr ambit_graph_symbol(ambit_graph *g, const char *name, const char *unit);
 ambit_expr ambit_graph_time(ambit_graph *g);
+
+/* How operations that were asked for by the two functions below (also by rules and derivatives) were answered: a node
+** that was there already, a constant or one of the operands; by new nodes all others. */
+typedef struct ambit_graph_tally {
+  uint64_t asked, shared, folded;
+} ambit_graph_tally;
+
+ambit_graph_tally ambit_graph_answers(const ambit_graph *g);
 
 /* unary: b ignored; POWN: use pown */
 ambit_expr ambit_graph_op(ambit_graph *g, uint32_t op, ambit_expr a, ambit_expr b);

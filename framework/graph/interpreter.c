@@ -4,6 +4,7 @@
 */
 #include "graph/interpreter.h"
 #include "base/memory.h"
+#include "base/meter.h"
 #include <ambit/block.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,6 +18,7 @@ struct ambit_block {
   char *base;
   size_t lanes, elem;
   bool initialised; /* clear() is due */
+  bool metered;
 };
 
 static char *element(const ambit_block *block, uint32_t slot, size_t lane) {
@@ -61,7 +63,7 @@ ambit_status ambit_block_open(
     return ambit_fail(f, AMBIT_INVALID, "the arithmetic's elements have %zu bytes; a multiple of 8 is required", elem);
   ambit_block *made = calloc(1, sizeof *made);
   if (!made) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
-  *made = (ambit_block) { .tape = t, .arithmetic = full, .ctx = ctx, .lanes = lanes, .elem = elem };
+  *made = (ambit_block) { .tape = t, .arithmetic = full, .ctx = ctx, .lanes = lanes, .elem = elem, .metered = ambit_meter_is_on() };
   ambit_status status = allocate(made, f);
   if (status != AMBIT_OK) {
     ambit_block_close(made);
@@ -99,9 +101,11 @@ static uint32_t run_all(ambit_block *block) {
 
 uint32_t ambit_block_run(ambit_block *block) {
   const ambit_arithmetic *full = block->arithmetic;
+  if (block->metered) ambit_meter_enter(AMBIT_FRAME_ARITHMETIC, "tape");
   if (full->enter) full->enter(block->ctx);
   uint32_t flags = run_all(block);
   if (full->leave) full->leave(block->ctx);
+  if (block->metered) ambit_meter_leave();
   return flags;
 }
 

@@ -1,6 +1,8 @@
 /* jet.c -- service "ambit.jet/1": the arithmetic's own jets if it offers them, else the kernel's general ones; tails
 ** beside them. */
 #include "graph/jet.h"
+#include "base/meter.h"
+#include <ambit/work.h>
 #include "graph/tail.h"
 #include "num/interval.h"
 #include "num/rounding.h"
@@ -21,6 +23,9 @@ struct ambit_jet {
   ambit_jet_source source; /* the general jets' context */
   ambit_tails *tails;
   double *mid, *rad; /* [ndir] scratch of integrate */
+  ambit_work *work;  /* or NULL */
+  bool metered;
+  uint32_t *moving;  /* [order + 1] results whose degree in time is at least k */
 };
 
 /* -- opening */
@@ -77,6 +82,16 @@ static ambit_status check_centre(const ambit_host *h, const ambit_jet *jet, cons
       jet->order);
 }
 
+/* how many results have a coefficient of each order */
+static void count_moving(ambit_jet *jet) {
+  const ambit_tape *t = jet->tape;
+  for (uint32_t i = 0; i < t->ninstr; i++) {
+    uint32_t degree = t->degree[t->dst[i]];
+    jet->moving[degree < jet->order ? degree : jet->order]++;
+  }
+  for (uint32_t k = jet->order; k > 0; k--) jet->moving[k - 1] += jet->moving[k];
+}
+
 static ambit_jet *allocate(
     const ambit_host *h, const ambit_tape *t, uint32_t order, uint32_t ndir, const ambit_jet *centre) {
   ambit_jet *jet = h->alloc(h, sizeof *jet);
@@ -84,7 +99,13 @@ static ambit_jet *allocate(
   *jet = (ambit_jet) { .host = h, .centre = centre, .tape = t, .order = order, .ndir = ndir };
   jet->mid = h->alloc(h, ndir * sizeof(double));
   jet->rad = h->alloc(h, ndir * sizeof(double));
-  return jet->mid && jet->rad ? jet : NULL;
+  jet->moving = h->alloc(h, (order + (size_t)1) * sizeof *jet->moving);
+  jet->work = ambit_work_open(h);
+  jet->metered = ambit_meter_is_on();
+  if (!jet->mid || !jet->rad || !jet->moving) return NULL;
+  count_moving(jet);
+  if (jet->work) jet->work->series++;
+  return jet;
 }
 
 static ambit_status open(const ambit_host *h, const ambit_tape *t, const ambit_arithmetic *arithmetic, void *actx,
@@ -125,11 +146,24 @@ static void put(
   jet->jets.put(jet->self, in, k, mid, rad, dmid, drad);
 }
 
+static void count_order(const ambit_jet *jet, uint32_t k) {
+  ambit_work *work = jet->work;
+  if (!work) return;
+  uint64_t each = 1 + (uint64_t)jet->ndir, done = jet->moving[k] * each;
+  work->orders++;
+  work->operations += done;
+  work->coefficients += done;
+  work->skipped += jet->tape->ninstr * each - done;
+}
+
 /* An order builds on all below it, slopes also on the centre's. */
 static uint32_t advance(ambit_jet *jet, uint32_t k) {
   const ambit_jet *centre = jet->centre;
   if (k > jet->known || k > jet->order || (centre && k >= centre->known)) return AMBIT_F_UNBOUNDED;
+  if (jet->metered) ambit_meter_enter(AMBIT_FRAME_ARITHMETIC, jet->source.arithmetic->jets ? "own series" : "series");
   uint32_t flags = jet->jets.advance(jet->self, k);
+  if (jet->metered) ambit_meter_leave();
+  count_order(jet, k);
   if (centre && (centre->flags & PROVES_NOTHING)) flags |= AMBIT_F_UNBOUNDED;
   jet->tails->fetched = 0;
   jet->known = k + 1;
@@ -214,6 +248,7 @@ static ambit_status tail(ambit_jet *jet, uint32_t K, double h, const double *tai
     claim_nothing(jet, tail_out, dtail_out);
   else
     ambit_tails_run(jet->tails, &jet->jets, jet->self, K, h, tail_in, dtail_in, tail_out, dtail_out);
+  if (jet->work) jet->work->tails++;
   return status;
 }
 

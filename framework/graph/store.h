@@ -25,6 +25,8 @@ struct ambit_graph {
   ambit_marks *marks;
   ambit_expr pi, time; /* AMBIT_NO_EXPR until asked for */
   ambit_kinks kinks;
+  ambit_graph_tally tally;
+  double sealing; /* s of CPU time that sealing tapes has taken */
 };
 
 #define AMBIT_ZERO 0u /* node numbers fixed by ambit_graph_open */

@@ -8,6 +8,8 @@
 **    not depend on each other, so equal opcodes of a level make a run.
 ** 3. Constants share a slot only if they are the same number: equal points, or the same node.
 */
+#include "base/clock.h"
+#include "base/meter.h"
 #include "graph/kink.h"
 #include "graph/tape.h"
 #include "graph/series_lowering.h"
@@ -326,7 +328,7 @@ static ambit_status check_arguments(
   return AMBIT_OK;
 }
 
-ambit_status ambit_tape_seal(ambit_graph *g, ambit_arena *arena, size_t nout, const ambit_expr *out, size_t nin,
+static ambit_status seal(ambit_graph *g, ambit_arena *arena, size_t nout, const ambit_expr *out, size_t nin,
     const ambit_expr *in, size_t nvarying, uint32_t flags, const ambit_tape **tape, ambit_failure *f) {
   bool keep = flags & AMBIT_SEAL_KEEP;
   sealing s = { .g = g, .arena = arena, .failure = f };
@@ -352,5 +354,15 @@ ambit_status ambit_tape_seal(ambit_graph *g, ambit_arena *arena, size_t nout, co
   free(s.level);
   free(s.order);
   free(root);
+  return status;
+}
+
+ambit_status ambit_tape_seal(ambit_graph *g, ambit_arena *arena, size_t nout, const ambit_expr *out, size_t nin,
+    const ambit_expr *in, size_t nvarying, uint32_t flags, const ambit_tape **tape, ambit_failure *f) {
+  double begun = ambit_clock_cpu();
+  ambit_meter_enter(AMBIT_FRAME_STAGE, "tape");
+  ambit_status status = seal(g, arena, nout, out, nin, in, nvarying, flags, tape, f);
+  ambit_meter_leave();
+  g->sealing += ambit_clock_cpu() - begun;
   return status;
 }

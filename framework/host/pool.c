@@ -6,6 +6,7 @@
 ** locale, and signals of the process go to the other threads: Ctrl-C is the main thread's affair.
 */
 #include "host/pool.h"
+#include "base/meter.h"
 #include "num/environment.h"
 #include <errno.h>
 #include <pthread.h>
@@ -33,6 +34,7 @@ struct ambit_pool {
   bool closing, stopping;
   ambit_pool_job job;
   void *user;
+  ambit_meter_place place;     /* that waits for the items */
   uint32_t n, next_item, busy; /* items of this run; the next one; workers inside one */
   uint32_t failed_item;        /* least that failed, or n */
   ambit_status failed;
@@ -55,7 +57,9 @@ static void do_item(ambit_pool *p, uint32_t number) {
   uint32_t item = p->next_item++;
   p->busy++;
   pthread_mutex_unlock(&p->lock);
+  bool measured = ambit_meter_join(&p->place, "item of a pool");
   ambit_status status = p->job(p->user, item, number);
+  if (measured) ambit_meter_part();
   pthread_mutex_lock(&p->lock);
   p->busy--;
   note_failure(p, item, status);
@@ -202,14 +206,18 @@ ambit_status ambit_pool_run(
   pthread_mutex_lock(&p->lock);
   p->job = job;
   p->user = user;
+  p->place = ambit_meter_here();
   p->n = p->failed_item = n;
   p->next_item = 0;
   p->stopping = false;
   p->failed = AMBIT_OK;
-  if (p->nworker)
+  if (p->nworker) {
+    ambit_meter_enter(AMBIT_FRAME_THREAD, "waiting for threads");
     wait_for_workers(p, meanwhile);
-  else
+    ambit_meter_leave();
+  } else {
     work_here(p, meanwhile);
+  }
   ambit_status status = p->stopping ? AMBIT_STOPPED : p->failed;
   p->n = p->next_item = p->failed_item = 0; /* nothing to do until the next run */
   pthread_mutex_unlock(&p->lock);

@@ -1,8 +1,10 @@
 /* registry.c -- loaded plugins and the kernel's completed copies of their interfaces. */
 #include "host/registry.h"
 #include "base/arena.h"
+#include "base/meter.h"
 #include "graph/interpreter.h"
 #include "host/load.h"
+#include "host/metered.h"
 #include "host/slow.h"
 #include <dlfcn.h>
 #include <stdbool.h>
@@ -14,7 +16,7 @@ typedef struct entry {
   struct entry *next;
   const char *kind, *name; /* NULL when loaded by file */
   ambit_loaded loaded;
-  ambit_arithmetic *arithmetic;
+  const ambit_arithmetic *arithmetic;
   ambit_element *element;
   ambit_solver *solver;
   ambit_exports *exports;
@@ -84,7 +86,9 @@ static ambit_status load(ambit_registry *r, const char *kind, const char *name, 
   *e = find_named(r, kind, name);
   if (*e) return AMBIT_OK;
   ambit_loaded loaded;
+  ambit_meter_enter(AMBIT_FRAME_LOAD, name);
   ambit_status status = ambit_load_named(r->arena, &r->path, kind, name, &loaded, f);
+  ambit_meter_leave();
   if (status != AMBIT_OK) return status;
   *e = keep(r, &loaded, kind, name);
   if (*e) return AMBIT_OK;
@@ -181,8 +185,11 @@ static ambit_status make_arithmetic(ambit_registry *r, entry *e, ambit_failure *
   ambit_arithmetic *full = ambit_arena_alloc(r->arena, sizeof *full);
   if (!full) return no_memory(f);
   status = ambit_arithmetic_complete(a, full, f);
-  if (status == AMBIT_OK) e->arithmetic = full;
-  return status;
+  if (status != AMBIT_OK) return status;
+  const ambit_arithmetic *lent = ambit_meter_is_on() ? ambit_metered_arithmetic(r->arena, full, e->name ? e->name : e->loaded.plugin.id) : full;
+  if (!lent) return no_memory(f);
+  e->arithmetic = lent;
+  return AMBIT_OK;
 }
 
 static ambit_status make_element(ambit_registry *r, entry *e, ambit_failure *f) {

@@ -1,7 +1,9 @@
 /* services.c -- memory from an arena, one failure message, services of the lower layers by their id. */
 #include "host/services.h"
+#include "base/meter.h"
 #include "graph/contract.h"
 #include "graph/jet.h"
+#include "host/metered.h"
 #include "host/pool.h"
 #include "num/service.h"
 #include <pthread.h>
@@ -12,11 +14,18 @@
 
 #define NOTE_MAX 512
 
+/* a record of counted work, one of the lease's */
+typedef struct counted {
+  ambit_work work; /* first */
+  struct counted *next;
+} counted;
+
 /* fail() may come from any thread of a plugin, so the message is guarded. */
 typedef struct guarded_lease {
   ambit_lease lease; /* first: host, lease and this share one address */
   pthread_mutex_t lock;
   ambit_pool *pools; /* those that are open */
+  counted *counted;
 } guarded_lease;
 
 static void *alloc(const ambit_host *h, size_t bytes) {
@@ -52,16 +61,34 @@ static ambit_status open_pool(const ambit_host *h, uint32_t threads, ambit_pool 
   return ambit_pool_open(&guarded->pools, threads, pool);
 }
 
+static ambit_work *open_work(const ambit_host *h) {
+  if (h->alloc != alloc) return NULL; /* somebody's own host, which lends our services */
+  guarded_lease *guarded = (guarded_lease *)(uintptr_t)h;
+  counted *made = alloc(h, sizeof *made);
+  if (!made) return NULL;
+  made->next = guarded->counted;
+  guarded->counted = made;
+  return &made->work;
+}
+
+static const ambit_work_service work_service_v1 = { sizeof(ambit_work_service), open_work };
+
 static const ambit_pool_service pool_service_v1 = { sizeof(ambit_pool_service), open_pool, ambit_pool_close,
   ambit_pool_run };
 
-static const void *service(const ambit_host *h, const char *id) {
-  (void)h;
+static const void *plain_service(const char *id) {
   if (strcmp(id, AMBIT_NUM_SERVICE) == 0) return &ambit_num_service_v1;
   if (strcmp(id, AMBIT_JET_SERVICE) == 0) return &ambit_jet_service_v1;
   if (strcmp(id, AMBIT_CONTRACT_SERVICE) == 0) return &ambit_contract_service_v1;
   if (strcmp(id, AMBIT_POOL_SERVICE) == 0) return &pool_service_v1;
+  if (strcmp(id, AMBIT_WORK_SERVICE) == 0) return &work_service_v1;
   return NULL;
+}
+
+static const void *service(const ambit_host *h, const char *id) {
+  (void)h;
+  const void *plain = plain_service(id);
+  return ambit_meter_is_on() ? ambit_metered_service(id, plain) : plain;
 }
 
 ambit_status ambit_lease_open(ambit_lease **lease, void (*sink)(void *user, const char *line), void *user) {
@@ -90,4 +117,14 @@ void ambit_lease_close(ambit_lease *lease) {
   pthread_mutex_destroy(&guarded->lock);
   ambit_arena_close(lease->arena);
   free(guarded);
+}
+
+ambit_work ambit_lease_work(const ambit_lease *lease) {
+  ambit_work sum = { 0 };
+  if (!lease) return sum;
+  for (const counted *c = ((const guarded_lease *)(const void *)lease)->counted; c; c = c->next)
+    ambit_work_add(&sum, &c->work);
+  sum.allocations += ambit_arena_count(lease->arena);
+  sum.allocated += ambit_arena_bytes(lease->arena);
+  return sum;
 }

@@ -3,6 +3,7 @@
 #define AMBIT_SERVICES_H
 #include "base/arena.h"
 #include "base/status.h"
+#include <ambit/work.h>
 
 /* One host object per opened context or solver; freed together with it. */
 typedef struct ambit_lease {
@@ -15,4 +16,7 @@ typedef struct ambit_lease {
 
 ambit_status ambit_lease_open(ambit_lease **lease, void (*note)(void *user, const char *line), void *user);
 void ambit_lease_close(ambit_lease *lease);
+
+/* What was counted on this lease until now (zeros for NULL); nobody counts meanwhile. */
+ambit_work ambit_lease_work(const ambit_lease *lease);
 #endif

@@ -2,9 +2,10 @@
 ** on and is told. The child is a fork, so it sees everything that the caller built; what it returns is one text.
 **
 ** Three limits: `cpu` is the budget, at which running verbs are stopped and keep what they proved (as core.deadline);
-** the child is killed at `wall` seconds, and by the system when it takes much more CPU than its budget; allocations
-** beyond `memory` bytes more than it started with fail. Sanitized builds know no memory limit: they reserve address
-** space by the terabyte.
+** the child is killed at `wall` seconds, and when it takes much more CPU than its budget (by whoever waits for it: a
+** limit of the system's would make the child's own CPU clock as coarse as the timer tick); allocations beyond `memory`
+** bytes more than it started with fail. Sanitized builds know no memory limit: they reserve address space by the
+** terabyte.
 */
 #include "lua/core.h"
 #include "lua/interrupt.h"
@@ -30,7 +31,8 @@ typedef struct child {
   pid_t pid; /* 0: waited for */
   int pipe;  /* -1: closed */
   double began, wall;
-  bool late;           /* killed at its wall limit */
+  double cpu;          /* at which it is killed, s */
+  bool late;           /* killed at one of these limits */
   size_t resident;     /* bytes at the start */
   size_t length, room; /* of what it has said so far */
   char *text;          /* [room], malloc */
@@ -76,7 +78,6 @@ static void set_limit(int resource, double most) {
 
 static void limit_child(ambit_lua *core, const limits *most) {
   core->deadline = isfinite(most->cpu) ? cpu_now() + most->cpu : 0;
-  set_limit(RLIMIT_CPU, ceil(cpu_now() + 2 * most->cpu + 5));
   struct rlimit none = { 0, 0 };
   setrlimit(RLIMIT_CORE, &none);
 #if !defined(__SANITIZE_ADDRESS__)
@@ -129,7 +130,7 @@ static int start(lua_State *L) {
   luaL_checktype(L, 1, LUA_TFUNCTION);
   limits most = { limit_field(L, "cpu"), limit_field(L, "wall"), limit_field(L, "memory") };
   child *c = lua_newuserdatauv(L, sizeof *c, 0);
-  *c = (child) { .pipe = -1, .began = now(), .wall = most.wall };
+  *c = (child) { .pipe = -1, .began = now(), .wall = most.wall, .cpu = 2 * most.cpu + 5 };
   luaL_setmetatable(L, TYPE);
   size_t space;
   memory_now(&space, &c->resident);
@@ -163,7 +164,7 @@ static bool listen_to(child *c) {
 
 static const char *outcome_of(const child *c, int status) {
   if (c->late) return "late";
-  if (WIFSIGNALED(status)) return WTERMSIG(status) == SIGXCPU ? "late" : "crashed";
+  if (WIFSIGNALED(status)) return "crashed";
   if (WEXITSTATUS(status) != 0 || c->length == 0) return "crashed";
   return c->text[0] == '+' ? "done" : c->text[0] == 'm' ? "out of memory" : "failed";
 }
@@ -201,6 +202,14 @@ static void push_result(lua_State *L, child *c) {
   forget(c);
 }
 
+static bool is_over(const child *c) {
+  clockid_t clock;
+  struct timespec t;
+  if (now() - c->began > c->wall) return true;
+  if (!isfinite(c->cpu) || clock_getcpuclockid(c->pid, &clock) != 0 || clock_gettime(clock, &t) != 0) return false;
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec > c->cpu;
+}
+
 /* Listens until one has ended, Ctrl-C, or `until`; its place in the array, or -1. */
 static int wait_for_one(child **c, uint32_t n, double until) {
   struct pollfd *watch = calloc(n, sizeof *watch);
@@ -210,7 +219,7 @@ static int wait_for_one(child **c, uint32_t n, double until) {
     for (uint32_t i = 0; i < n; i++) watch[i] = (struct pollfd) { .fd = c[i]->pipe, .events = POLLIN };
     if (poll(watch, n, SLICE_MS) < 0 && errno != EINTR) break;
     for (uint32_t i = 0; i < n && ended < 0; i++) {
-      if (!c[i]->late && now() - c[i]->began > c[i]->wall) {
+      if (!c[i]->late && is_over(c[i])) {
         c[i]->late = true;
         kill(c[i]->pid, SIGKILL);
       }

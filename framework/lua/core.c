@@ -1,5 +1,6 @@
 /* core.c -- the module `ambit` and its C half `ambit.core`. */
 #include "lua/core.h"
+#include "base/meter.h"
 #include "lua/embedded.h"
 #include "num/rounding.h"
 #include <string.h>
@@ -8,6 +9,7 @@ static const char state_key = 0; /* its address is the key in the Lua registry *
 
 static int state_close(lua_State *L) {
   ambit_lua *core = lua_touserdata(L, 1);
+  ambit_profile_close(core->profile);
   if (core->records) ambit_records_close(core->records, NULL);
   if (core->graph) ambit_graph_close(core->graph);
   if (core->registry) ambit_registry_close(core->registry);
@@ -40,6 +42,9 @@ static ambit_lua *state_get(lua_State *L) {
 
 /* A Lua error that passes leaves the standard environment behind. */
 static int in_standard_environment(lua_State *L) {
+  ambit_lua *core = AMBIT_LUA(L);
+  if (core->profile && !core->framed) return ambit_lua_call_framed(L);
+  core->framed = false;
   lua_CFunction f = lua_tocfunction(L, lua_upvalueindex(2));
   ambit_rounding outside = ambit_round_nearest();
   int results = f(L);
@@ -82,6 +87,7 @@ int luaopen_ambit_core(lua_State *L) {
   ambit_lua_open_roots(L, core);
   ambit_lua_open_system(L, core);
   ambit_lua_open_verbs(L, core);
+  ambit_lua_open_sample(L, core);
   ambit_lua_open_variation(L, core);
   ambit_lua_open_term_tree(L, core);
   ambit_lua_open_structure(L, core);

@@ -26,6 +26,8 @@ typedef struct ambit_lua {
   ambit_records *records; /* JSON lines of `ambit run --json`, or NULL */
   ambit_arena *arena;     /* texts that must live as long as the state */
   bool progress;          /* draw a progress bar on stderr */
+  struct ambit_profile *profile; /* of `ambit profile`, or NULL */
+  bool framed;            /* the function that is called next has its frame in the profile */
   double deadline;        /* when runs are stopped, s of CPU time of this process; 0: never */
 } ambit_lua;
 
@@ -79,6 +81,9 @@ bool ambit_lua_is_constant(lua_State *L, const ambit_lua_expression *x);
 #define AMBIT_LUA_DIMENSION_MAX 96
 void ambit_lua_dimension_text(const int8_t power[7], char out[AMBIT_LUA_DIMENSION_MAX]);
 
+/* profile.c: calls the running function once more, in a frame of the profile; `framed` then says not to do it again. */
+int ambit_lua_call_framed(lua_State *L);
+
 /* Each adds its functions to the table on top of the stack (the state as upvalue). */
 void ambit_lua_open_functions(lua_State *L, ambit_lua *core);  /* functions.c: sin, pow, ... */
 void ambit_lua_open_expression(lua_State *L, ambit_lua *core); /* expression.c */
@@ -91,6 +96,7 @@ void ambit_lua_open_loops(lua_State *L, ambit_lua *core);      /* loops.c */
 void ambit_lua_open_roots(lua_State *L, ambit_lua *core);      /* roots.c */
 void ambit_lua_open_system(lua_State *L, ambit_lua *core);     /* system.c */
 void ambit_lua_open_verbs(lua_State *L, ambit_lua *core);      /* verbs.c: evaluate, simulate */
+void ambit_lua_open_sample(lua_State *L, ambit_lua *core);     /* sample.c */
 void ambit_lua_open_variation(lua_State *L, ambit_lua *core);  /* variation.c */
 void ambit_lua_open_term_tree(lua_State *L, ambit_lua *core);  /* term_tree.c */
 void ambit_lua_open_structure(lua_State *L, ambit_lua *core);  /* structure.c */

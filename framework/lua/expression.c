@@ -91,7 +91,7 @@ static int is_constant(lua_State *L) {
   return 1;
 }
 
-/* leaves({e, ...}) -> {{expression, kind, name, unit, lo, hi}, ...}: what the expressions depend on */
+/* leaves({e, ...}) -> {{expression, kind, name, unit, lo, hi, number}, ...}: what the expressions depend on */
 static int leaves(lua_State *L) {
   ambit_graph *g = AMBIT_LUA(L)->graph;
   size_t n = (size_t)luaL_len(L, 1);
@@ -104,7 +104,9 @@ static int leaves(lua_State *L) {
     const ambit_node *node = ambit_graph_node(g, leaf[i]);
     const char *kind = node->op == AMBIT_LEAF_UNKNOWN ? "unknown" : node->op == AMBIT_LEAF_TIME ? "time" : "symbol";
     ambit_interval range = node->op == AMBIT_LEAF_UNKNOWN ? node->value : node->range;
-    lua_createtable(L, 0, 6);
+    lua_createtable(L, 0, 7);
+    lua_pushinteger(L, leaf[i]);
+    lua_setfield(L, -2, "number");
     lua_pushstring(L, node->text);
     lua_setfield(L, -2, "name");
     lua_pushstring(L, node->unit);

@@ -73,9 +73,9 @@ static int fold(lua_State *L) {
   return 1;
 }
 
-/* The exponent as an integer, if it is exactly one: a text is read as a decimal, so "2.00000000000000000001" is
+/* Twice the exponent as an integer, if it is exactly one: a text is read as a decimal, so "2.00000000000000000001" is
 ** none. */
-static bool integer_exponent(lua_State *L, int idx, int32_t *n) {
+static bool half_integer_exponent(lua_State *L, int idx, int32_t *n) {
   double x;
   if (lua_type(L, idx) == LUA_TNUMBER) {
     x = lua_tonumber(L, idx);
@@ -86,7 +86,8 @@ static bool integer_exponent(lua_State *L, int idx, int32_t *n) {
   } else {
     return false;
   }
-  if (!(fabs(x) <= 1e9) || x != floor(x)) return false;
+  x *= 2;
+  if (!(fabs(x) <= 2e9) || x != floor(x)) return false;
   *n = (int32_t)x;
   return true;
 }
@@ -104,12 +105,17 @@ static int integer_power(lua_State *L, int32_t n) {
   return 1;
 }
 
-/* a^b: integer b for every a, otherwise exp(b log a), a > 0; b = 1/2 is the square root */
+/* a^b: integer b for every a, half integers as powers of the square root, a >= 0; otherwise exp(b log a), a > 0 */
 static int power(lua_State *L) {
   int32_t n;
   lua_settop(L, 2);
-  if (integer_exponent(L, 2, &n)) return integer_power(L, n);
-  if (lua_type(L, 2) == LUA_TNUMBER && lua_tonumber(L, 2) == 0.5) return apply(L, AMBIT_OP_SQRT, 1, "pow");
+  if (half_integer_exponent(L, 2, &n)) {
+    if (n % 2 == 0) return integer_power(L, n / 2);
+    lua_settop(L, 1);
+    apply(L, AMBIT_OP_SQRT, 1, "pow");
+    lua_replace(L, 1);
+    return integer_power(L, n);
+  }
   if (wants_enclosure(L, 2)) {
     ambit_lua_enclosure a = ambit_lua_to_enclosure(L, 1, "pow"), b = ambit_lua_to_enclosure(L, 2, "pow");
     ambit_interval r;

@@ -112,12 +112,26 @@ static int pulled(lua_State *L) {
   return 2;
 }
 
-/* part_pulled(mechanism, part) -> number of its quantities that are there */
-static int part_pulled(lua_State *L) {
+/* quantities(mechanism, part) -> {{name, port or nil, pulled}, ...}: all that the part has */
+static int quantities(lua_State *L) {
   const ambit_mechanism *m = self(L);
   lua_Integer part = luaL_checkinteger(L, 2);
   luaL_argcheck(L, part >= 0 && part < (lua_Integer)ambit_mechanism_count(m), 2, "there is no such part");
-  lua_pushinteger(L, (lua_Integer)ambit_mechanism_part_pulled(m, (uint32_t)part));
+  const ambit_element *element = ambit_mechanism_part_element(m, (uint32_t)part);
+  size_t n = ambit_mechanism_part_quantities(m, (uint32_t)part, 0, NULL);
+  ambit_part_quantity *q = lua_newuserdatauv(L, (n + 1) * sizeof *q, 0);
+  ambit_mechanism_part_quantities(m, (uint32_t)part, n, q);
+  lua_createtable(L, (int)n, 0);
+  for (size_t i = 0; i < n; i++) {
+    lua_createtable(L, 0, 3);
+    lua_pushstring(L, q[i].name);
+    lua_setfield(L, -2, "name");
+    if (q[i].port != AMBIT_NO_PORT) lua_pushstring(L, element->port[q[i].port].name);
+    if (q[i].port != AMBIT_NO_PORT) lua_setfield(L, -2, "port");
+    lua_pushboolean(L, q[i].pulled);
+    lua_setfield(L, -2, "pulled");
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
   return 1;
 }
 
@@ -180,7 +194,7 @@ static int speeds(lua_State *L) {
 void ambit_lua_open_mechanism(lua_State *L, ambit_lua *core) {
   static const luaL_Reg meta[] = { { "__gc", close }, { NULL, NULL } };
   static const luaL_Reg functions[] = { { "mechanism", mechanism }, { "add", add }, { "pull", pull },
-    { "written_by", written_by }, { "part_name", part_name }, { "pulled", pulled }, { "part_pulled", part_pulled },
+    { "written_by", written_by }, { "part_name", part_name }, { "pulled", pulled }, { "quantities", quantities },
     { "part_count", count }, { "coordinates", coordinates }, { "coordinate_unit", coordinate_unit },
     { "speeds", speeds }, { NULL, NULL } };
   static const struct {

@@ -31,8 +31,13 @@ void ambit_lua_set_text(lua_State *L, const char *key, const char *value) {
   lua_setfield(L, -2, key);
 }
 
+static void set_work(lua_State *L, const char *key, uint64_t value) {
+  lua_pushinteger(L, (lua_Integer)value);
+  lua_setfield(L, -2, key);
+}
+
 void ambit_lua_push_report(lua_State *L, const ambit_report *r) {
-  lua_createtable(L, 0, 16);
+  lua_createtable(L, 0, 40);
   ambit_lua_set_text(L, "arithmetic", r->arithmetic);
   if (r->solver[0]) ambit_lua_set_text(L, "solver", r->solver);
   ambit_lua_set_count(L, "expressions", r->expressions);
@@ -48,6 +53,14 @@ void ambit_lua_push_report(lua_State *L, const ambit_report *r) {
   ambit_lua_set_count(L, "steps", r->steps);
   ambit_lua_set_number(L, "seconds_build", r->seconds_build);
   ambit_lua_set_number(L, "seconds_run", r->seconds_run);
+  ambit_lua_set_number(L, "seconds_graph", r->seconds_graph);
+  ambit_lua_set_number(L, "seconds_tape", r->seconds_tape);
+  ambit_lua_set_number(L, "seconds_context", r->seconds_context);
+  ambit_lua_set_number(L, "seconds_open", r->seconds_open);
+  ambit_lua_set_number(L, "seconds_close", r->seconds_close);
+#define AMBIT_X(name, what) set_work(L, #name, r->work.name);
+  AMBIT_WORKS(AMBIT_X)
+#undef AMBIT_X
 }
 
 double *ambit_lua_numbers(lua_State *L, int idx, size_t *n) {

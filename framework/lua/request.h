@@ -3,6 +3,7 @@
 #ifndef AMBIT_LUA_REQUEST_H
 #define AMBIT_LUA_REQUEST_H
 #include "lua/core.h"
+#include "model/evaluate.h"
 #include "model/report.h"
 #include "model/simulate.h"
 
@@ -10,6 +11,10 @@ ambit_option *ambit_lua_options(lua_State *L, int idx, size_t *n); /* {name, tex
 double *ambit_lua_numbers(lua_State *L, int idx, size_t *n);       /* {x, ...} */
 const char **ambit_lua_texts(lua_State *L, int idx, size_t *n);    /* {text, ...}; the texts stay the table's */
 void ambit_lua_push_report(lua_State *L, const ambit_report *r);
+
+/* (arithmetic, options, {expression}, {leaf}, {value}) at 1..5 */
+ambit_evaluate_request ambit_lua_evaluate_request(lua_State *L);
+void ambit_lua_push_enclosures(lua_State *L, size_t n, const ambit_interval *x, uint32_t flags); /* {enclosure, ...} */
 
 /* (system, solver, arithmetic or nil, solver options, arithmetic options, {initial}, {time}) at 1..7 */
 ambit_simulate_request ambit_lua_simulate_request(lua_State *L);

@@ -41,7 +41,25 @@ static int kinks(lua_State *L) {
   return 1;
 }
 
+/* answers() -> {nodes, asked, shared, folded} of the whole graph: how operations were answered */
+static int answers(lua_State *L) {
+  const ambit_graph *g = AMBIT_LUA(L)->graph;
+  ambit_graph_tally tally = ambit_graph_answers(g);
+  const struct {
+    const char *name;
+    uint64_t count;
+  } field[] = { { "nodes", ambit_graph_count(g) }, { "asked", tally.asked }, { "shared", tally.shared },
+    { "folded", tally.folded } };
+  lua_createtable(L, 0, 4);
+  for (size_t i = 0; i < sizeof field / sizeof *field; i++) {
+    lua_pushinteger(L, (lua_Integer)field[i].count);
+    lua_setfield(L, -2, field[i].name);
+  }
+  return 1;
+}
+
 void ambit_lua_open_structure(lua_State *L, ambit_lua *core) {
-  static const luaL_Reg functions[] = { { "operations", operations }, { "kinks", kinks }, { NULL, NULL } };
+  static const luaL_Reg functions[] = { { "operations", operations }, { "kinks", kinks }, { "answers", answers },
+    { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
 }

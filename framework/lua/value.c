@@ -149,6 +149,14 @@ static ambit_expr enclosure_expression(lua_State *L, const ambit_lua_enclosure *
   return ambit_interval_is_point(y->x) ? ambit_graph_number(g, y->x.lo) : ambit_graph_unknown(g, NULL, y->x);
 }
 
+/* C would end the text at a zero byte, and read what is in front of it. */
+static const char *whole_text(lua_State *L, int idx, const char *what) {
+  size_t length;
+  const char *text = lua_tolstring(L, idx, &length);
+  if (strlen(text) != length) wrong(L, what, "the text holds a zero byte");
+  return text;
+}
+
 ambit_lua_expression ambit_lua_to_expression(lua_State *L, int idx, const char *wanted, const char *what) {
   ambit_lua_expression out = { 0 };
   ambit_failure f = { 0 };
@@ -157,7 +165,7 @@ ambit_lua_expression ambit_lua_to_expression(lua_State *L, int idx, const char *
   switch (lua_type(L, idx)) {
   case LUA_TNUMBER: out.e = number_expression(L, idx, what); return out;
   case LUA_TSTRING:
-    if (text_expression(AMBIT_LUA(L)->graph, lua_tostring(L, idx), wanted, &out, &f) != AMBIT_OK)
+    if (text_expression(AMBIT_LUA(L)->graph, whole_text(L, idx, what), wanted, &out, &f) != AMBIT_OK)
       wrong(L, what, f.message);
     return out;
   case LUA_TUSERDATA:
@@ -195,7 +203,7 @@ ambit_lua_enclosure ambit_lua_to_enclosure(lua_State *L, int idx, const char *wh
     ambit_interval x;
     ambit_failure f = { 0 };
     const char *rest;
-    if (ambit_decimal_read(lua_tostring(L, idx), &x, &rest, &f) != AMBIT_OK) wrong(L, what, f.message);
+    if (ambit_decimal_read(whole_text(L, idx, what), &x, &rest, &f) != AMBIT_OK) wrong(L, what, f.message);
     while (isspace((unsigned char)*rest)) rest++;
     return (ambit_lua_enclosure) { *rest ? ambit_interval_mul(x, unit_factor(L, rest, what)) : x, 0 };
   }

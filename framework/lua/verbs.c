@@ -1,4 +1,4 @@
-/* verbs.c -- evaluate, simulate and sample: Lua tables -> kernel requests -> Lua values. */
+/* verbs.c -- evaluate and simulate: Lua tables -> kernel requests -> Lua values. */
 #include "lua/core.h"
 #include "lua/receiver.h"
 #include "lua/request.h"
@@ -6,13 +6,11 @@
 #include "lua/system.h"
 #include "lua/events.h"
 #include "model/evaluate.h"
-#include "model/sample.h"
 #include "model/simulate.h"
 #include "model/suggest.h"
 #include <string.h>
 
-/* (arithmetic, options, {expression}, {leaf}, {value}) at 1..5 */
-static ambit_evaluate_request evaluate_request(lua_State *L) {
+ambit_evaluate_request ambit_lua_evaluate_request(lua_State *L) {
   ambit_lua *core = AMBIT_LUA(L);
   ambit_evaluate_request q = { .graph = core->graph, .registry = core->registry, .arithmetic = luaL_checkstring(L, 1) };
   q.option = ambit_lua_options(L, 2, &q.noption);
@@ -24,7 +22,7 @@ static ambit_evaluate_request evaluate_request(lua_State *L) {
   return q;
 }
 
-static void push_enclosures(lua_State *L, size_t n, const ambit_interval *x, uint32_t flags) {
+void ambit_lua_push_enclosures(lua_State *L, size_t n, const ambit_interval *x, uint32_t flags) {
   lua_createtable(L, (int)n, 0);
   for (size_t i = 0; i < n; i++) {
     ambit_lua_push_enclosure(L, x[i], flags);
@@ -34,36 +32,15 @@ static void push_enclosures(lua_State *L, size_t n, const ambit_interval *x, uin
 
 /* evaluate(arithmetic, options, {expression}, {leaf}, {value}) -> {enclosure}, report */
 static int evaluate(lua_State *L) {
-  ambit_evaluate_request q = evaluate_request(L);
+  ambit_evaluate_request q = ambit_lua_evaluate_request(L);
   ambit_interval *out = lua_newuserdatauv(L, (q.nexpr + 1) * sizeof *out, 0);
   uint32_t flags = 0;
   ambit_report report = { 0 };
   ambit_failure f = { 0 };
   if (ambit_evaluate(&q, out, &flags, &report, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
-  push_enclosures(L, q.nexpr, out, flags);
+  ambit_lua_push_enclosures(L, q.nexpr, out, flags);
   ambit_lua_push_report(L, &report);
   return 2;
-}
-
-/* sample_expressions(arithmetic, options, {expression}, {leaf}, {value}, draws, seed) -> {enclosure}, {defined draws},
-** report */
-static int sample_expressions(lua_State *L) {
-  size_t draws = (size_t)luaL_checkinteger(L, 6);
-  uint64_t seed = (uint64_t)luaL_checkinteger(L, 7);
-  ambit_evaluate_request q = evaluate_request(L);
-  ambit_interval *out = lua_newuserdatauv(L, (q.nexpr + 1) * sizeof *out, 0);
-  size_t *defined = lua_newuserdatauv(L, (q.nexpr + 1) * sizeof *defined, 0);
-  ambit_report report = { 0 };
-  ambit_failure f = { 0 };
-  if (ambit_sample_expressions(&q, draws, seed, out, defined, &report, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
-  push_enclosures(L, q.nexpr, out, 0);
-  lua_createtable(L, (int)q.nexpr, 0);
-  for (size_t i = 0; i < q.nexpr; i++) {
-    lua_pushinteger(L, (lua_Integer)defined[i]);
-    lua_rawseti(L, -2, (lua_Integer)i + 1);
-  }
-  ambit_lua_push_report(L, &report);
-  return 3;
 }
 
 /* -- simulate */
@@ -158,38 +135,8 @@ static int look(lua_State *L) {
   return 1;
 }
 
-/* sample_system(as simulate, draws, seed, threads or nil) -> {enclosure} by instant and state, {status, reason, draws, failed,
-** cpu_seconds}, report */
-static int sample_system(lua_State *L) {
-  size_t draws = (size_t)luaL_checkinteger(L, 8);
-  uint64_t seed = (uint64_t)luaL_checkinteger(L, 9);
-  uint32_t threads = (uint32_t)luaL_optinteger(L, 10, 0);
-  ambit_simulate_request q = ambit_lua_simulate_request(L);
-  q.threads = threads;
-  ambit_receiver to = ambit_receiver_silent();
-  q.sink = &to.sink;
-  size_t n = q.ntime * q.system->nx;
-  ambit_interval *out = lua_newuserdatauv(L, (n + 1) * sizeof *out, 0);
-  ambit_sample_result result = { 0 };
-  ambit_report report = { 0 };
-  ambit_failure f = { 0 };
-  ambit_receiver_begin(L, &to);
-  ambit_status status = ambit_sample_system(&q, draws, seed, out, &result, &report, &f);
-  ambit_receiver_end(&to);
-  if (status != AMBIT_OK) ambit_lua_raise(L, &f);
-  push_enclosures(L, n, out, 0);
-  lua_createtable(L, 0, 5);
-  ambit_lua_set_text(L, "status", result.status == AMBIT_OK ? "complete" : ambit_status_name(result.status));
-  ambit_lua_set_text(L, "reason", result.reason);
-  ambit_lua_set_number(L, "cpu_seconds", result.cpu_seconds);
-  ambit_lua_set_count(L, "draws", (uint32_t)result.draws);
-  ambit_lua_set_count(L, "failed", (uint32_t)result.failed);
-  ambit_lua_push_report(L, &report);
-  return 3;
-}
-
 void ambit_lua_open_verbs(lua_State *L, ambit_lua *core) {
   static const luaL_Reg functions[] = { { "evaluate", evaluate }, { "simulate", simulate }, { "look", look },
-    { "sample_expressions", sample_expressions }, { "sample_system", sample_system }, { NULL, NULL } };
+    { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
 }

@@ -1,4 +1,5 @@
 /* build.c -- what an element sees of the kernel while it writes formulas (ambit_build), and the world. */
+#include "base/meter.h"
 #include "base/vector.h"
 #include "graph/kink.h"
 #include "mechanism/parts.h"
@@ -228,7 +229,9 @@ ambit_status ambit_build_express(ambit_mechanism *m, ambit_cell *cell, ambit_exp
     .cell = cell };
   char who[AMBIT_WHO_MAX];
   const char *asker = ambit_graph_written_by(m->graph, ambit_part_who(part_of(&s), who));
+  ambit_meter_enter(AMBIT_FRAME_ELEMENT, part_of(&s)->type);
   ambit_status status = part_of(&s)->element->express(&s.open, cell->port, cell->quantity, out);
+  ambit_meter_leave();
   ambit_graph_written_by(m->graph, asker);
   return status;
 }

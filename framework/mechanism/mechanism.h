@@ -41,8 +41,14 @@ const ambit_element *ambit_mechanism_part_element(const ambit_mechanism *m, uint
 const ambit_expr *ambit_mechanism_pull(ambit_mechanism *m, ambit_frame frame, uint32_t quantity, ambit_failure *f);
 /* how often express() was called, of how many (part, port, quantity) that exist: "leave out" in numbers */
 void ambit_mechanism_pulled(const ambit_mechanism *m, size_t *pulled, size_t *available);
-/* quantities at the ports of one part, part < count, that are there; 0: nobody asked for anything of it */
-size_t ambit_mechanism_part_pulled(const ambit_mechanism *m, uint32_t part);
+/* The quantities of one part, part < count: those of its ports, then those of the part as a whole (port
+** AMBIT_NO_PORT). Returns their number and writes at most `room`. */
+typedef struct ambit_part_quantity {
+  const char *name; /* "twist" */
+  uint32_t port;
+  bool pulled; /* was it asked for? */
+} ambit_part_quantity;
+size_t ambit_mechanism_part_quantities(const ambit_mechanism *m, uint32_t part, size_t room, ambit_part_quantity *out);
 
 /* The coordinates that elements have made, in the order of the parts. */
 typedef struct ambit_coordinate {

@@ -1,10 +1,11 @@
 /* context.c -- opening an arithmetic. */
 #include "model/context.h"
+#include "base/clock.h"
+#include "base/meter.h"
 #include "num/environment.h"
 #include "num/outward.h"
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 static void forward_note(void *user, const char *line) { ambit_registry_note(user, line); }
 
@@ -47,7 +48,11 @@ ambit_status ambit_context_failed(const ambit_lease *lease, ambit_status status,
 static ambit_status open_arithmetic(ambit_context *c, ambit_failure *f) {
   char who[96];
   if (!c->arithmetic->open) return AMBIT_OK;
+  ambit_meter_enter(AMBIT_FRAME_STAGE, "context");
+  ambit_meter_enter(AMBIT_FRAME_ARITHMETIC, c->name);
   ambit_status status = c->arithmetic->open(&c->lease->host, c->option, c->nvar, &c->ctx);
+  ambit_meter_leave();
+  ambit_meter_leave();
   if (status == AMBIT_OK) return AMBIT_OK;
   snprintf(who, sizeof who, "arithmetic `%s`", c->name);
   return ambit_context_failed(c->lease, status, who, f);
@@ -55,6 +60,7 @@ static ambit_status open_arithmetic(ambit_context *c, ambit_failure *f) {
 
 ambit_status ambit_context_open(ambit_registry *r, const char *name, size_t noption, const ambit_option *option,
     uint32_t nvar, ambit_context *c, ambit_failure *f) {
+  double begun = ambit_clock_cpu();
   *c = (ambit_context) { .nvar = nvar };
   snprintf(c->name, sizeof c->name, "%s", name);
   ambit_failure own = { 0 };
@@ -65,6 +71,7 @@ ambit_status ambit_context_open(ambit_registry *r, const char *name, size_t nopt
     status = own.status;
   }
   if (status == AMBIT_OK) status = open_arithmetic(c, &own);
+  c->seconds = ambit_clock_cpu() - begun;
   if (status == AMBIT_OK) return AMBIT_OK;
   ambit_lease_close(c->lease);
   *c = (ambit_context) { 0 };
@@ -73,7 +80,9 @@ ambit_status ambit_context_open(ambit_registry *r, const char *name, size_t nopt
 
 ambit_status ambit_context_renew(ambit_registry *r, ambit_context *c, ambit_failure *f) {
   if (!c->arithmetic || !c->arithmetic->open) return AMBIT_OK;
-  ambit_context fresh = { .arithmetic = c->arithmetic, .nvar = c->nvar };
+  ambit_context fresh = { .arithmetic = c->arithmetic, .nvar = c->nvar, .seconds = c->seconds, .spent = c->spent };
+  ambit_work before = ambit_lease_work(c->lease);
+  ambit_work_add(&fresh.spent, &before);
   memcpy(fresh.name, c->name, sizeof fresh.name);
   ambit_failure own = { 0 };
   ambit_status status = ambit_context_lease(r, &fresh.lease, f);
@@ -101,8 +110,4 @@ void ambit_context_close(ambit_context *c) {
   *c = (ambit_context) { 0 };
 }
 
-double ambit_context_seconds(void) {
-  struct timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
+double ambit_context_seconds(void) { return ambit_clock_cpu(); }

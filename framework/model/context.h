@@ -11,6 +11,8 @@ typedef struct ambit_context {
   ambit_lease *lease;
   double *option; /* as open() got them, in the lease's arena */
   uint32_t nvar;
+  double seconds;   /* of CPU time, to open it */
+  ambit_work spent; /* counted before it was renewed */
 } ambit_context;
 
 /* Loads the arithmetic and opens a context for nvar independent variables. On failure nothing is left open. */

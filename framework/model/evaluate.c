@@ -11,6 +11,8 @@
 #include "model/bound.h"
 #include "model/context.h"
 #include "model/monotone.h"
+#include "model/share.h"
+#include "model/tally.h"
 #include <stdio.h>
 
 typedef struct job {
@@ -21,6 +23,7 @@ typedef struct job {
   uint32_t seal; /* flags of sealing */
   ambit_context context;
   ambit_block *block;
+  ambit_tally tally;
 } job;
 
 static ambit_status prepare(job *j, ambit_failure *f) {
@@ -33,18 +36,21 @@ static ambit_status prepare(job *j, ambit_failure *f) {
   j->seal = j->context.arithmetic->set_text ? AMBIT_SEAL_KEEP : 0;
   status = ambit_tape_seal(q->graph, j->arena, q->nexpr, j->bound.expr, nu, j->bound.unknown, 0, j->seal, &j->tape, f);
   if (status != AMBIT_OK) return status;
+  ambit_share_note(j->tape, "results", j->tape->nout, NULL);
   return ambit_block_open(j->tape, j->context.arithmetic, j->context.ctx, 1, &j->block, f);
 }
 
 /* Without the memory for it the enclosure stays as wide as it is. */
-static ambit_status narrow(const job *j, size_t i, ambit_interval *x, ambit_failure *f) {
-  const ambit_monotone m = { j->q->graph, &j->context, j->seal, j->bound.nunknown, j->bound.unknown };
+static ambit_status narrow(job *j, size_t i, ambit_interval *x, ambit_failure *f) {
+  const ambit_monotone m = { j->q->graph, &j->context, j->seal, j->bound.nunknown, j->bound.unknown,
+    &j->tally.work };
   ambit_failure own = { 0 };
   ambit_status status = ambit_monotone_narrow(&m, j->bound.expr[i], x, &own);
   return status == AMBIT_OK || status == AMBIT_NOMEM ? AMBIT_OK : ambit_fail(f, status, "%s", own.message);
 }
 
 static ambit_status run(job *j, ambit_interval *out, uint32_t *flags, ambit_failure *f) {
+  ambit_work_evaluate(&j->tally.work, j->tape->ninstr, 1);
   for (size_t i = 0; i < j->bound.nunknown; i++)
     ambit_block_set(j->block, (uint32_t)i, 0, ambit_graph_node(j->q->graph, j->bound.unknown[i])->value, (int32_t)i);
   *flags = ambit_block_run(j->block) & AMBIT_F_PARTIAL;
@@ -60,7 +66,7 @@ static ambit_status run(job *j, ambit_interval *out, uint32_t *flags, ambit_fail
   return AMBIT_OK;
 }
 
-static void fill_report(const job *j, double start, double built, ambit_report *report) {
+static void fill_report(const job *j, double ran, ambit_report *report) {
   if (!report) return;
   *report = (ambit_report) { 0 };
   snprintf(report->arithmetic, sizeof report->arithmetic, "%.31s", j->q->arithmetic);
@@ -71,22 +77,25 @@ static void fill_report(const job *j, double start, double built, ambit_report *
   report->tape_instructions = j->tape->ninstr;
   report->tape_runs = j->tape->nrun;
   report->unknowns = (uint32_t)j->bound.nunknown;
-  report->seconds_build = built - start;
-  report->seconds_run = ambit_context_seconds() - built;
+  report->seconds_run = ran;
+  ambit_tally_report(&j->tally, j->arena, NULL, 1, &j->context, report);
 }
 
 ambit_status ambit_evaluate(
     const ambit_evaluate_request *q, ambit_interval *out, uint32_t *flags, ambit_report *report, ambit_failure *f) {
   job j = { .q = q, .arena = ambit_arena_open() };
   if (!j.arena) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
-  double start = ambit_context_seconds();
+  j.tally = ambit_tally_begin(q->graph);
   ambit_status status = prepare(&j, f);
+  ambit_tally_built(&j.tally);
   if (status == AMBIT_OK) {
     double built = ambit_context_seconds();
     uint32_t raised = 0;
+    ambit_stage_enter("run", AMBIT_FRAME_ARITHMETIC, q->arithmetic);
     status = run(&j, out, &raised, f);
+    ambit_stage_leave();
     if (flags) *flags = raised;
-    fill_report(&j, start, built, report);
+    fill_report(&j, ambit_context_seconds() - built, report);
   }
   ambit_block_close(j.block);
   ambit_context_close(&j.context);

@@ -1,5 +1,6 @@
 /* guard.c -- watches records, and judges a run by what it saw. */
 #include "model/guard.h"
+#include "base/meter.h"
 #include "model/allocation.h"
 #include <math.h>
 #include <stdio.h>
@@ -45,7 +46,11 @@ static int32_t emit(ambit_sink *s, const ambit_record *given) {
     g->steps++;
     g->reached = r->t_to;
   }
-  return pass(g, g->outer && g->outer->emit ? g->outer->emit(g->outer, r) : 0);
+  if (!g->outer || !g->outer->emit) return pass(g, 0);
+  ambit_meter_enter(AMBIT_FRAME_STAGE, "records");
+  int32_t stop = g->outer->emit(g->outer, r);
+  ambit_meter_leave();
+  return pass(g, stop);
 }
 
 static int32_t progress(ambit_sink *s, double done, const char *message) {

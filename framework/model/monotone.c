@@ -33,6 +33,8 @@ static bool run(search *s, ambit_interval *x) {
   size_t pitch, elem = full->elem(s->m->context->ctx);
   for (size_t j = 0; j < s->m->nunknown; j++) ambit_block_set(s->block, (uint32_t)j, 0, s->box[j], (int32_t)j);
   ambit_block_run(s->block);
+  ambit_work_evaluate(s->m->work, s->tape->ninstr, 1);
+  s->m->work->gradients++;
   *x = ambit_block_get(s->block, 0, 0);
   const char *out = (const char *)ambit_block_base(s->block, &pitch) + s->tape->out[0] * elem;
   return full->gradient(s->m->context->ctx, out, s->lo, s->hi) != 0;

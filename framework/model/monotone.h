@@ -11,6 +11,7 @@ typedef struct ambit_monotone {
   uint32_t seal;                /* flags of sealing */
   size_t nunknown;
   const ambit_expr *unknown; /* their values are the box */
+  ambit_work *work;          /* what it does is added here */
 } ambit_monotone;
 
 /* *x, an enclosure of e over the box, is narrowed if derivatives of one sign allow it; never widened. */

@@ -4,6 +4,7 @@
 #include "model/allocation.h"
 #include "model/context.h"
 #include "model/pair.h"
+#include "model/tally.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -145,15 +146,23 @@ static ambit_status run(ambit_piece *p, ambit_lease *lease) {
   const ambit_split *s = p->split;
   void *self = NULL;
   char reason[AMBIT_MESSAGE_MAX];
+  ambit_stage_enter("open", AMBIT_FRAME_SOLVER, s->solver_name);
   ambit_status status = s->solver->open(&lease->host, &p->problem, s->option, &self);
+  ambit_stage_leave();
   if (status != AMBIT_OK) {
     ambit_guard_explain(status, s->solver_name, lease->failure.message, "could not start and gave no reason", reason);
     report_failure(p, status, reason);
     return status == AMBIT_UNABLE || status == AMBIT_DOMAIN ? AMBIT_OK : status;
   }
   ambit_guard g = ambit_guard_make(&p->problem, &p->sink);
+  ambit_tally tally = { 0 };
+  ambit_tally_run(&tally, lease, 1, p->context);
+  ambit_stage_enter("run", AMBIT_FRAME_SOLVER, s->solver_name);
   ambit_status said = s->solver->run(self, &g.sink);
+  ambit_stage_leave();
   ambit_allocation_forbid(0);
+  ambit_tally_ran(&tally, lease, 1, p->context);
+  ambit_work_add(&p->work, &tally.work);
   s->solver->close(self);
   status = ambit_guard_judge(&g, said, s->solver_name, lease->failure.message, reason);
   if (p->skipped)
@@ -185,6 +194,8 @@ ambit_status ambit_piece_run(ambit_piece *p, const ambit_split *s, ambit_merge *
     return status;
   }
   status = run(p, lease);
+  ambit_work work = ambit_lease_work(lease);
+  ambit_work_add(&p->work, &work);
   ambit_lease_close(lease);
   return status;
 }

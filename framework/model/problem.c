@@ -3,6 +3,7 @@
 #include "graph/tape.h"
 #include "graph/hull.h"
 #include "model/unknowns.h"
+#include <float.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -37,6 +38,9 @@ static ambit_status check_times(const build *b) {
     if (!isfinite(t[i])) return ambit_fail(b->f, AMBIT_INVALID, "t: instant %zu is not a finite number", i + 1);
   if (t[0] == t[n - 1])
     return ambit_fail(b->f, AMBIT_INVALID, "the time span is zero: t starts and ends at %.17g s", t[0]);
+  if (!isfinite(t[n - 1] - t[0]))
+    return ambit_fail(b->f, AMBIT_INVALID,
+        "t: the time span from %.17g s to %.17g s is too long: expected less than %.1e s", t[0], t[n - 1], DBL_MAX);
   bool backwards = t[n - 1] < t[0];
   for (size_t i = 1; i < n; i++)
     if (backwards ? t[i] >= t[i - 1] : t[i] <= t[i - 1])

@@ -3,6 +3,7 @@
 #include "model/context.h"
 #include "model/pair.h"
 #include "model/reduction_build.h"
+#include "model/tally.h"
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -28,6 +29,7 @@ typedef struct job {
   bool within;           /* was every error of the last full proof within its bound? */
   double outside;        /* s of CPU in callbacks */
   const char *broken;
+  ambit_tally tally;
 } job;
 
 static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
@@ -96,7 +98,9 @@ static ambit_status prove(void *user, uint32_t how, const uint8_t *cut, double *
     j->within = false;
   }
   *(full ? &j->result->proofs : &j->result->lowered) += 1;
+  ambit_meter_enter(AMBIT_FRAME_STAGE, "proof");
   ambit_status status = j->q->prove(j->q->user, how, cut, to);
+  ambit_meter_leave();
   if (full && status == AMBIT_OK) j->within = is_within(j, to);
   if (error) memcpy(error, to, j->q->noutput * sizeof *error);
   j->outside += ambit_context_seconds() - begun;
@@ -223,30 +227,36 @@ static void judge(const job *j, ambit_status said, ambit_reduction_result *resul
 static ambit_status run(job *j, ambit_failure *f) {
   void *self = NULL;
   ambit_sink silent = { sizeof silent, emit, progress };
+  double begun = ambit_context_seconds();
+  ambit_stage_enter("open", AMBIT_FRAME_SOLVER, j->q->solver);
   ambit_status status = j->solver->open(&j->lease->host, &j->problem, j->option, &self);
+  ambit_stage_leave();
+  j->tally.open = ambit_context_seconds() - begun;
   if (status != AMBIT_OK) {
     char who[96];
     snprintf(who, sizeof who, "solver `%s`", j->q->solver);
     return ambit_context_failed(j->lease, status, who, f);
   }
+  ambit_stage_enter("run", AMBIT_FRAME_SOLVER, j->q->solver);
   ambit_status said = j->solver->run(self, j->q->sink ? j->q->sink : &silent);
+  ambit_stage_leave();
   j->solver->close(self);
   judge(j, said, j->result);
   return AMBIT_OK;
 }
 
-static void fill_report(const job *j, double built, ambit_report *report) {
+static void fill_report(const job *j, ambit_report *report) {
   const ambit_reduction *r = &j->reduction;
   *report = (ambit_report) { .expressions = (uint32_t)(j->q->neffect + j->q->nx + j->q->noutput),
     .states = (uint32_t)j->q->nx,
     .parameters = (uint32_t)j->q->ndata,
-    .seconds_build = built,
-    .seconds_run = j->result->cpu_seconds - built };
+    .seconds_run = j->result->cpu_seconds - j->tally.built };
   snprintf(report->arithmetic, sizeof report->arithmetic, "%.31s", j->arithmetic);
   snprintf(report->solver, sizeof report->solver, "%.31s", j->q->solver);
   report->graph_nodes = ambit_graph_count(j->q->graph);
   const ambit_tape *const tape[] = { r->effect, r->jacobian, r->output_jacobian, r->rates, r->output_value };
   for (size_t i = 0; i < sizeof tape / sizeof *tape; i++) ambit_report_count(report, tape[i]);
+  ambit_tally_report(&j->tally, j->arena, j->lease, 1, &j->context, report);
 }
 
 ambit_status ambit_reduction_run(const ambit_reduction_request *q, uint8_t *cut, ambit_reduction_result *result,
@@ -256,12 +266,13 @@ ambit_status ambit_reduction_run(const ambit_reduction_request *q, uint8_t *cut,
   job j = { .q = q, .result = result, .cut = cut, .arena = ambit_arena_open() };
   if (!j.arena) return no_memory(f);
   double begun = ambit_context_seconds();
+  j.tally = ambit_tally_begin(q->graph);
   ambit_status status = prepare(&j, f);
-  double built = ambit_context_seconds() - begun;
+  ambit_tally_built(&j.tally);
   if (status == AMBIT_OK) status = run(&j, f);
   result->cpu_seconds = ambit_context_seconds() - begun;
   result->cpu_seconds_rank = fmax(0, result->cpu_seconds - j.outside);
-  if (status == AMBIT_OK && report) fill_report(&j, built, report);
+  if (status == AMBIT_OK && report) fill_report(&j, report);
   ambit_context_close(&j.context);
   ambit_lease_close(j.lease);
   ambit_arena_close(j.arena);

@@ -2,6 +2,7 @@
 #ifndef AMBIT_REPORT_H
 #define AMBIT_REPORT_H
 #include <ambit/tape.h>
+#include <ambit/work.h>
 
 typedef struct ambit_report {
   char arithmetic[32], solver[32];
@@ -12,6 +13,10 @@ typedef struct ambit_report {
   uint32_t constant_slots;               /* degree 0: one Taylor coefficient instead of all */
   uint32_t steps;
   double seconds_build, seconds_run; /* CPU */
+  /* parts of seconds_build: values and derivatives in the graph, sealing of tapes, opening of contexts; then the
+  ** solver's own opening and closing, which are in neither */
+  double seconds_graph, seconds_tape, seconds_context, seconds_open, seconds_close;
+  ambit_work work; /* counted, not measured: the same on every machine */
 } ambit_report;
 
 /* Adds what a tape holds; NULL: nothing. */

@@ -11,6 +11,8 @@
 #include "model/context.h"
 #include "model/equations.h"
 #include "model/pair.h"
+#include "model/share.h"
+#include "model/tally.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -26,6 +28,7 @@ typedef struct job {
   ambit_context context;
   ambit_lease *lease;
   double *option;
+  ambit_tally tally;
 } job;
 
 static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
@@ -149,6 +152,8 @@ static ambit_status build_problem(job *j, uint32_t want, ambit_failure *f) {
     p->ninvariant = (uint32_t)further;
     status = ambit_equations_seal(r, further, r->equation + r->nx, j->seal, &p->invariant, f);
   }
+  ambit_share_note(p->rhs, "equations", p->nx, NULL);
+  ambit_share_note(p->jacobian, "Jacobian", p->nx, NULL);
   return status;
 }
 
@@ -211,7 +216,11 @@ static int32_t pass(guard *g, const ambit_record *r) {
   ambit_roots_result *to = g->result;
   uint32_t *const count[] = { &to->undecided, &to->proved, &to->partly };
   *count[r->event] += 1;
-  return g->outer && g->outer->emit ? g->outer->emit(g->outer, r) : 0;
+  if (!g->outer || !g->outer->emit) return 0;
+  ambit_meter_enter(AMBIT_FRAME_STAGE, "records");
+  int32_t stop = g->outer->emit(g->outer, r);
+  ambit_meter_leave();
+  return stop;
 }
 
 static int32_t emit(ambit_sink *s, const ambit_record *r) {
@@ -261,24 +270,34 @@ static ambit_status run(job *j, ambit_roots_result *result, ambit_failure *f) {
   j->problem.actx = j->context.ctx;
   result->rigorous = j->solver->needs_rigorous && j->context.arithmetic->rigorous;
   result->further = is_implied(j) ? 0 : j->problem.ninvariant;
+  double begun = ambit_context_seconds();
+  ambit_stage_enter("open", AMBIT_FRAME_SOLVER, j->q->solver);
   ambit_status status = j->solver->open(&j->lease->host, &j->problem, j->option, &self);
+  ambit_stage_leave();
+  j->tally.open = ambit_context_seconds() - begun;
   if (status != AMBIT_OK) {
     char who[96];
     snprintf(who, sizeof who, "solver `%s`", j->q->solver);
     return ambit_context_failed(j->lease, status, who, f);
   }
+  ambit_tally_run(&j->tally, j->lease, 1, &j->context);
   double start = ambit_context_seconds();
+  ambit_stage_enter("run", AMBIT_FRAME_SOLVER, j->q->solver);
   ambit_status said = j->solver->run(self, &g.sink);
+  ambit_stage_leave();
   ambit_allocation_forbid(0);
   result->cpu_seconds = ambit_context_seconds() - start;
+  ambit_tally_ran(&j->tally, j->lease, 1, &j->context);
+  begun = ambit_context_seconds();
   j->solver->close(self);
+  j->tally.close = ambit_context_seconds() - begun;
   judge(j, &g, said, result);
   return AMBIT_OK;
 }
 
-static void fill_report(const job *j, double built, const ambit_roots_result *result, ambit_report *report) {
+static void fill_report(const job *j, const ambit_roots_result *result, ambit_report *report) {
   const ambit_problem *p = &j->problem;
-  *report = (ambit_report) { .expressions = (uint32_t)j->q->equations->ne, .seconds_build = built };
+  *report = (ambit_report) { .expressions = (uint32_t)j->q->equations->ne };
   snprintf(report->arithmetic, sizeof report->arithmetic, "%.31s", j->arithmetic);
   snprintf(report->solver, sizeof report->solver, "%.31s", j->q->solver);
   report->graph_nodes = ambit_graph_count(j->q->equations->graph);
@@ -290,6 +309,7 @@ static void fill_report(const job *j, double built, const ambit_roots_result *re
   report->parameters = report->unknowns = p->np;
   report->steps = result->boxes;
   report->seconds_run = result->cpu_seconds;
+  ambit_tally_report(&j->tally, j->arena, j->lease, 1, &j->context, report);
 }
 
 ambit_status ambit_roots(
@@ -297,11 +317,11 @@ ambit_status ambit_roots(
   job j = { .q = q, .arena = ambit_arena_open() };
   *result = (ambit_roots_result) { 0 };
   if (!j.arena) return no_memory(f);
-  double start = ambit_context_seconds();
+  j.tally = ambit_tally_begin(q->equations->graph);
   ambit_status status = prepare(&j, f);
-  double built = ambit_context_seconds() - start;
+  ambit_tally_built(&j.tally);
   if (status == AMBIT_OK) status = run(&j, result, f);
-  if (status == AMBIT_OK && report) fill_report(&j, built, result, report);
+  if (status == AMBIT_OK && report) fill_report(&j, result, report);
   ambit_context_close(&j.context);
   ambit_lease_close(j.lease);
   ambit_arena_close(j.arena);

@@ -1,319 +1,409 @@
-/* sample_system.c -- draws of initial values and parameters, each integrated by itself, on the threads of a pool. The
-** tapes are built once; only the data change. Draw k takes the same random numbers whoever makes it. */
-#include "graph/hull.h"
+/* sample_system.c -- the passes of a sample of a system: the draws, those that the lanes lost once more one by one, the
+** search from the extremes, the estimate of the error. Results of blocks are put together by hulls, so neither the
+** order nor the number of threads matters.
+*/
 #include "graph/tape.h"
 #include "host/pool.h"
 #include "host/processors.h"
 #include "model/context.h"
-#include "model/pair.h"
-#include "model/problem.h"
-#include "model/sample.h"
-#include "num/random.h"
+#include "model/sample_error.h"
+#include "model/sample_flow.h"
+#include "model/sample_inside.h"
+#include "model/sample_polish.h"
+#include "model/tally.h"
 #include <math.h>
 #include <pthread.h>
-#include <stdbool.h>
-#include <stdio.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define INSTANTS 8u    /* at which extremes are followed, at most */
+#define FINEST 0x1p-10 /* part of a range, at which the search ends */
 
 struct job;
 
-/* What one thread needs to make draws. */
+/* What one thread needs. */
 typedef struct drawer {
   struct job *job;
-  ambit_problem problem; /* its data point at the arrays below, filled anew for each draw */
-  ambit_context context;
-  ambit_interval *u, *slot; /* [nu], slots of the initial tape */
-  double *u_point;          /* [nu] */
-  double *lo, *hi;          /* [nx + np] */
-  ambit_interval *out;      /* [ntime * nx] hull of its draws */
+  ambit_flow_block block;
+  double *point; /* [nu][AMBIT_FLOW_LANES] */
+  size_t first;  /* draw of its lane 0 */
+  double *value; /* of a search: [quantities][count], lane 0 at `column`; or NULL */
+  size_t column, count;
+  ambit_interval *hull; /* [ntime * nx] */
+  ambit_extremes extremes;
 } drawer;
+
+/* A draw that the lanes lost. */
+typedef struct lost_draw {
+  size_t draw;
+  double point[];
+} lost_draw;
 
 typedef struct job {
   const ambit_simulate_request *q;
-  const char *solver_name;
+  ambit_sample_plan plan; /* threads > 0 */
   ambit_arena *arena;
-  const ambit_solver *solver;
-  char arithmetic[AMBIT_NAME_MAX];
-  ambit_problem problem;
-  const ambit_tape *initial;
-  ambit_lease *options; /* holds `option` */
-  double *option;
-  ambit_interval *range; /* [nu] */
-  uint32_t ndrawer;
-  drawer *drawer; /* [ndrawer] */
-  uint64_t seed;
-  size_t base, draws; /* of the items that the pool does; in all */
+  ambit_flow *flow;
+  const ambit_problem *problem;
+  ambit_sample_points *points;
+  ambit_pool *pool;
+  uint32_t ninstant, *instant; /* followed ones; [ntime] number among them, or ninstant */
+  drawer *drawer;              /* [threads] */
+  const double *candidates;    /* of a search, [nu][count] */
+  atomic_bool stopping;
+  atomic_bool stiff; /* a block was */
   pthread_mutex_t lock;
   /* guarded by the lock */
   ambit_sample_result *result;
   size_t first_failed; /* of the draws, whose reason is told */
+  lost_draw **lost;    /* [nlost] */
+  size_t nlost, room_lost;
   ambit_failure broken;
-  size_t first_broken; /* of the draws that could not even be opened */
 } job;
 
-static void *room(const job *j, size_t n, size_t size) { return ambit_arena_alloc(j->arena, n * size); }
+static void *room(const job *j, size_t n, size_t size) { return ambit_arena_alloc(j->arena, (n + 1) * size); }
 
-static ambit_status find_ranges(job *j, ambit_failure *f) {
-  const ambit_problem *p = &j->problem;
-  j->range = room(j, p->nu, sizeof *j->range);
-  if (!j->range) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
-  for (uint32_t i = 0; i < p->nu; i++) {
-    j->range[i] = (ambit_interval) { p->u_lo[i], p->u_hi[i] };
-    if (!ambit_interval_is_bounded(j->range[i]))
-      return ambit_fail(f, AMBIT_INVALID, "cannot draw from an unbounded range");
-  }
-  return AMBIT_OK;
-}
+static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
 
-/* The arrays of one draw take the place of the hulls. */
-static bool make_room(job *j, drawer *d) {
-  d->job = j;
-  d->problem = j->problem;
-  ambit_problem *p = &d->problem;
-  size_t n = (size_t)p->nx + p->np, values = (size_t)p->ntime * p->nx;
-  d->u = room(j, p->nu, sizeof *d->u);
-  d->u_point = room(j, p->nu, sizeof *d->u_point);
-  d->slot = room(j, j->initial->nslot, sizeof *d->slot);
-  d->lo = room(j, n, sizeof *d->lo);
-  d->hi = room(j, n, sizeof *d->hi);
-  d->out = room(j, values, sizeof *d->out);
-  if (!d->u || !d->slot || !d->u_point || !d->lo || !d->hi || !d->out) return false;
-  for (size_t i = 0; i < values; i++) d->out[i] = AMBIT_EMPTY;
-  p->u_lo = p->u_hi = d->u_point;
-  p->x0_lo = d->lo;
-  p->x0_hi = d->hi;
-  p->p_lo = d->lo + p->nx;
-  p->p_hi = d->hi + p->nx;
-  return true;
-}
+/* -- what is seen of a draw */
 
-static ambit_status open_drawers(job *j, uint32_t want, ambit_failure *f) {
-  const ambit_simulate_request *q = j->q;
-  uint32_t nvar = ambit_pair_variables(&j->problem, want), n = q->threads;
-  ambit_status status = n ? AMBIT_OK : ambit_processors_threads(&n, f);
-  if (status != AMBIT_OK) return status;
-  if (n > j->draws) n = (uint32_t)j->draws;
-  j->drawer = room(j, n, sizeof *j->drawer);
-  if (!j->drawer) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
-  for (; j->ndrawer < n; j->ndrawer++) {
-    drawer *d = &j->drawer[j->ndrawer];
-    if (!make_room(j, d)) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
-    status = ambit_context_open(
-        q->registry, j->arithmetic, q->narithmetic_option, q->arithmetic_option, nvar, &d->context, f);
-    if (status != AMBIT_OK) return status;
-    d->problem.arithmetic = d->context.arithmetic;
-    d->problem.actx = d->context.ctx;
-    d->problem.nworker = 1;
-    if (want & AMBIT_WANT_WORKERS) d->problem.worker = &d->problem.actx;
-  }
-  return AMBIT_OK;
-}
-
-static ambit_status prepare(job *j, ambit_failure *f) {
-  const ambit_simulate_request *q = j->q;
-  ambit_status status = ambit_registry_solver(q->registry, j->solver_name, &j->solver, f);
-  if (status == AMBIT_OK && j->solver->solves != AMBIT_SOLVES_FLOW)
-    return ambit_fail(f, AMBIT_INVALID, "solver `%s` %s and does not advance in time; `sample` needs one that does",
-        j->solver_name, j->solver->solves == AMBIT_SOLVES_ROOTS ? "finds roots" : "is for ambit.reduce");
-  if (status == AMBIT_OK)
-    status = ambit_pair_choose(q->registry, j->solver_name, j->solver, q->arithmetic, j->arithmetic, f);
-  if (status == AMBIT_OK) status = ambit_context_lease(q->registry, &j->options, f);
-  if (status != AMBIT_OK) return status;
-  ambit_failure own = { 0 };
-  j->option = ambit_context_options(
-      j->options, j->solver->param, "solver", j->solver_name, q->nsolver_option, q->solver_option, &own);
-  if (!j->option) return ambit_fail(f, own.status, "%s", own.message);
-  uint32_t want = ambit_pair_want(j->solver, j->option);
-  ambit_problem_request request = {
-    .system = q->system, .initial = q->initial, .ntime = q->ntime, .time = q->time, .want = want | AMBIT_WANT_INITIAL
-  };
-  status = ambit_problem_build(&request, j->arena, &j->problem, f);
-  if (status != AMBIT_OK) return status;
-  j->initial = j->problem.initial;
-  if (!(want & AMBIT_WANT_INITIAL)) j->problem.initial = NULL;
-  status = find_ranges(j, f);
-  return status == AMBIT_OK ? open_drawers(j, want, f) : status;
-}
-
-/* -- one draw */
-
-typedef struct collector {
-  ambit_sink sink; /* first */
-  const ambit_problem *p;
-  ambit_interval *out;
-  uint32_t next; /* instant that comes next */
-} collector;
-
-static void collect(collector *c, uint32_t k, const double *lo, const double *hi) {
-  for (uint32_t i = 0; i < c->p->nx; i++) {
-    ambit_interval *x = &c->out[(size_t)k * c->p->nx + i];
-    double v = ambit_interval_mid((ambit_interval) { lo[i], hi[i] });
-    *x = ambit_interval_hull(*x, (ambit_interval) { v, v });
-  }
-}
-
-static bool all_finite(const ambit_record *r) {
-  for (uint32_t i = 0; i < r->nx; i++)
-    if (!(r->lo[i] <= r->hi[i]) || !isfinite(r->lo[i]) || !isfinite(r->hi[i])) return false;
-  return true;
-}
-
-static int32_t emit(ambit_sink *s, const ambit_record *r) {
-  collector *c = (collector *)(void *)s;
-  if (r->kind != AMBIT_REC_STEP || c->next >= c->p->ntime || r->t_to != c->p->time[c->next]) return 0;
-  if (!all_finite(r)) return 1;
-  collect(c, c->next++, r->lo, r->hi);
-  return 0;
-}
-
-static int32_t ignore_progress(ambit_sink *s, double done, const char *message) {
-  (void)s, (void)done, (void)message;
-  return 0;
-}
-
-static void draw_data(drawer *d, size_t draw) {
+static void see(void *user, uint32_t k, size_t lane, const double *x, size_t stride) {
+  drawer *d = user;
   const job *j = d->job;
-  uint32_t nu = j->problem.nu;
-  ambit_random random = { j->seed };
-  if (draw) ambit_random_skip(&random, (draw - 1) * (uint64_t)nu);
-  ambit_random_draw(&random, draw, nu, j->range, d->u_point, 1);
-  for (uint32_t i = 0; i < nu; i++) d->u[i] = (ambit_interval) { d->u_point[i], d->u_point[i] };
-  ambit_hull(j->initial, d->u, d->slot);
-  for (uint32_t i = 0; i < j->initial->nout; i++) {
-    d->lo[i] = d->slot[j->initial->out[i]].lo;
-    d->hi[i] = d->slot[j->initial->out[i]].hi;
+  size_t nx = j->problem->nx, at = j->instant[k] * nx;
+  ambit_interval *hull = d->hull + k * nx;
+  const double *point = d->block.point + lane;
+  for (size_t i = 0; i < nx; i++) {
+    double value = x[i * stride];
+    hull[i] = ambit_interval_hull(hull[i], (ambit_interval) { value, value });
+    if (j->instant[k] == j->ninstant) continue;
+    if (d->value)
+      d->value[(at + i) * d->count + d->column + lane] = value;
+    else
+      ambit_extremes_see(&d->extremes, at + i, value, d->first + lane, point, d->block.n);
   }
-}
-
-static void count(job *j, size_t draw, bool failed, ambit_status status, const ambit_lease *lease) {
-  pthread_mutex_lock(&j->lock);
-  j->result->draws++;
-  j->result->failed += failed;
-  if (failed && draw < j->first_failed) {
-    const char *own = lease->failure.message;
-    j->first_failed = draw;
-    snprintf(j->result->reason, sizeof j->result->reason, "%s",
-        own[0]               ? own
-        : status == AMBIT_OK ? "the solver left a time out"
-                             : ambit_status_name(status));
-  }
-  pthread_mutex_unlock(&j->lock);
-}
-
-static ambit_status give_up(job *j, size_t draw, ambit_status status, const ambit_lease *lease) {
-  char who[96];
-  snprintf(who, sizeof who, "solver `%s`", j->solver_name);
-  pthread_mutex_lock(&j->lock);
-  if (draw < j->first_broken) {
-    j->first_broken = draw;
-    ambit_failure_clear(&j->broken);
-    ambit_context_failed(lease, status, who, &j->broken);
-  }
-  pthread_mutex_unlock(&j->lock);
-  return status;
-}
-
-static ambit_status integrate(drawer *d, size_t draw, ambit_lease *lease) {
-  job *j = d->job;
-  collector c = { { sizeof(ambit_sink), emit, ignore_progress }, &d->problem, d->out, 1 };
-  void *self = NULL;
-  collect(&c, 0, d->lo, d->hi);
-  ambit_status status = j->solver->open(&lease->host, &d->problem, j->option, &self);
-  if (status == AMBIT_INVALID || status == AMBIT_NOMEM || status == AMBIT_BROKEN)
-    return give_up(j, draw, status, lease);
-  if (status == AMBIT_OK) {
-    status = j->solver->run(self, &c.sink);
-    j->solver->close(self);
-  }
-  count(j, draw, status != AMBIT_OK || c.next < j->problem.ntime, status, lease);
-  return AMBIT_OK;
-}
-
-static ambit_status make_draw(void *user, uint32_t item, uint32_t worker) {
-  job *j = user;
-  size_t draw = j->base + item;
-  ambit_lease *lease;
-  ambit_status status = ambit_context_lease(j->q->registry, &lease, NULL);
-  if (status != AMBIT_OK) return status;
-  draw_data(&j->drawer[worker], draw);
-  status = integrate(&j->drawer[worker], draw, lease);
-  ambit_lease_close(lease);
-  return status;
 }
 
 static int32_t tell_progress(void *user) {
   job *j = user;
-  ambit_sink *sink = j->q->sink;
-  if (!sink || !sink->progress) return 0;
   pthread_mutex_lock(&j->lock);
-  double done = (double)j->result->draws / (double)j->draws;
+  double done = (double)j->result->draws / (double)j->plan.draws;
   pthread_mutex_unlock(&j->lock);
-  return sink->progress(sink, done, "sampling");
+  int32_t stop = ambit_sample_progress(j->plan.sink, done);
+  if (stop) atomic_store(&j->stopping, true);
+  return stop;
 }
 
-static ambit_status run_draws(job *j, ambit_failure *f) {
-  const size_t most = (size_t)1 << 30; /* items of one run of a pool */
-  ambit_pool *pool;
-  ambit_status status = ambit_pool_open(NULL, j->ndrawer, &pool);
-  if (status != AMBIT_OK) return ambit_fail(f, status, "out of memory");
-  for (j->base = 0; status == AMBIT_OK && j->base < j->draws; j->base += most) {
-    size_t left = j->draws - j->base;
-    status = ambit_pool_run(pool, (uint32_t)(left < most ? left : most), make_draw, j, tell_progress);
+/* Between steps: on a thread of its own the caller can't ask. */
+static int32_t pause(void *user) {
+  drawer *d = user;
+  if (d->job->plan.threads == 1) tell_progress(d->job);
+  return atomic_load(&d->job->stopping);
+}
+
+/* -- preparations */
+
+/* As many instants as the search can afford, equidistant ones, always the last. */
+static bool choose_instants(job *j) {
+  const ambit_problem *p = j->problem;
+  size_t each = (size_t)p->nx * AMBIT_SIDES * (2 * (size_t)p->nu + 1) * 2, most = j->plan.draws / (each + 1);
+  uint32_t later = p->ntime - 1;
+  j->ninstant = most < 1 ? 1 : most < INSTANTS ? (uint32_t)most : INSTANTS;
+  if (j->ninstant > later) j->ninstant = later;
+  j->instant = room(j, p->ntime, sizeof *j->instant);
+  if (!j->instant) return false;
+  for (uint32_t k = 0; k < p->ntime; k++) j->instant[k] = j->ninstant;
+  for (uint32_t m = 0; m < j->ninstant; m++) j->instant[(uint32_t)((uint64_t)later * (m + 1) / j->ninstant)] = m;
+  return true;
+}
+
+static bool open_drawer(job *j, drawer *d) {
+  const ambit_problem *p = j->problem;
+  size_t values = (size_t)p->ntime * p->nx;
+  d->job = j;
+  d->point = room(j, (size_t)p->nu * AMBIT_FLOW_LANES, sizeof *d->point);
+  d->hull = room(j, values, sizeof *d->hull);
+  if (!d->point || !d->hull) return false;
+  for (size_t i = 0; i < values; i++) d->hull[i] = AMBIT_EMPTY;
+  return ambit_extremes_open(&d->extremes, j->arena, (size_t)j->ninstant * p->nx, p->nu);
+}
+
+static ambit_status prepare(job *j, ambit_failure *f) {
+  ambit_status status = j->plan.threads ? AMBIT_OK : ambit_processors_threads(&j->plan.threads, f);
+  if (status != AMBIT_OK) return status;
+  if (j->plan.threads > j->plan.draws) j->plan.threads = (uint32_t)j->plan.draws;
+  status = ambit_flow_open(j->q, &j->plan, &j->flow, f);
+  if (status != AMBIT_OK) return status;
+  j->problem = ambit_flow_problem(j->flow);
+  j->drawer = room(j, j->plan.threads, sizeof *j->drawer);
+  if (!j->drawer || !choose_instants(j)) return no_memory(f);
+  for (uint32_t i = 0; i < j->plan.threads; i++)
+    if (!open_drawer(j, &j->drawer[i])) return no_memory(f);
+  if (ambit_pool_open(NULL, j->plan.threads, &j->pool) != AMBIT_OK) return no_memory(f);
+  return ambit_sample_open_points(j->q->registry, &j->plan, j->problem->nu, ambit_flow_range(j->flow), &j->points, f);
+}
+
+/* -- a block of draws */
+
+static void begin_block(drawer *d, size_t n, bool alone) {
+  d->block.n = n;
+  d->block.point = d->point;
+  d->block.alone = alone;
+  d->block.see = see;
+  d->block.pause = pause;
+  d->block.user = d;
+}
+
+/* [lock held] */
+static ambit_status keep_lost(job *j, const drawer *d, size_t lane) {
+  size_t nu = j->problem->nu;
+  if (j->nlost == j->room_lost) {
+    size_t most = j->room_lost ? 2 * j->room_lost : 64;
+    lost_draw **grown = realloc(j->lost, most * sizeof *grown);
+    if (!grown) return AMBIT_NOMEM;
+    j->lost = grown, j->room_lost = most;
   }
-  ambit_pool_close(pool);
-  if (status == AMBIT_STOPPED) j->result->status = status;
-  if (status == AMBIT_OK || status == AMBIT_STOPPED) return AMBIT_OK;
-  return ambit_fail(f, status, "%s", j->broken.message[0] ? j->broken.message : "out of memory");
+  lost_draw *lost = malloc(sizeof *lost + nu * sizeof *lost->point);
+  if (!lost) return AMBIT_NOMEM;
+  lost->draw = d->first + lane;
+  for (size_t i = 0; i < nu; i++) lost->point[i] = d->point[i * d->block.n + lane];
+  j->lost[j->nlost++] = lost;
+  return AMBIT_OK;
 }
 
-static void gather(const job *j, ambit_interval *out) {
-  size_t n = (size_t)j->problem.ntime * j->problem.nx;
-  for (uint32_t k = 0; k < j->ndrawer; k++)
-    for (size_t i = 0; i < n; i++) out[i] = ambit_interval_hull(out[i], j->drawer[k].out[i]);
+/* A draw of the lanes that is lost counts later; nobody is lost for good before it was tried one by one. */
+static ambit_status count_block(job *j, const drawer *d, ambit_status status) {
+  pthread_mutex_lock(&j->lock);
+  if (status != AMBIT_OK) ambit_fail(&j->broken, status, "%s", d->block.reason);
+  for (size_t lane = 0; lane < d->block.n && status == AMBIT_OK && !d->block.stopped; lane++) {
+    ambit_fate fate = d->block.fate[lane];
+    if (fate == AMBIT_FATE_LOST) status = keep_lost(j, d, lane);
+    if (fate == AMBIT_FATE_LOST) continue;
+    j->result->draws++;
+    j->result->failed += fate != AMBIT_FATE_REACHED;
+    j->result->off += fate == AMBIT_FATE_OFF;
+    if (fate == AMBIT_FATE_REACHED || d->first + lane >= j->first_failed) continue;
+    j->first_failed = d->first + lane;
+    snprintf(j->result->reason, sizeof j->result->reason, "%s", d->block.reason);
+  }
+  pthread_mutex_unlock(&j->lock);
+  return status;
+}
+
+static size_t lanes_of_block(const job *j) { return ambit_flow_is_one_by_one(j->flow) ? 1 : AMBIT_FLOW_LANES; }
+
+static ambit_status make_block(void *user, uint32_t item, uint32_t worker) {
+  (void)item; /* blocks are numbered by the points */
+  job *j = user;
+  drawer *d = &j->drawer[worker];
+  size_t n;
+  ambit_status status = ambit_sample_points_next(j->points, lanes_of_block(j), d->point, &d->first, &n);
+  if (status != AMBIT_OK || n == 0) return status;
+  begin_block(d, n, false);
+  status = ambit_flow_make(j->flow, worker, &d->block);
+  if (d->block.stiff) atomic_store(&j->stiff, true);
+  return count_block(j, d, status);
+}
+
+static ambit_status make_lost(void *user, uint32_t item, uint32_t worker) {
+  job *j = user;
+  drawer *d = &j->drawer[worker];
+  memcpy(d->point, j->lost[item]->point, j->problem->nu * sizeof *d->point);
+  d->first = j->lost[item]->draw;
+  begin_block(d, 1, true);
+  return count_block(j, d, ambit_flow_make(j->flow, worker, &d->block));
+}
+
+/* Items in runs of the pool, which counts them with 32 bits. */
+static ambit_status run_pool(job *j, size_t items, ambit_pool_job each) {
+  if (items > UINT32_MAX) return AMBIT_INVALID;
+  ambit_status status = ambit_pool_run(j->pool, (uint32_t)items, each, j, tell_progress);
+  return status == AMBIT_OK && atomic_load(&j->stopping) ? AMBIT_STOPPED : status;
+}
+
+static ambit_status tell_broken(const job *j, ambit_status status, ambit_failure *f) {
+  if (status == AMBIT_OK || status == AMBIT_STOPPED) return status;
+  if (status == AMBIT_NOMEM && !j->broken.message[0]) return no_memory(f);
+  return ambit_fail(f, status, "%s", j->broken.message[0] ? j->broken.message : "sample: too many draws");
+}
+
+/* -- the passes */
+
+/* The first block shows whether the lanes are for this system; if not, everything goes one by one from the start. */
+static ambit_status try_first(job *j, ambit_failure *f) {
+  ambit_status status = make_block(j, 0, 0);
+  if (status != AMBIT_OK || !atomic_load(&j->stiff)) return tell_broken(j, status, f);
+  for (size_t i = 0; i < j->nlost; i++) free(j->lost[i]);
+  j->nlost = 0;
+  *j->result = (ambit_sample_result) { 0 };
+  j->first_failed = SIZE_MAX;
+  status = ambit_flow_use_gsl(j->flow, true, true, f);
+  if (status != AMBIT_OK) return status;
+  ambit_sample_points_close(j->points);
+  j->points = NULL;
+  return ambit_sample_open_points(j->q->registry, &j->plan, j->problem->nu, ambit_flow_range(j->flow), &j->points, f);
+}
+
+static ambit_status draw_all(job *j, ambit_failure *f) {
+  ambit_status status = ambit_flow_is_one_by_one(j->flow) ? AMBIT_OK : try_first(j, f);
+  size_t blocks = (j->plan.draws - 1) / lanes_of_block(j) + 1;
+  if (status == AMBIT_OK) status = tell_broken(j, run_pool(j, blocks, make_block), f);
+  return status;
+}
+
+static ambit_status draw_lost(job *j, ambit_failure *f) {
+  if (j->nlost == 0) return AMBIT_OK;
+  ambit_failure own = { 0 };
+  ambit_status status = ambit_flow_use_gsl(j->flow, false, atomic_load(&j->stiff), &own);
+  j->result->one_by_one = j->nlost;
+  if (status == AMBIT_OK) return tell_broken(j, run_pool(j, j->nlost, make_lost), f);
+  j->result->draws += j->nlost;
+  j->result->failed += j->nlost;
+  if (!j->result->reason[0])
+    snprintf(
+        j->result->reason, sizeof j->result->reason, "the solution escapes or has no rate, and %.900s", own.message);
+  return AMBIT_OK;
+}
+
+static void gather_extremes(job *j) {
+  for (uint32_t k = 1; k < j->plan.threads; k++) ambit_extremes_merge(&j->drawer[0].extremes, &j->drawer[k].extremes);
+}
+
+/* -- the search */
+
+static size_t candidates_of_block(const job *j) { return ambit_flow_is_one_by_one(j->flow) ? 1 : AMBIT_FLOW_LANES; }
+
+static ambit_status make_candidates(void *user, uint32_t item, uint32_t worker) {
+  job *j = user;
+  drawer *d = &j->drawer[worker];
+  size_t most = candidates_of_block(j), first = item * most;
+  size_t n = d->count - first < most ? d->count - first : most;
+  for (size_t i = 0; i < j->problem->nu; i++)
+    memcpy(d->point + i * n, j->candidates + i * d->count + first, n * sizeof *d->point);
+  d->column = first;
+  begin_block(d, n, false);
+  ambit_status status = ambit_flow_make(j->flow, worker, &d->block);
+  return status == AMBIT_OK && d->block.stopped ? AMBIT_STOPPED : status;
+}
+
+static ambit_status evaluate(void *user, size_t count, const double *point, double *value) {
+  job *j = user;
+  for (size_t i = 0; i < (size_t)j->ninstant * j->problem->nx * count; i++) value[i] = NAN;
+  j->candidates = point;
+  for (uint32_t k = 0; k < j->plan.threads; k++) j->drawer[k].value = value, j->drawer[k].count = count;
+  ambit_status status = run_pool(j, (count - 1) / candidates_of_block(j) + 1, make_candidates);
+  for (uint32_t k = 0; k < j->plan.threads; k++) j->drawer[k].value = NULL;
+  return status;
+}
+
+static ambit_status polish(job *j, ambit_failure *f) {
+  if (!j->plan.polish || j->plan.draws < AMBIT_SAMPLE_FEWEST) return AMBIT_OK;
+  const ambit_polish q = { .range = ambit_flow_range(j->flow),
+    .extremes = &j->drawer[0].extremes,
+    .budget = j->plan.draws,
+    .finest = FINEST,
+    .first = j->plan.draws,
+    .evaluate = evaluate,
+    .user = j };
+  ambit_status status = ambit_polish_run(&q, j->arena, &j->result->polished);
+  return status == AMBIT_NOMEM ? no_memory(f) : status == AMBIT_STOPPED ? status : AMBIT_OK;
+}
+
+/* -- the error, at the midpoint and the extremes of the last instant */
+
+static ambit_status estimate_error(job *j, const ambit_interval *hull, double *error, ambit_failure *f) {
+  const ambit_problem *p = j->problem;
+  for (size_t i = 0; i < (size_t)p->ntime * p->nx; i++) error[i] = NAN;
+  if (j->result->status != AMBIT_OK) return AMBIT_OK;
+  const ambit_sample_error q = { .flow = j->flow,
+    .draws = j->plan.draws,
+    .extreme = j->drawer[0].extremes.at + (size_t)(j->ninstant - 1) * p->nx * AMBIT_SIDES,
+    .hull = hull };
+  ambit_status status = ambit_sample_estimate_error(&q, j->arena, error);
+  return status == AMBIT_NOMEM ? no_memory(f) : AMBIT_OK;
+}
+
+/* -- what is told */
+
+static void gather(const job *j, ambit_interval *hull) {
+  size_t n = (size_t)j->problem->ntime * j->problem->nx;
+  for (size_t i = 0; i < n; i++) hull[i] = AMBIT_EMPTY;
+  for (uint32_t k = 0; k < j->plan.threads; k++)
+    for (size_t i = 0; i < n; i++) hull[i] = ambit_interval_hull(hull[i], j->drawer[k].hull[i]);
+}
+
+static void tell_result(const job *j, ambit_sample_result *result) {
+  bool alone = ambit_flow_is_one_by_one(j->flow);
+  ambit_sample_tell_points(j->points, result);
+  result->threads = j->plan.threads;
+  if (alone) result->one_by_one = result->draws;
+  snprintf(result->method, sizeof result->method, "%s",
+      j->q->solver ? j->q->solver
+      : !alone     ? "Runge-Kutta of order 8 in lanes"
+                   : "gsl, the system being stiff");
 }
 
 static void fill_report(const job *j, double built, const ambit_sample_result *result, ambit_report *report) {
-  const ambit_tape *rhs = j->problem.rhs;
-  *report = (ambit_report) { .expressions = j->problem.nx,
-    .states = j->problem.nx,
-    .parameters = j->problem.np,
-    .unknowns = j->problem.nu,
+  const ambit_problem *p = j->problem;
+  *report = (ambit_report) { .expressions = p->nx,
+    .states = p->nx,
+    .parameters = p->np,
+    .unknowns = p->nu,
     .seconds_build = built,
     .seconds_run = result->cpu_seconds };
-  snprintf(report->arithmetic, sizeof report->arithmetic, "%.31s", j->arithmetic);
-  snprintf(report->solver, sizeof report->solver, "%.31s", j->solver_name);
+  snprintf(report->arithmetic, sizeof report->arithmetic, "%.31s", ambit_flow_arithmetic(j->flow));
+  snprintf(report->solver, sizeof report->solver, "%.31s",
+      j->q->solver                        ? j->q->solver
+      : ambit_flow_is_one_by_one(j->flow) ? "gsl"
+                                          : "lanes");
   report->graph_nodes = ambit_graph_count(j->q->system->graph);
-  if (!rhs) return;
-  report->tape_slots = rhs->nslot;
-  report->tape_constants = rhs->nconst;
-  report->tape_instructions = rhs->ninstr;
-  report->tape_runs = rhs->nrun;
+  report->work = ambit_flow_work(j->flow);
+  ambit_report_count(report, p->rhs);
 }
 
-ambit_status ambit_sample_system(const ambit_simulate_request *q, size_t draws, uint64_t seed, ambit_interval *out,
-    ambit_sample_result *result, ambit_report *report, ambit_failure *f) {
+static ambit_status make(job *j, ambit_interval *hull, double *error, ambit_failure *f) {
+  ambit_status status = draw_all(j, f);
+  if (status == AMBIT_OK) status = draw_lost(j, f);
+  gather_extremes(j);
+  if (status == AMBIT_OK) status = polish(j, f);
+  if (status == AMBIT_STOPPED) j->result->status = status;
+  if (status != AMBIT_OK && status != AMBIT_STOPPED) return status;
+  gather(j, hull);
+  if (j->result->draws && j->result->off == j->result->draws)
+    return ambit_fail(f, AMBIT_INVALID, "none of %zu draws can start: %s", j->result->draws, j->result->reason);
+  return error ? estimate_error(j, hull, error, f) : AMBIT_OK;
+}
+
+static void close_job(job *j) {
+  for (size_t i = 0; i < j->nlost; i++) free(j->lost[i]);
+  free(j->lost);
+  ambit_pool_close(j->pool);
+  ambit_sample_points_close(j->points);
+  ambit_flow_close(j->flow);
+  pthread_mutex_destroy(&j->lock);
+  ambit_arena_close(j->arena);
+}
+
+ambit_status ambit_sample_system(const ambit_simulate_request *q, const ambit_sample_plan *plan, ambit_interval *hull,
+    double *error, ambit_sample_result *result, ambit_report *report, ambit_failure *f) {
   *result = (ambit_sample_result) { 0 };
-  if (draws == 0) return ambit_fail(f, AMBIT_INVALID, "sample needs at least one draw");
-  job j = { .q = q,
-    .solver_name = q->solver ? q->solver : "gsl",
-    .arena = ambit_arena_open(),
-    .seed = seed,
-    .draws = draws,
-    .result = result,
-    .first_failed = SIZE_MAX,
-    .first_broken = SIZE_MAX };
-  if (!j.arena) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (plan->draws == 0) return ambit_fail(f, AMBIT_INVALID, "sample needs at least one draw");
+  job j = { .q = q, .plan = *plan, .arena = ambit_arena_open(), .result = result, .first_failed = SIZE_MAX };
+  if (!j.arena) return no_memory(f);
   pthread_mutex_init(&j.lock, NULL);
-  for (size_t i = 0; i < q->ntime * q->system->nx; i++) out[i] = AMBIT_EMPTY;
-  double start = ambit_context_seconds();
+  double start = ambit_context_seconds(), wall = ambit_sample_wall();
+  ambit_meter_enter(AMBIT_FRAME_STAGE, "graph");
   ambit_status status = prepare(&j, f);
+  ambit_meter_leave();
   double built = ambit_context_seconds();
-  if (status == AMBIT_OK) status = run_draws(&j, f);
+  ambit_meter_enter(AMBIT_FRAME_STAGE, "run");
+  if (status == AMBIT_OK) status = make(&j, hull, error, f);
+  ambit_meter_leave();
   result->cpu_seconds = ambit_context_seconds() - built;
-  if (status == AMBIT_OK) gather(&j, out);
+  result->wall_seconds = ambit_sample_wall() - wall;
+  if (status == AMBIT_OK) tell_result(&j, result);
   if (status == AMBIT_OK && report) fill_report(&j, built - start, result, report);
-  for (uint32_t i = 0; i < j.ndrawer; i++) ambit_context_close(&j.drawer[i].context);
-  ambit_lease_close(j.options);
-  pthread_mutex_destroy(&j.lock);
-  ambit_arena_close(j.arena);
+  close_job(&j);
   return status;
 }

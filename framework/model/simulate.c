@@ -9,7 +9,9 @@
 #include "model/guard.h"
 #include "model/pair.h"
 #include "model/problem.h"
+#include "model/share.h"
 #include "model/split.h"
+#include "model/tally.h"
 #include <stdbool.h>
 #include <stdio.h>
 #include <time.h>
@@ -28,6 +30,7 @@ typedef struct job {
   void **ctx; /* [ncontext] of the contexts */
   ambit_lease *lease;
   double *option;
+  ambit_tally tally;
 } job;
 
 static bool is_split(const ambit_simulate_request *q) {
@@ -81,6 +84,9 @@ static ambit_status build(job *j, uint32_t want, uint32_t seal, ambit_failure *f
   ambit_status status = ambit_problem_build(&request, j->arena, &j->problem, f);
   if (status != AMBIT_OK) return status;
   j->problem.wish = q->wish;
+  const ambit_problem *p = &j->problem;
+  ambit_share_note(p->rhs, "right-hand side", p->nx, p->name);
+  ambit_share_note(p->jacobian, "Jacobian", p->nx, p->name);
   if (q->prepared) q->prepared(q->prepared_user, j->problem.nu, unknown);
   if (!j->splits) return AMBIT_OK;
   j->initial = j->problem.initial;
@@ -141,17 +147,24 @@ static ambit_status run_pieces(job *j, ambit_guard *g, ambit_simulate_result *re
     .sink = &g->sink };
   ambit_split_outcome outcome;
   double start = ambit_context_seconds(), wall = wall_seconds();
+  ambit_meter_enter(AMBIT_FRAME_STAGE, "split");
   ambit_status status = ambit_split_run(&split, j->arena, &outcome, f);
+  ambit_meter_leave();
   result->cpu_seconds = ambit_context_seconds() - start;
   result->wall_seconds = wall_seconds() - wall;
   result->threads = outcome.threads;
+  ambit_work_add(&j->tally.work, &outcome.work);
   if (status == AMBIT_OK) finish(j, g, outcome.said, outcome.reason, result);
   return status;
 }
 
 static ambit_status run_whole(job *j, ambit_guard *g, ambit_simulate_result *result, ambit_failure *f) {
   void *self = NULL;
+  double begun = ambit_context_seconds();
+  ambit_stage_enter("open", AMBIT_FRAME_SOLVER, j->q->solver);
   ambit_status status = j->solver->open(&j->lease->host, &j->problem, j->option, &self);
+  ambit_stage_leave();
+  j->tally.open = ambit_context_seconds() - begun;
   if (status == AMBIT_UNABLE || status == AMBIT_DOMAIN) {
     result->status = ambit_guard_explain(
         status, j->q->solver, j->lease->failure.message, "could not start and gave no reason", result->reason);
@@ -162,12 +175,18 @@ static ambit_status run_whole(job *j, ambit_guard *g, ambit_simulate_result *res
     snprintf(who, sizeof who, "solver `%s`", j->q->solver);
     return ambit_context_failed(j->lease, status, who, f);
   }
+  ambit_tally_run(&j->tally, j->lease, j->ncontext, j->context);
   double start = ambit_context_seconds(), wall = wall_seconds();
+  ambit_stage_enter("run", AMBIT_FRAME_SOLVER, j->q->solver);
   ambit_status said = j->solver->run(self, &g->sink);
+  ambit_stage_leave();
   ambit_allocation_forbid(0);
   result->cpu_seconds = ambit_context_seconds() - start;
   result->wall_seconds = wall_seconds() - wall;
+  ambit_tally_ran(&j->tally, j->lease, j->ncontext, j->context);
+  begun = ambit_context_seconds();
   j->solver->close(self);
+  j->tally.close = ambit_context_seconds() - begun;
   finish(j, g, said, j->lease->failure.message, result);
   return AMBIT_OK;
 }
@@ -183,8 +202,8 @@ static ambit_status run(job *j, ambit_simulate_result *result, ambit_failure *f)
 
 /* -- the report */
 
-static void fill_report(const job *j, double built, const ambit_simulate_result *result, ambit_report *report) {
-  *report = (ambit_report) { .expressions = (uint32_t)j->q->system->nx, .seconds_build = built };
+static void fill_report(const job *j, const ambit_simulate_result *result, ambit_report *report) {
+  *report = (ambit_report) { .expressions = (uint32_t)j->q->system->nx };
   snprintf(report->arithmetic, sizeof report->arithmetic, "%.31s", j->arithmetic);
   snprintf(report->solver, sizeof report->solver, "%.31s", j->q->solver);
   report->graph_nodes = ambit_graph_count(j->q->system->graph);
@@ -198,6 +217,7 @@ static void fill_report(const job *j, double built, const ambit_simulate_result 
   report->unknowns = j->problem.nu;
   report->steps = result->steps;
   report->seconds_run = result->cpu_seconds;
+  ambit_tally_report(&j->tally, j->arena, j->lease, j->ncontext, j->context, report);
 }
 
 ambit_status ambit_simulate(
@@ -205,11 +225,11 @@ ambit_status ambit_simulate(
   job j = { .q = q, .arena = ambit_arena_open() };
   *result = (ambit_simulate_result) { 0 };
   if (!j.arena) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
-  double start = ambit_context_seconds();
+  j.tally = ambit_tally_begin(q->system->graph);
   ambit_status status = prepare(&j, f);
-  double built = ambit_context_seconds() - start;
+  ambit_tally_built(&j.tally);
   if (status == AMBIT_OK) status = run(&j, result, f);
-  if (status == AMBIT_OK && report) fill_report(&j, built, result, report);
+  if (status == AMBIT_OK && report) fill_report(&j, result, report);
   for (uint32_t i = 0; i < j.ncontext; i++) ambit_context_close(&j.context[i]);
   ambit_lease_close(j.lease);
   ambit_arena_close(j.arena);

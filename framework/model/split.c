@@ -48,6 +48,7 @@ ambit_status ambit_split_run(const ambit_split *s, ambit_arena *arena, ambit_spl
     j.alone = out->threads == 1;
     status = ambit_pool_run(pool, s->pieces->count, do_piece, &j, meanwhile);
     ambit_pool_close(pool);
+    for (uint32_t i = 0; i < s->ncontext; i++) ambit_work_add(&out->work, &j.piece[i].work);
     if (status == AMBIT_OK || status == AMBIT_STOPPED) {
       bool stopped = ambit_merge_forward(j.merge, s->sink) != 0 || status == AMBIT_STOPPED;
       out->said = stopped ? AMBIT_STOPPED : ambit_merge_outcome(j.merge, out->reason);

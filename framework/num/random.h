@@ -26,16 +26,4 @@ static inline double ambit_random_in(ambit_random *r, ambit_interval x) {
   double v = x.lo * (1 - u) + x.hi * u;
   return v < x.lo ? x.lo : v > x.hi ? x.hi : v;
 }
-/* Number `draw` of a sample from a box: 0 its midpoint, then in turn a corner and a point of the inside. Near-linear
-** functions have their extremes at corners, which points of the inside do not come near in many dimensions.
-** out[i * stride], i < n. Draw 0 takes no numbers, every other one n.
-*/
-static inline void ambit_random_draw(
-    ambit_random *r, size_t draw, size_t n, const ambit_interval *range, double *out, size_t stride) {
-  for (size_t i = 0; i < n; i++) {
-    ambit_interval x = range[i];
-    bool upper = draw % 2 && ambit_random_bits(r) >> 63;
-    out[i * stride] = draw == 0 ? ambit_interval_mid(x) : draw % 2 ? (upper ? x.hi : x.lo) : ambit_random_in(r, x);
-  }
-}
 #endif

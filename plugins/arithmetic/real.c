@@ -27,7 +27,10 @@ static double representative(double lo, double hi) {
 static void set(void *ctx, void *dst, size_t n, const double *lo, const double *hi, int32_t var) {
   (void)ctx, (void)var;
   double *x = dst;
-  for (size_t i = 0; i < n; i++) x[i] = representative(lo[i], hi[i]);
+  if (lo == hi) /* the same array: points */
+    for (size_t i = 0; i < n; i++) x[i] = lo[i] - lo[i] == 0 ? lo[i] : NAN;
+  else
+    for (size_t i = 0; i < n; i++) x[i] = representative(lo[i], hi[i]);
 }
 
 /* an infinity is "too large for a double" */
@@ -35,8 +38,9 @@ static void bounds(void *ctx, const void *src, size_t n, double *lo, double *hi)
   (void)ctx;
   const double *x = src;
   for (size_t i = 0; i < n; i++) {
-    lo[i] = isnan(x[i]) ? INFINITY : fmin(x[i], DBL_MAX);
-    hi[i] = isnan(x[i]) ? -INFINITY : fmax(x[i], -DBL_MAX);
+    double most = x[i] > DBL_MAX ? DBL_MAX : x[i], least = x[i] < -DBL_MAX ? -DBL_MAX : x[i];
+    lo[i] = isnan(x[i]) ? INFINITY : most;
+    hi[i] = isnan(x[i]) ? -INFINITY : least;
   }
 }
 

@@ -4,10 +4,12 @@
 ** It serves as a reference and for sampling. Right-hand side and Jacobian are tapes in the arithmetic `real`; the
 ** derivative with respect to time, which only the method bsimp reads, is a central difference. GSL allocates its own
 ** memory in open(); its error handler, which would end the process, is switched off there. The implicit methods also
-** allocate while they run: GSL's LU decomposition does, from 2.6 on.
+** allocate while they run: GSL's LU decomposition does, from 2.6 on. Where the right-hand side jumps back and forth the
+** control of steps would creep for ever: `steps_max` ends that.
 */
 #include <ambit/block.h>
 #include <ambit/solver.h>
+#include <float.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 #include <math.h>
@@ -26,7 +28,7 @@
   X(msadams, 0)                                                                                                        \
   X(msbdf, 1)
 
-enum { OPTION_METHOD, OPTION_RELATIVE, OPTION_ABSOLUTE, OPTION_STEP_MAX };
+enum { OPTION_METHOD, OPTION_RELATIVE, OPTION_ABSOLUTE, OPTION_STEP_MAX, OPTION_STEPS_MAX };
 
 static const ambit_param param[] = {
   { "method", "1", "rk2|rk4|rkf45|rkck|rk8pd|rk2imp|rk4imp|bsimp|msadams|msbdf", "rk8pd",
@@ -35,6 +37,7 @@ static const ambit_param param[] = {
   { "relative", "1", "", "1e-10", "local error allowed, relative to the state" },
   { "absolute", "1", "", "1e-12", "local error allowed besides, in the units of the state" },
   { "step_max", "s", "", "inf", "longest step" },
+  { "steps_max", "1", "", "2e6", "most steps" },
   { NULL, NULL, NULL, NULL, NULL },
 };
 
@@ -43,7 +46,8 @@ typedef struct solver {
   ambit_problem problem;
   ambit_lane rhs, jacobian;
   double *x, *start, *p, *before, *after; /* [nx] [nx] [np] [nx] [nx] */
-  double step_max;
+  double step_max, steps_max;
+  ambit_work *counted;
   gsl_odeiv2_system system;
   gsl_odeiv2_driver *driver;
 } solver;
@@ -104,10 +108,13 @@ static ambit_status check_options(const ambit_host *h, const double *o) {
     return h->fail(h, AMBIT_INVALID, "gsl: one of the options `relative` and `absolute` must be greater than 0");
   if (!(o[OPTION_STEP_MAX] > 0))
     return h->fail(h, AMBIT_INVALID, "gsl: option `step_max` must be greater than 0, not %g", o[OPTION_STEP_MAX]);
+  if (!(o[OPTION_STEPS_MAX] >= 1))
+    return h->fail(h, AMBIT_INVALID, "gsl: option `steps_max` must be 1 or greater, not %g", o[OPTION_STEPS_MAX]);
   return AMBIT_OK;
 }
 
 static int allocate(solver *s) {
+  s->counted = ambit_work_open(s->host);
   const ambit_problem *p = &s->problem;
   size_t state = (p->nx + 1u) * sizeof(double);
   double **const array[] = { &s->x, &s->start, &s->before, &s->after };
@@ -131,6 +138,13 @@ static void take_middle(solver *s) {
   for (uint32_t i = 0; i < p->np; i++) s->p[i] = middle(p->p_lo[i], p->p_hi[i]);
 }
 
+/* With the sign of the horizon; neither 0 nor infinite, however short or long that is. */
+static double first_step(const ambit_problem *p, double longest) {
+  double from = p->time[0], to = p->time[p->ntime - 1];
+  double step = fmin(fabs(to * 1e-6 - from * 1e-6), longest);
+  return copysign(fmax(step, DBL_TRUE_MIN), to > from ? 1 : -1);
+}
+
 static ambit_status open(const ambit_host *h, const ambit_problem *p, const double *option, void **self) {
 #define METHOD(name, jacobian) gsl_odeiv2_step_##name,
   const gsl_odeiv2_step_type *const method[] = { METHODS(METHOD) };
@@ -140,13 +154,13 @@ static ambit_status open(const ambit_host *h, const ambit_problem *p, const doub
   solver *s = h->alloc(h, sizeof *s);
   if (!s) return h->fail(h, AMBIT_NOMEM, "gsl: out of memory");
   memcpy(&s->problem, p, p->size < sizeof s->problem ? p->size : sizeof s->problem);
-  s->host = h, s->step_max = option[OPTION_STEP_MAX];
+  s->host = h, s->step_max = option[OPTION_STEP_MAX], s->steps_max = option[OPTION_STEPS_MAX];
   s->system = (gsl_odeiv2_system) { rates, p->jacobian ? derivatives : NULL, p->nx, s };
   gsl_set_error_handler_off();
-  double span = p->time[p->ntime - 1] - p->time[0], first = fmin(fabs(span) * 1e-6, s->step_max);
+  double first = first_step(p, s->step_max);
   if (allocate(s))
-    s->driver = gsl_odeiv2_driver_alloc_y_new(&s->system, method[(size_t)option[OPTION_METHOD]], copysign(first, span),
-        option[OPTION_ABSOLUTE], option[OPTION_RELATIVE]);
+    s->driver = gsl_odeiv2_driver_alloc_y_new(
+        &s->system, method[(size_t)option[OPTION_METHOD]], first, option[OPTION_ABSOLUTE], option[OPTION_RELATIVE]);
   if (!s->driver) {
     close(s);
     return h->fail(h, AMBIT_NOMEM, "gsl: out of memory");
@@ -166,10 +180,23 @@ static ambit_status give_up(const solver *s, double t, int code) {
       gsl_strerror(code));
 }
 
+static ambit_status too_many(const solver *s, double t) {
+  return s->host->fail(s->host, AMBIT_UNABLE,
+      "at t = %.9g s %.9g steps were taken: the right-hand side may jump here, or be stiff; take a `method` for stiff "
+      "problems, end before it, loosen `relative` or `absolute`, or allow more by `steps_max`",
+      t, s->steps_max);
+}
+
 static int all_finite(const double *x, uint32_t n) {
   for (uint32_t i = 0; i < n; i++)
     if (!isfinite(x[i])) return 0;
   return 1;
+}
+
+/* Of the horizon, which may be the smallest double or longer than the largest. */
+static double share_done(const ambit_problem *p, double t) {
+  double from = p->time[0], to = p->time[p->ntime - 1];
+  return isfinite(to - from) ? (t - from) / (to - from) : (0.5 * t - 0.5 * from) / (0.5 * to - 0.5 * from);
 }
 
 static int32_t emit(const solver *s, ambit_sink *sink, double from, double to) {
@@ -183,21 +210,22 @@ static int32_t emit(const solver *s, ambit_sink *sink, double from, double to) {
     .hi = s->x,
     .order = gsl_odeiv2_step_order(s->driver->s) };
   int32_t stop = sink->emit(sink, &r);
-  double done = (to - p->time[0]) / (p->time[p->ntime - 1] - p->time[0]);
-  return !stop && sink->progress ? sink->progress(sink, done, NULL) : stop;
+  return !stop && sink->progress ? sink->progress(sink, share_done(p, to), NULL) : stop;
 }
 
 static ambit_status run(void *self, ambit_sink *sink) {
   solver *s = self;
   const ambit_problem *p = &s->problem;
   gsl_odeiv2_driver *d = s->driver;
-  double t = p->time[0], h = d->h;
+  double t = p->time[0], h = d->h, steps = 0;
   gsl_odeiv2_driver_reset(d);
   memcpy(s->x, s->start, p->nx * sizeof *s->x);
   for (uint32_t next = 1; next < p->ntime; next += t == p->time[next]) {
     double from = t;
+    if (steps++ >= s->steps_max) return too_many(s, t);
     if (fabs(h) > s->step_max) h = copysign(s->step_max, h);
     int code = gsl_odeiv2_evolve_apply(d->e, d->c, d->s, &s->system, &t, p->time[next], &h, s->x);
+    if (s->counted) s->counted->tried = d->e->count + d->e->failed_steps;
     if (code != GSL_SUCCESS || t == from || !all_finite(s->x, p->nx))
       return give_up(s, from, code ? code : GSL_EFAILED);
     if (emit(s, sink, from, t)) return AMBIT_STOPPED;

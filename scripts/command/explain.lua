@@ -1,139 +1,76 @@
 -- explain.lua -- `ambit explain`: what a scene loads, builds and leaves out, in numbers.
-local check = require "ambit.check"
 local core = require "ambit.core"
-local explain_tree = require "ambit.command.explain_tree"
+local explain_facts = require "ambit.command.explain_facts"
 local scene = require "ambit.command.scene"
-local session = require "ambit.session"
-local suggest = require "ambit.suggest"
 
 local command = { scene = true }
 
 command.usage = [[
-usage: ambit explain [--json] SCENE.lua [ARG ...]
-Runs the scene with its output discarded, then prints which plugins and libraries it loaded, the model tree of every
-mechanism (parts, what hangs on what, coordinates, masses, closed loops), how many quantities were built of those
-available, the size of every verb's problem, and for every simulation the best-suited solver and arithmetic and why.
-  --json       one object per line instead]]
+usage: ambit explain [--json] [--dot FILE|-] [--svg FILE] SCENE.lua [ARG ...]
+Runs the scene with its output discarded, then prints what it left out, in numbers: plugins and shared libraries in the
+process, quantities built of those available and the parts of every mechanism, nodes of the graph that were shared,
+folded away and put on tapes, Taylor coefficients known to be zero, uncertain and fixed data, terms cut by model
+reduction; memory and CPU time; and for every simulation the best-suited solver and arithmetic and why.
+  --json       one object per line instead
+  --dot FILE   also a graph of the scene in the language of Graphviz; what is left out is grey and dashed. `-` is
+               standard output (and nothing else is printed)
+  --svg FILE   the same as a picture with numbers in tool tips; needs the program `dot` (Debian: graphviz)
+exit: 0 done, 1 error in the scene (what was built until then is still explained), 130 interrupted]]
 
-local function discard_output()
-  local null = io.open("/dev/null", "w")
-  local stdout = io.stdout
-  io.output(null)
-  _G.print = function() end
-  io.stdout = null
-  return function() io.stdout = stdout io.output(stdout) end
+local known = { json = false, dot = true, svg = true }
+
+local function complain(message)
+  io.stderr:write("ambit: ", message, "\n")
+  return 1
 end
 
-local function loaded_plugins()
-  local loaded, left = {}, {}
-  for _, entry in ipairs(core.list()) do
-    local name = entry.kind .. "." .. entry.name
-    if entry.loaded then loaded[#loaded + 1] = name else left[#left + 1] = name end
-  end
-  return loaded, left
-end
-
-local function libraries()
-  local list = {}
-  for _, file in ipairs(core.libraries()) do list[#list + 1] = file:match "[^/]+$" end
-  table.sort(list)
-  return list
-end
-
--- The mechanisms of the scene, in the order in which they were made.
-local function mechanisms()
-  local list = {}
-  for _, number in ipairs(check.sorted(session.mechanisms)) do list[#list + 1] = session.mechanisms[number] end
-  return list
-end
-
-local keys = { "arithmetic", "solver", "expressions", "states", "parameters", "unknowns", "steps", "graph_nodes",
-  "tape_slots",
-  "tape_constants", "tape_instructions", "tape_runs", "constant_slots", "seconds_build", "seconds_run" }
-
-local meaning = {
-  expressions = "asked for", unknowns = "uncertain data that became variables", graph_nodes = "in the whole graph",
-  tape_slots = "slots", tape_constants = "of them constants", tape_instructions = "of them instructions",
-  tape_runs = "runs of one opcode", constant_slots = "slots with one Taylor coefficient instead of all",
-    seconds_build = "s to build",
-  seconds_run = "s to run", parameters = "uncertain parameters", states = "states", steps = "steps",
-}
-
--- "suggested: stiff with interval, as here: ..." of a simulate
-local function print_suggestion(write, verb)
-  local s = verb.suggestion
-  if not s then return end
-  write("   %12s  %s with %s%s: %s\n", "best suited", s.solver, suggest.arithmetic(s.solver),
-    s.solver == verb.report.solver and ", as here" or "", s.reason)
-end
-
-local function print_text(write, facts)
-  write("loaded plugins:    %s\n", #facts.loaded > 0 and table.concat(facts.loaded, " ") or "none")
-  write("not loaded:        %s\n", table.concat(facts.left, " "))
-  write("shared libraries:  %s\n", table.concat(facts.libraries, " "))
-  for _, m in ipairs(facts.mechanisms) do explain_tree.write(write, m) end
-  for i, verb in ipairs(facts.verbs) do
-    write("\n%d. %s (%s)%s%s\n", i, verb.verb, verb.status,
-      verb.report.arithmetic and " in " .. verb.report.arithmetic or "",
-      verb.report.solver and " by " .. verb.report.solver or "")
-    print_suggestion(write, verb)
-    for _, key in ipairs(keys) do
-      local value = verb.report[key]
-      if meaning[key] and value and value ~= 0 then
-        write("   %12s  %s\n", math.type(value) == "float" and ("%.6f"):format(value) or tostring(value), meaning[key])
-      end
+-- Says before the work starts what could not be written after it.
+local function check_outputs(options)
+  for _, key in ipairs { "dot", "svg" } do
+    local path = options[key]
+    if path and not (key == "dot" and path == "-") then
+      local file, problem = io.open(path, "a")
+      if not file then return ("cannot write %s"):format(problem) end
+      file:close()
     end
   end
-  write("\nCPU time of the whole scene: %.4f s\n", facts.seconds)
-end
-
-local function pairs_of(t, order)
-  local list = {}
-  for _, key in ipairs(order) do
-    if t[key] ~= nil then list[#list + 1], list[#list + 2] = key, t[key] end
+  if options.svg and not require("ambit.command.explain_svg").has_dot() then
+    return "--svg needs the program `dot` of Graphviz (Debian: apt install graphviz); --dot FILE works without it"
   end
-  return list
 end
 
-local function write_json(facts)
-  core.records_open "-"
-  core.record("plugins", { "loaded", table.concat(facts.loaded, " "), "left", table.concat(facts.left, " "),
-    "libraries",
-    table.concat(facts.libraries, " ") })
-  for _, m in ipairs(facts.mechanisms) do explain_tree.record(m) end
-  for _, verb in ipairs(facts.verbs) do
-    local fields = { "verb", verb.verb, "status", verb.status, "report", pairs_of(verb.report, keys) }
-    if verb.suggestion then
-      table.move({ "suggested", verb.suggestion.solver, "because", verb.suggestion.reason }, 1, 4, #fields + 1, fields)
-    end
-    core.record("verb", fields)
+local function write_graphs(options, facts)
+  local text, tips = require("ambit.command.explain_graph").dot(facts)
+  if options.dot == "-" then
+    io.stdout:write(text)
+  elseif options.dot then
+    local file, problem = io.open(options.dot, "w")
+    if not file then return complain(("cannot write %s"):format(problem)) end
+    file:write(text)
+    file:close()
   end
-  core.record("result", { "verb", "explain", "status", "complete", "cpu_seconds", facts.seconds })
-  core.records_close()
+  if not options.svg then return 0 end
+  local problem = require("ambit.command.explain_svg").write(options.svg, text, tips)
+  return problem and complain(problem) or 0
 end
-
-local known = { json = false }
 
 function command.run(list)
   local options, file, words = scene.arguments(list, known)
   if not options then return 2, file end
+  local unwritable = check_outputs(options)
+  if unwritable then return complain(unwritable) end
   scene.note_strays(words, known)
-  session.keep()
-  local restore = discard_output()
-  os.exit = function() error(scene.leave, 0) end -- what the scene loaded is still to be told
-  local start = core.cpu()
-  local good, problem = scene.run(file, words)
-  local facts = { seconds = core.cpu() - start, libraries = libraries(), mechanisms = mechanisms(),
-    verbs = session.verbs }
-  restore()
-  if not good and problem ~= scene.leave then
-    io.stderr:write("ambit: ", tostring(problem), "\n")
-    return 1
+  local facts = explain_facts.gather(file, words)
+  local code = 0
+  if options.json then
+    require("ambit.command.explain_json").write(facts)
+  elseif options.dot ~= "-" then
+    require("ambit.command.explain_text").write(function(f, ...) io.stdout:write(f:format(...)) end, facts)
   end
-  facts.loaded, facts.left = loaded_plugins()
-  if options.json then write_json(facts) return 0 end
-  print_text(function(format, ...) io.stdout:write(format:format(...)) end, facts)
-  return 0
+  if options.dot or options.svg then code = write_graphs(options, facts) end
+  if facts.problem then code = complain(facts.problem) end
+  if core.interrupted() then complain "interrupted: what was built up to there is explained" end
+  return code
 end
 
 return command

@@ -4,7 +4,9 @@ local core = require "ambit.core"
 local commands = {
   { "run", "run a scene" },
   { "explain", "what a scene loads, builds and leaves out" },
-  { "compare", "width against run time over the arithmetics" },
+  { "profile", "where the time of a scene goes" },
+  { "compare", "error and width against run time over solvers and arithmetics" },
+  { "stability", "stiff, chaotic and extreme cases: how far, how tight, at what cost, and why not" },
   { "view", "a page that shows mechanisms and their enclosures over time" },
   { "plugins", "list the plugins, or print the manual of one" },
   { "check", "put a plugin through the conformance kit" },

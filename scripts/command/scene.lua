@@ -47,6 +47,18 @@ function scene.print_to_stderr()
   end
 end
 
+-- For a scene that is only looked at: what it prints goes nowhere, and os.exit ends the scene, not the command, with
+-- the error scene.leave. Returns a function that gives the command its output back.
+function scene.discard_output()
+  local null = io.open("/dev/null", "w")
+  local stdout = io.stdout
+  io.output(null)
+  _G.print = function() end
+  io.stdout = null
+  os.exit = function() error(scene.leave, 0) end
+  return function() io.stdout = stdout io.output(stdout) end
+end
+
 local function unknown_option(word, name, known)
   local names = {}
   for key in pairs(known) do names[#names + 1] = key end
@@ -67,8 +79,8 @@ local function read_option(list, i, known)
 end
 
 -- Splits { options..., SCENE, words... } into options, file, words; or nil and a message. With `anywhere`, options may
--- stand behind the scene too, up to `--`.
-function scene.arguments(list, known, anywhere)
+-- stand behind the scene too, up to `--`; with `optional`, there may be no scene: then file is nil.
+function scene.arguments(list, known, anywhere, optional)
   local options, words, i = {}, {}, 1
   local taking = true
   while list[i] do
@@ -85,7 +97,7 @@ function scene.arguments(list, known, anywhere)
       taking = taking and (anywhere or false)
     end
   end
-  if #words == 0 then return nil, "expected a scene, a Lua file" end
+  if #words == 0 and not optional then return nil, "expected a scene, a Lua file" end
   return options, words[1], table.move(words, 2, #words, 1, {})
 end
 

@@ -78,11 +78,19 @@ inverse_kinematics { m, at = frame, position = { x, y, z }, orientation = rows o
 { r, p, y } }, box = { joint = { lo, hi } }, given = { joint = value } }: every posture, as roots does.]],
   eigenvalues = [[
 eigenvalues { { a, b }, { c, d } }: of a matrix: a list of { re, im, count } with stability.]],
-  sample = "sample { expression or ode, n = 1000, seed = 1, threads = 2, ... }: Monte Carlo; proves nothing.",
+  sample = [[
+sample { expression or ode, n = 1000, seed = 1, threads = 2, points = "sobol" | "niederreiter" | "halton" |
+"reverse_halton" | "random", corners = true, polish = true, relative = 1e-10, absolute = 1e-12, at | initial, t ... }:
+draws from the tolerances; proves nothing: status, draws, failed, points, x, error, :at(t), :error_at(t).]],
+  overestimation = [[
+overestimation(result, sample): how many times as wide as the sampled hull: of what evaluate gave, in its shape; of a
+run (as run:overestimation(sample)) by state name, with .max, .t, .contradiction, :at(t).]],
   compare = [[
 compare { expression or table of them, at = { name = value }, arithmetics = { "interval", { "affine", symbols =
-{ 10, 20 } } }, repeats = 5 }: width against run time, a result with status, rows, and a table when printed. Without
-expressions: how `ambit compare` shall compare this scene.]],
+{ 10, 20 } } }, repeats = 5, limit = 10 } or compare { m:dynamics() or ode, initial, t, solvers = { "lohner",
+{ "taylor_model", order = { 8, 12 } } }, arithmetics, reference = { t, x = { state = value } } }: width or error against
+run time, a result with status, rows, advice, and a table when printed. Without a subject: how `ambit compare` shall
+compare this scene.]],
   view = [[
 view { m, run = run, points = { tip = frame }, at = { joint = value }, t = { 0, 5 }, title = "" }: what `ambit view` shows
 of a mechanism; otherwise nothing happens.]],
@@ -98,7 +106,7 @@ for _, name in ipairs { "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "co
   topics[name] = name .. "(x): of numbers, texts, expressions and enclosures."
 end
 topics.atan2 = "atan2(y, x): the angle of the point (x, y)."
-topics.pow = "pow(a, b), a ^ b: integer b for every a, otherwise exp(b log a)."
+topics.pow = "pow(a, b), a ^ b: integer b for every a, half integers as powers of sqrt(a), otherwise exp(b log a)."
 topics.min = "min(a, b, ...): the smaller one."
 topics.max = "max(a, b, ...): the larger one."
 

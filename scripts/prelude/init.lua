@@ -1,54 +1,41 @@
--- init.lua -- the module `ambit`: what a scene sees.
-local certify = require "ambit.certify"
-local chain = require "ambit.chain"
+-- init.lua -- the module `ambit`: what a scene sees. The code of a verb is read when the verb is first called: most
+-- scenes need little of it, and reading all of it takes longer than they do.
 local check = require "ambit.check"
-local compare = require "ambit.compare"
 local core = require "ambit.core"
-local equilibria = require "ambit.equilibria"
-local evaluate = require "ambit.evaluate"
-local help = require "ambit.help"
-local inverse_kinematics = require "ambit.inverse_kinematics"
-local load = require "ambit.load"
 local mechanism = require "ambit.mechanism"
 local ode = require "ambit.ode"
-local plugin = require "ambit.plugin"
-local poincare = require "ambit.poincare"
-local reduce = require "ambit.reduce"
-local roots = require "ambit.roots"
-local sample = require "ambit.sample"
-local sensitivity = require "ambit.sensitivity"
-local simulate = require "ambit.simulate"
-local stability = require "ambit.stability"
-local verify = require "ambit.verify"
-local switch = require "ambit.switch"
-local view = require "ambit.view"
+
+local function later(module, name)
+  return function(...) return require("ambit." .. module)[name](...) end
+end
 
 local ambit = {
   version = core.version,
   pi = core.pi(),
   time = core.time(),
   mechanism = mechanism.new,
-  load = load.load,
-  chain = function(t) return chain.new(t) end,
+  load = later("load", "load"),
+  chain = later("chain", "new"),
   ode = ode.new,
-  evaluate = evaluate.evaluate,
-  simulate = simulate.simulate,
-  sensitivity = sensitivity.sensitivity,
-  poincare = poincare.poincare,
-  hybrid = switch.hybrid,
-  sample = sample.sample,
-  roots = roots.roots,
-  equilibria = equilibria.equilibria,
-  eigenvalues = stability.eigenvalues,
-  inverse_kinematics = inverse_kinematics.inverse_kinematics,
-  verify = verify.verify,
-  certify = certify.certify,
-  reduce = reduce.reduce,
-  compare = compare.compare,
-  view = view.view,
-  plugins = plugin.plugins,
-  plugin = plugin.plugin,
-  help = help,
+  evaluate = later("evaluate", "evaluate"),
+  simulate = later("simulate", "simulate"),
+  sensitivity = later("sensitivity", "sensitivity"),
+  poincare = later("poincare", "poincare"),
+  hybrid = later("switch", "hybrid"),
+  sample = later("sample", "sample"),
+  overestimation = later("sample.overestimation", "overestimation"),
+  roots = later("roots", "roots"),
+  equilibria = later("equilibria", "equilibria"),
+  eigenvalues = later("stability", "eigenvalues"),
+  inverse_kinematics = later("inverse_kinematics", "inverse_kinematics"),
+  verify = later("verify", "verify"),
+  certify = later("certify", "certify"),
+  reduce = later("reduce", "reduce"),
+  compare = later("compare", "compare"),
+  view = later("view", "view"),
+  plugins = later("plugin", "plugins"),
+  plugin = later("plugin", "plugin"),
+  help = function(...) return require "ambit.help"(...) end,
 }
 
 -- data, and functions that work on numbers, texts, expressions and enclosures alike

@@ -18,7 +18,7 @@ function instant.of(value, what)
     end
   end
   if t ~= t or t == math.huge or t == -math.huge then
-    check.fail("%s: the time must be finite, got %s", what, tostring(value))
+    check.fail("%s: the time must be finite, got %s", what, value ~= value and "NaN" or tostring(value))
   end
   return t
 end

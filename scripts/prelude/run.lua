@@ -95,6 +95,9 @@ function methods:set()
   return strict(values, self.states)
 end
 
+-- How many times as wide as the hull of a sample of the same system the enclosures are.
+function methods:overestimation(sample) return require "ambit.sample.overestimation".of_run(self, sample) end
+
 check.methods(methods, Run)
 
 -- Number of the last step; behind it there may be an event that the end of the run left open.

@@ -4,12 +4,13 @@ local core = require "ambit.core"
 local weak = { __mode = "v" }
 
 local session = {
-  verbs = {},                             -- { verb, status, report } in order
+  verbs = {},                             -- { verb, status, reason, report, settings, cpu_seconds } in order
   mechanisms = setmetatable({}, weak),    -- by number; only what is still alive
   odes = setmetatable({}, weak),
-  explains = false,                       -- `ambit explain` wants to know which solver would suit
+  observer = nil,                         -- `ambit explain`: a function that is told of every verb as it ends
   unable = false,                         -- did a verb end without a proof?
   asked = nil,                            -- a list: `ambit compare` wants to know what is evaluated
+  simulations = nil,                      -- a list: it wants to know what is simulated
   comparisons = {},                       -- what ambit.compare found, in order
   compare = nil,                          -- how the scene wants to be compared
   runs = nil,                             -- a list: `ambit view` wants to know what is simulated
@@ -24,10 +25,11 @@ function session.add(list, value)
   list[count] = value
 end
 
--- For `ambit explain`: from now on nothing is forgotten.
-function session.keep()
+-- For `ambit explain`: from now on nothing is forgotten, and observer(verb) is called at the end of each verb.
+function session.keep(observer)
   setmetatable(session.mechanisms, nil)
-  session.explains = true
+  setmetatable(session.odes, nil)
+  session.asked, session.observer = {}, observer
 end
 
 -- What an evaluate is about to compute: { expressions, paths, leaves, values, arithmetic }.
@@ -37,14 +39,24 @@ function session.ask(request)
   session.asked[#session.asked + 1] = request
 end
 
+-- What a simulate is about to compute: the request as simulate.request makes it.
+function session.ask_simulation(question)
+  if not session.simulations then return end
+  session.simulations[#session.simulations + 1] = { question = question, place = core.where():gsub(": $", "") }
+end
+
 -- A simulation that has ended, and what it was asked.
 function session.remember(run, request)
   if session.runs then session.runs[#session.runs + 1] = { run = run, request = request } end
+  if session.observer then session.verbs[#session.verbs].request = request end
 end
 
 -- Called once at the end of every verb: remembers it and writes its `result` record.
 function session.finish(verb, result, report, settings)
-  session.verbs[#session.verbs + 1] = { verb = verb, status = result.status, report = report }
+  local entry = { verb = verb, status = result.status, reason = result.reason, report = report, settings = settings,
+    cpu_seconds = result.cpu_seconds or report.seconds_run or 0 }
+  session.verbs[#session.verbs + 1] = entry
+  if session.observer then session.observer(entry) end
   if result.status == "unable" then session.unable = true end
   if not core.recording() then return end
   local fields = { "verb", verb, "status", result.status }

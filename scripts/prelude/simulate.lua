@@ -66,7 +66,7 @@ local function check_options(t, q, known, what)
   q.options, q.settings = option.collect(t, declaration)
 end
 
--- Everything that simulate and the sampling of a system share. default_solver nil: the one that suits.
+-- Everything that simulate and the sampling of a system share. default_solver nil: the one that suits; false: none.
 function verb.request(t, what, default_solver, own_keys)
   check.table(t, what)
   local known = { "initial", "t", "solver", "arithmetic" }
@@ -75,10 +75,12 @@ function verb.request(t, what, default_solver, own_keys)
   if t.arithmetic ~= nil then
     q.arithmetic, q.arithmetic_options = option.arithmetic(t.arithmetic, what .. ": arithmetic")
   end
-  if t.solver ~= nil then q.solver = check.text(t.solver, what .. ": solver") else q.solver = default_solver end
+  if t.solver ~= nil then q.solver = check.text(t.solver, what .. ": solver") else q.solver = default_solver or nil end
   local fitting
   if q.solver then
     check_options(t, q, known, what)
+  elseif default_solver == false then
+    check.keys(t, known, what, 1)
   else
     fitting = suggest.candidates(other_keys(t, known), known, q.arithmetic, what)
   end
@@ -163,12 +165,12 @@ function verb.simulate(t)
   local q = verb.request(t, "simulate", nil, keys)
   q.run_options = verb.run_options(t, q)
   event.request(t.events, q)
+  session.ask_simulation(q)
   local result = verb.solve(q)
   session.finish("simulate", result, result.report,
     { "solver", q.solver, "arithmetic", result.arithmetic, "options", q.settings, "t_start", q.times[1], "t_end",
       q.times[#q.times] })
   session.remember(result, q)
-  if session.explains then session.verbs[#session.verbs].suggestion = q.suggestion or suggest.advice(q) end
   return result
 end
 

@@ -135,7 +135,7 @@ function ambit.sqr(x) end
 ---@param x ambit.datum
 ---@return ambit.expression|ambit.enclosure
 function ambit.abs(x) end
----Integer exponents for every base, others as exp(b log a).
+---Integer exponents for every base, half integers as powers of the square root, others as exp(b log a), a > 0.
 ---@param a ambit.datum
 ---@param b ambit.datum
 ---@return ambit.expression|ambit.enclosure
@@ -430,6 +430,9 @@ function run:at(t) end
 function run:steps() end
 ---@return table<string, ambit.expression> # initial values to go on from, of the same uncertain data
 function run:set() end
+---@param sample ambit.sample of the same system
+---@return ambit.overestimation
+function run:overestimation(sample) end
 
 ---@alias ambit.solver
 ---|"lohner"
@@ -694,49 +697,132 @@ function reduction:sample(t) end
 ---@return ambit.reduction
 function ambit.reduce(t) end
 
+---What ambit.sample gives back for a system; for expressions, their shape has the same fields but x, t and states.
 ---@class ambit.sample
----@field status "complete"|"stopped"
+---@field status "complete"|"stopped" stopped: what was drawn until then counts
 ---@field draws integer
----@field failed integer
+---@field failed integer of these did not reach the end
+---@field off integer of these start off a constraint
+---@field reason string? of the first that failed
+---@field polished integer evaluations that followed the extremes besides
+---@field one_by_one integer draws that were not integrated side by side
+---@field points "sobol"|"niederreiter"|"halton"|"reverse_halton"|"random"
+---@field points_reason string? why the points are random ones
+---@field method string how the draws of a system were integrated
+---@field threads integer
+---@field cpu_seconds number
+---@field wall_seconds number
+---@field t number[]
+---@field states string[]
 ---@field x table<string, ambit.enclosure> hull of the draws at the last time
+---@field error table<string, number> how far its ends may be off: an estimate; of expressions a proved bound
 local sample = {}
 ---@param t number|string one of the listed times
 ---@return table<string, ambit.enclosure>
 function sample:at(t) end
+---@param t number|string one of the listed times
+---@return table<string, number> # how far the ends of the hull may be off; NaN: not known
+function sample:error_at(t) end
 
----Monte Carlo in ordinary floating point; proves nothing.
----@param t { [1]: any, n: integer?, seed: integer?, at: table<string, ambit.datum>?, initial: table<string|integer, ambit.datum>?, t: any?, solver: string?, arithmetic: ambit.arithmetic?, threads: integer? }
+---Draws from the tolerances in ordinary floating point; proves nothing.
+---@param t { [1]: any, n: integer?, seed: integer?, points: string?, corners: boolean?, polish: boolean?, threads: integer?, at: table<string, ambit.datum>?, initial: table<string|integer, ambit.datum>?, t: any?, relative: number?, absolute: number?, solver: string?, arithmetic: ambit.arithmetic? }
 ---@return any
 function ambit.sample(t) end
 
----One arithmetic with one choice of its options.
+---Factors by state name, at the last time that a run and a sample have in common.
+---@class ambit.overestimation
+---@field max table<string, number> the largest over the common times
+---@field t number the last common time
+---@field contradiction string? what was seen that the enclosures miss
+local overestimation = {}
+---@param t number|string
+---@return table<string, number>
+function overestimation:at(t) end
+
+---How many times as wide as the hull of a sample enclosures are: of a run (as run:overestimation), or of what evaluate
+---gave, in its shape.
+---@param result any
+---@param sample any
+---@return any
+function ambit.overestimation(result, sample) end
+
+---One combination: an arithmetic, or a solver over an arithmetic, with one choice of options. Of what it proves, only
+---what there is has a value.
 ---@class ambit.comparison.row
----@field arithmetic string
----@field label string "affine symbols=20"
+---@field label string "affine symbols=20", "taylor_model order=8"
+---@field family string the curve that it is a point of: "taylor_model, by order"
+---@field solver string?
+---@field arithmetic string?
 ---@field options string[] name, value, name, value ...
+---@field axis string? the option that varies along the curve
+---@field value string? and its value
 ---@field rigorous boolean
----@field status "complete"|"empty"|"unbounded"|"failed"|"skipped"
+---@field status "complete"|"unable"|"stopped"|"empty"|"unbounded"|"failed"|"refused"|"crashed"|"late"|"out of memory"|"skipped"
 ---@field reason string? why it is not complete
 ---@field partial boolean? some operation left its domain
----@field x any? enclosures, in the shape that was asked for
----@field widths number[]? of each result
----@field width number? the largest
+---@field t_reached number?
+---@field x any? of expressions: enclosures, in the shape that was asked for
+---@field values table<string, ambit.enclosure>? of a simulation: at the end, by state
+---@field widths table<string, number>? of each result or state, by name
+---@field width number? the largest of them
+---@field width_max number? the largest of any state at any time
 ---@field over_tightest number? largest ratio to the tightest proved width
----@field over_sample number? largest ratio to the width of the sampled hull
+---@field over_sample number? largest ratio to the width of the sampled hull, at the end
+---@field over_sample_max number? and at any time
+---@field error number? largest distance from the reference that the enclosure allows
+---@field pareto boolean? no other proof is both as fast and as tight
 ---@field seconds_run number? CPU time, the least of the repeats
 ---@field seconds_build number?
+---@field repeats integer?
+---@field steps integer?
+---@field memory number? bytes by which its process grew
+---@field work table? the report of a run
+---@field track { t: number[], lo: number[][], hi: number[][] }? at most 200 instants, by place of the state
 
 ---Printed, it is a table.
 ---@class ambit.comparison
----@field status "complete"|"unable" unable: nothing was proved, or proofs contradict each other
+---@field verb "evaluate"|"simulate"
+---@field status "complete"|"unable" unable: nothing was proved, or proofs contradict each other or the reference
 ---@field reason string?
+---@field advice string? which combination to use for which accuracy
+---@field interrupted boolean
+---@field place string where in the scene
+---@field title string
+---@field names string[] of the results or states
+---@field units string[]? of the states
+---@field t number[]? { start, end }
+---@field measure "width"|"error"|"over_sample" what the Pareto front and the advice go by
 ---@field rows ambit.comparison.row[]
----@field sample { x: ambit.enclosure[], width: number }? hull of the samples
+---@field sample { t: number[], lo: number[][], hi: number[][], draws: integer, failed: integer }? hull of the samples
+---@field sample_problem string? why there is none
+---@field reference { t: number, x: table<string, number>, source: string }?
+---@field reference_problem string? why the scene's reference is not used here
+---@field settings table
 ---@field cpu_seconds number
 
----Width against run time over arithmetics. A list of values of an option is run through: { "affine", symbols = { 10, 20 } }.
----Without expressions: how `ambit compare` shall compare this scene.
----@param t { [1]: any, at: table<string, ambit.datum>?, arithmetics: (string|table)[]?, repeats: integer?, limit: number?, n: integer?, seed: integer? }
+---@class ambit.comparison.settings
+---@field arithmetics? (string|table)[]
+---@field solvers? (string|table)[]
+---@field reference? { t: number|string, x: table<string, ambit.datum>, source: string? }
+---@field repeats? integer 5
+---@field limit? number seconds of CPU time for each combination, 10
+---@field memory? number bytes for each combination, 1e9
+---@field n? integer draws of the sampled hull
+---@field seed? integer
+
+---@class ambit.comparison.request: ambit.comparison.settings
+---@field [1] any an expression, a table of them, or a system
+---@field at? table<string, ambit.datum> of expressions
+---@field initial? table<string|integer, ambit.datum> of a system, and what simulate knows besides:
+---@field t? any
+---@field events? table[]
+---@field split? any
+---@field threads? integer 1
+---@field dense? boolean
+
+---Width or error against run time, over arithmetics or solvers. A list of values of an option is run through:
+---{ "affine", symbols = { 10, 20 } }. Without a subject: how `ambit compare` shall compare this scene.
+---@param t ambit.comparison.request
 ---@return ambit.comparison
 function ambit.compare(t) end
 

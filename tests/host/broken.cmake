@@ -14,8 +14,9 @@ foreach(source ${broken_sources})
   target_link_options(broken_${kind}_${name} PRIVATE -Wl,--unresolved-symbols=ignore-all)
   add_dependencies(broken_plugins broken_${kind}_${name})
 endforeach()
-foreach(test host.registry host.object host.services model.environment model.evaluate model.simulate model.sample model.split_solver
-    model.allocations)
+foreach(test host.registry host.object host.services model.environment model.evaluate model.simulate model.sample
+    model.sample_lanes model.split_solver
+    model.allocations model.work)
   if(TARGET test.${test})
     target_compile_definitions(test.${test} PRIVATE AMBIT_BROKEN_DIR="${AMBIT_BROKEN_DIR}")
     add_dependencies(test.${test} broken_plugins)

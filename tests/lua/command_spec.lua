@@ -234,39 +234,6 @@ describe("ambit plugins", function()
   end)
 end)
 
-describe("ambit explain", function()
-  it("shows that a kinematic scene loads no solver and builds no accelerations", function()
-    local code, stdout = run "explain scripts/manipulator.lua"
-    assert.equal(0, code)
-    local loaded = stdout:match "loaded plugins:%s+(.-)\n"
-    assert.falsy(loaded:find "solver")
-    assert.falsy(stdout:match("shared libraries:%s+(.-)\n"):find "gsl")
-    assert.truthy(stdout:find "%d+ of %d+ quantities built")
-    has(stdout, "evaluate (complete) in interval", "of them instructions")
-  end)
-
-  it("counts one uncertainty for one uncertain datum", function()
-    local file = write [[
-      local ambit = require "ambit"
-      print "not shown"
-      io.write "nor this"
-      ambit.evaluate { ambit.around(1, "0.1") * 3 + 4 * ambit.pi }]]
-    local code, stdout = run("explain " .. file)
-    os.remove(file)
-    assert.equal(0, code)
-    assert.falsy(stdout:find "not shown" or stdout:find "nor this")
-    assert.truthy(stdout:find " 1  uncertain data that became variables")
-  end)
-
-  it("writes JSON lines", function()
-    local found, json = pcall(require, "cjson")
-    if not found then return end
-    local code, stdout = run "explain --json scripts/manipulator.lua"
-    assert.equal(0, code)
-    for line in stdout:gmatch "[^\n]+" do assert.is_string(json.decode(line).record) end
-  end)
-end)
-
 describe("ambit repl", function()
   it("prints values, takes several lines, survives errors", function()
     local code, stdout, stderr = run("repl",

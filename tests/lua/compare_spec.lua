@@ -1,4 +1,5 @@
--- The verb compare, and the command that repeats a scene's evaluations. AMBIT_COMMAND is the command to test.
+-- The verb compare over arithmetics, its picture, and the command that repeats a scene's evaluations. AMBIT_COMMAND is
+-- the command to test.
 local ambit = require "ambit"
 local command = os.getenv "AMBIT_COMMAND" or "ambit"
 
@@ -35,8 +36,8 @@ describe("compare", function()
     assert.equal("complete", interval.status)
     assert.is_true(interval.rigorous)
     assert.equal(1, interval.x.list[1].hi)
-    assert.equal(interval.x.p:width(), interval.widths[2])
-    assert.equal(math.max(interval.widths[1], interval.widths[2]), interval.width)
+    assert.equal(interval.x.p:width(), interval.widths.p)
+    assert.equal(math.max(interval.widths.p, interval.widths["list.1"]), interval.width)
     assert.equal(1, interval.over_tightest)
     assert.equal(3, interval.repeats)
     assert.is_true(interval.seconds_run > 0 and interval.seconds_build > 0)
@@ -128,7 +129,7 @@ describe("compare", function()
     assert.equal(1, r.rows[1].repeats)
     assert.equal("complete", r.rows[2].status)
     assert.equal("skipped", r.rows[3].status)
-    has(r.rows[3].reason, "symbols=5 took", "over the limit")
+    has(r.rows[3].reason, "affine symbols=5 took", "over the limit")
     r = ambit.compare { f + ambit.time, arithmetics = { "interval" } }
     assert.equal("failed", r.rows[1].status)
     has(r.rows[1].reason, "has no value")
@@ -253,8 +254,9 @@ describe("ambit compare", function()
     assert.equal(0, (scene(small, "--repeat 1 --csv " .. name)))
     local text = read(name)
     assert.equal(1 + 4 * 2 + 4, count(text, "\r\n"))
-    has(text, "comparison,place,arithmetic,options,", ",affine,symbols=10,yes,complete,,u,", ",interval,,yes,")
-    for line in text:gmatch "[^\r\n]+" do assert.equal(16, count(line, ",")) end
+    has(text, "comparison,verb,place,solver,arithmetic,options,", ",affine,symbols=10,yes,complete,,,u,",
+      ",interval,,yes,")
+    for line in text:gmatch "[^\r\n]+" do assert.equal(25, count(line, ",")) end
   end)
 
   it("gives each result its own status in the CSV, an empty one no bounds", function()
@@ -262,7 +264,7 @@ describe("ambit compare", function()
     scene("local a = require 'ambit' local x = a.between(1, 2) a.evaluate { { a = x, b = a.sqrt(-x) } }",
       "--repeat 1 --csv " .. name)
     local text = read(name)
-    has(text, ",interval,,yes,complete,,a,1,2,1,", ",interval,,yes,empty,,b,,,0")
+    has(text, ",interval,,yes,complete,,,a,1,2,1,", ",interval,,yes,empty,,,b,,,0")
     for line in text:gmatch "[^\r\n]+" do assert.falsy(line:find(",b,[^,]", 1), line) end
   end)
 
@@ -348,25 +350,37 @@ describe("ambit compare", function()
       "--repeat 1 --csv " .. csv, path)
     os.execute("rm -r " .. folder)
     assert.equal(0, code)
-    assert.truthy(stdout:find "\nbroken +failed: [^\n]*broken")
+    assert.truthy(stdout:find "\n +broken +failed")
+    assert.truthy(stdout:find "\nbroken: failed: [^\n]*broken")
     assert.truthy(read(csv):find "broken,,no,failed,[^\r]*broken")
   end)
 
   it("says what it leaves out", function()
-    local text = [[
+    local code, _, stderr, file = scene [[
       local ambit = require "ambit"
-      local f = ambit.ode { states = { "x" }, equations = function(s) return { x = -s.x } end }
-      ambit.simulate { f, initial = { x = 1 }, t = { 0, 1 } }
-      ]]
-    local code, _, stderr, file = scene(text)
+      ambit.sample { ambit.between(0, 1), n = 3 }]]
     assert.equal(1, code)
-    has(stderr, file .. " evaluates nothing", "not simulate (1)")
-    code, _, stderr = scene(text .. "ambit.evaluate { ambit.between(0, 1) } os.exit(7)", "--repeat 1")
+    has(stderr, file .. " asks nothing that can be compared", "not sample (1)")
+    code, _, stderr = scene([[
+      local ambit = require "ambit"
+      ambit.sample { ambit.between(0, 1), n = 3 }
+      ambit.evaluate { ambit.between(0, 1) }
+      os.exit(7)]], "--repeat 1")
     assert.equal(0, code)
-    has(stderr, "note: compare repeats `evaluate` only; left out: simulate (1)")
+    has(stderr, "left out: sample (1)")
     code, _, stderr = scene "print 'hello'"
     assert.equal(1, code)
-    has(stderr, "evaluates nothing")
+    has(stderr, "asks nothing that can be compared")
+  end)
+
+  it("compares what a scene asked before it failed", function()
+    local code, stdout, stderr = scene([[
+      local ambit = require "ambit"
+      ambit.evaluate { ambit.between(0, 1) }
+      error "later"]], "--repeat 1")
+    assert.equal(1, code)
+    has(stderr, "later", "before it failed")
+    has(stdout, "1 result of 1 uncertain datum")
   end)
 
   it("shows what the scene compares itself", function()

@@ -133,7 +133,7 @@ describe("ambit explain", function()
     local pipe = assert(io.popen(("%q explain %q"):format(command, file)))
     local text = pipe:read "a"
     pipe:close()
-    assert.matches("best suited  stiff with %S+: stiff: the fastest motion decays", text)
+    assert.matches("best suited: stiff with %S+: stiff: the fastest motion decays", text)
     pipe = assert(io.popen(("%q explain --json %q"):format(command, file)))
     text = pipe:read "a"
     pipe:close()

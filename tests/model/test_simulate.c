@@ -185,6 +185,7 @@ static void checks_times(void **state) {
   } wrong[] = {
     { { 1, 1 }, 2, "time span is zero" },
     { { 1, 2, 1 }, 3, "time span is zero" },
+    { { -1.7e308, 1.7e308 }, 2, "too long" },
     { { 0, INFINITY }, 2, "not a finite number" },
     { { NAN, 1 }, 2, "not a finite number" },
     { { 0, 2, 1 }, 3, "ascend" },

@@ -72,7 +72,7 @@ static void bad_options_are_refused_by_name(void **unused) {
   static const struct {
     size_t option;
     double value;
-  } bad[] = { { 1, -1 }, { 1, NAN }, { 2, INFINITY }, { 3, 0 }, { 3, NAN } };
+  } bad[] = { { 1, -1 }, { 1, NAN }, { 2, INFINITY }, { 3, 0 }, { 3, NAN }, { 4, 0 }, { 4, NAN } };
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
     char message[AMBIT_MESSAGE_MAX];
     assert_int_equal(try_option(&c, bad[i].option, bad[i].value, message), AMBIT_INVALID);

@@ -1,69 +1,10 @@
 -- Pages of `ambit view` in a headless browser: lua5.4 tests/view/browser.lua AMBIT
 -- probe.js is put into a page, looks at it and writes down what is wrong.
-local json = require "cjson"
+package.path = "tests/?.lua;" .. package.path
+local browser = require "browser"
 local ambit = arg[1]
-local passed, failed = 0, 0
-
-local function quoted(s) return "'" .. s:gsub("'", "'\\''") .. "'" end
-
-local function read(name)
-  local file = assert(io.open(name, "rb"))
-  local text = file:read "a"
-  file:close()
-  return text
-end
-
-local function write(name, text)
-  local file = assert(io.open(name, "wb"))
-  assert(file:write(text))
-  assert(file:close())
-end
-
-local function output_of(command)
-  local pipe = assert(io.popen(command))
-  local text = pipe:read "a"
-  local _, _, code = pipe:close()
-  return text, code
-end
-
--- -- the browser
-
-local function find_browser()
-  local own = os.getenv "AMBIT_BROWSER"
-  for _, name in ipairs { own or "chromium", "chromium-browser", "google-chrome" } do
-    local path = output_of("command -v " .. quoted(name) .. " 2>/dev/null"):gsub("%s+$", "")
-    if path ~= "" then return path end
-  end
-end
-
-local browser = find_browser()
-if not browser then
-  if os.getenv "AMBIT_NO_BROWSER" == "1" then
-    print "skipped: there is no browser, and AMBIT_NO_BROWSER=1 says not to mind"
-    os.exit(77)
-  end
-  print "there is no browser: install chromium, or set AMBIT_NO_BROWSER=1 to leave this test out"
-  os.exit(1)
-end
-
-local work = os.tmpname()
-os.remove(work)
-assert(os.execute("mkdir -p " .. quoted(work)))
-
--- The pages are our own. Containers often allow neither the browser's sandbox nor much shared memory.
-local start = ("timeout 100 %s --headless --no-sandbox --disable-dev-shm-usage --disable-gpu --no-first-run"
-  .. " --user-data-dir=%s"):format(quoted(browser), quoted(work .. "/profile"))
-
--- The document after its scripts have run, and what the browser logged.
-local function dump(page, width, height, flags)
-  local log = work .. "/log"
-  local text = output_of(("%s --hide-scrollbars --host-resolver-rules='MAP * ~NOTFOUND' --enable-logging=stderr"
-    .. " --window-size=%d,%d %s --virtual-time-budget=30000 --dump-dom %s 2>%s"):format(start, width, height,
-    flags or "", quoted("file://" .. page), quoted(log)))
-  return text, read(log)
-end
-
--- -- pages
+local quoted, read, write, fail, work = browser.quoted, browser.read, browser.write, browser.fail, browser.work
+local probe = read "tests/view/probe.js"
 
 local function view(scene)
   local page = os.tmpname()
@@ -74,55 +15,10 @@ local function view(scene)
   return text, code, read(work .. "/problems")
 end
 
-local probe = read "tests/view/probe.js"
-
-local function unescape(text)
-  return (text:gsub("&lt;", "<"):gsub("&gt;", ">"):gsub("&quot;", '"'):gsub("&amp;", "&"))
-end
-
-local function fail(name, text)
-  failed = failed + 1
-  print(("FAILED %s: %s"):format(name, text))
-end
-
--- Nothing in the page leads out of it.
-local function check_alone(name, text)
-  for _, word in ipairs { "https?://", "file:", "[^-]src%s*=", "url%(", "@import", "fetch%(", "XMLHttp", "WebSocket",
-    "import%(" } do
-    local shell = text:gsub('<script type="application/json".-</script>', "")
-    if shell:find(word) then fail(name, "the page contains " .. word) end
-  end
-end
-
--- Text as a JavaScript string that may stand in a script.
-local function literal(text) return (json.encode(text):gsub("<", "\\u003c")) end
-
--- The window of a browser has a least width: the page stands in a frame of the wanted size, and sends what was found.
-local frame = [[<!doctype html><iframe id="frame" style="border: 0; width: %dpx; height: %dpx"></iframe><script>
-addEventListener("message", event => {
-  const result = document.createElement("pre");
-  result.id = "result";
-  result.textContent = event.data;
-  document.body.append(result);
-});
-document.getElementById("frame").srcdoc = %s;
-</script>]]
-
--- opens the page with the probe in it; expected: { texts = { { selector, text } }, counts = { { selector, n } } }
+-- expected: { texts = { { selector, text } }, counts = { { selector, n } } }
 local function inspect(name, text, expected, width, height, flags)
-  local facts = json.encode { texts = expected.texts or {}, counts = expected.counts or {}, width = width }
-  facts = facts:gsub("{}", "[]"):gsub("<", "\\u003c")
-  local script = ("<script>const EXPECTED = %s;\n%s</script></body>"):format(facts, probe)
-  local page = work .. "/page.html"
-  write(page, frame:format(width, height, literal((text:gsub("</body>", function() return script end)))))
-  local document, log = dump(page, width + 40, height + 40, flags)
-  local result = document:match '<pre id="result">(.-)</pre>'
-  if not result then return fail(name, "the page did not come to its end:\n" .. log:sub(-2000)) end
-  result = json.decode(unescape(result))
-  for _, wrong in ipairs(result.wrong) do fail(name, wrong) end
-  for line in log:gmatch "[^\n]*CONSOLE[^\n]*" do fail(name, line) end
-  if #result.wrong == 0 then passed = passed + 1 end
-  return result
+  local facts = { texts = expected.texts or {}, counts = expected.counts or {}, width = width }
+  return browser.inspect(name, text, probe, facts, width, height, flags)
 end
 
 local function scene(text)
@@ -135,12 +31,12 @@ end
 
 local pendulum, code = view "scripts/double_pendulum.lua"
 if code ~= 0 then fail("double pendulum", "exit code " .. code) end
-check_alone("double pendulum", pendulum)
+browser.alone("double pendulum", pendulum)
 local known = { texts = { { "#status", "complete" }, { "#facts", "taylor_model" }, { "#values th", "beta2" } },
   counts = { { "#drawing .line.link", 4 }, { "#drawing .frame", 5 }, { "#drawing .body", 2 },
     { "#drawing .axis", 2 } } }
-local light = inspect("double pendulum, light", pendulum, known, 1400, 900, "--blink-settings=preferredColorScheme=1")
-local dark = inspect("double pendulum, dark", pendulum, known, 1400, 900, "--blink-settings=preferredColorScheme=0")
+local light = inspect("double pendulum, light", pendulum, known, 1400, 900, browser.light)
+local dark = inspect("double pendulum, dark", pendulum, known, 1400, 900, browser.dark)
 inspect("double pendulum, phone", pendulum, known, 360, 740)
 if light and dark and (light.page == dark.page or light.ink == dark.ink) then
   fail("light and dark", "the same colours: " .. light.page)
@@ -205,13 +101,7 @@ inspect("a thousand parts", huge, { texts = { { "#notes", "instants instead of" 
 
 -- -- on paper
 
-local paper = work .. "/paper.pdf"
-write(work .. "/page.html", pendulum)
-os.execute(("%s --print-to-pdf=%s %s 2>/dev/null"):format(start, quoted(paper), quoted("file://" .. work
-  .. "/page.html")))
-local _, sheets = read(paper):gsub("/Type%s*/Page[^s]", "")
-if sheets < 1 or sheets > 2 then fail("paper", ("%d sheets"):format(sheets)) else passed = passed + 1 end
+local sheets = browser.sheets(pendulum)
+if sheets < 1 or sheets > 2 then fail("paper", ("%d sheets"):format(sheets)) else browser.pass() end
 
-os.execute("rm -rf " .. quoted(work))
-print(("%d passed, %d failed"):format(passed, failed))
-os.exit(failed == 0)
+browser.finish()

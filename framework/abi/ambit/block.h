@@ -5,12 +5,14 @@
 #ifndef AMBIT_BLOCK_H
 #define AMBIT_BLOCK_H
 #include "arithmetic.h"
+#include "work.h"
 
 typedef struct ambit_lane {
   const ambit_tape *tape;
   const ambit_arithmetic *arithmetic;
   void *ctx, *base;
   size_t elem;
+  ambit_work *work; /* or NULL */
 } ambit_lane;
 
 static inline void *ambit_lane_at(const ambit_lane *lane, uint32_t slot) {
@@ -29,6 +31,7 @@ static inline void ambit_constant_set(
 static inline ambit_status ambit_lane_open(
     ambit_lane *lane, const ambit_host *h, const ambit_tape *t, const ambit_arithmetic *arithmetic, void *actx) {
   lane->tape = t, lane->arithmetic = arithmetic, lane->ctx = actx, lane->elem = arithmetic->elem(actx);
+  lane->work = ambit_work_open(h);
   lane->base = h->alloc(h, t->nslot * lane->elem);
   if (!lane->base) return AMBIT_NOMEM;
   if (arithmetic->init && arithmetic->init(actx, lane->base, t->nslot) != AMBIT_OK) return AMBIT_NOMEM;
@@ -50,6 +53,7 @@ static inline uint32_t ambit_lane_run(ambit_lane *lane) {
   const ambit_tape *t = lane->tape;
   const ambit_arithmetic *a = lane->arithmetic;
   uint32_t flags = 0;
+  ambit_work_evaluate(lane->work, t->ninstr, 1);
   if (a->enter) a->enter(lane->ctx);
   for (uint32_t i = 0; i < t->nrun; i++) {
     const ambit_run *run = &t->run[i];

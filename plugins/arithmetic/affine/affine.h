@@ -15,6 +15,7 @@
 #ifndef AFFINE_H
 #define AFFINE_H
 #include <ambit/arithmetic.h>
+#include <ambit/meter.h>
 #include <ambit/num.h>
 #include <ambit/rounding.h>
 #include <math.h>
@@ -72,6 +73,7 @@ typedef struct affine_plan {
 
 struct affine_context {
   const ambit_num_service *num;
+  const ambit_meter_service *meter; /* NULL: not profiled */
   const affine_kernels *kernels;
   const ambit_run_fn *run; /* [AMBIT_OP_COUNT] */
   uint32_t nvar, symbols;  /* independent variables; symbols for errors */

@@ -47,6 +47,7 @@ ambit_status affine_open(const ambit_host *h, const double *option, uint32_t nva
   affine_context *c = h->alloc(h, sizeof *c);
   if (!c) return h->fail(h, AMBIT_NOMEM, "out of memory");
   c->num = h->service(h, AMBIT_NUM_SERVICE);
+  c->meter = h->service(h, AMBIT_METER_SERVICE);
   if (!c->num) return h->fail(h, AMBIT_INVALID, "this kernel does not lend `%s`", AMBIT_NUM_SERVICE);
   c->kernels = kernels, c->run = run;
   c->nvar = nvar, c->symbols = (uint32_t)symbols;

@@ -101,6 +101,7 @@ uint32_t affine_eval_tape(void *ctx, const ambit_tape *t, void *base, size_t pit
   for (uint32_t i = 0; i < t->nrun; i++) {
     const ambit_run *run = &t->run[i];
     if (planned) prepare(c, t, run, base, pitch, lanes, &since);
+    if (c->meter) c->meter->operation(run->op);
     flags |= c->run[run->op](
         NULL, c, base, pitch, lanes, run->count, t->dst + run->first, t->a + run->first, t->b + run->first);
     since += run->count;

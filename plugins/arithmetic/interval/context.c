@@ -7,6 +7,7 @@ ambit_status interval_open(const ambit_host *h, const double *option, uint32_t n
   interval_context *context = h->alloc(h, sizeof *context);
   if (!context) return h->fail(h, AMBIT_NOMEM, "out of memory");
   context->num = h->service(h, AMBIT_NUM_SERVICE);
+  context->meter = h->service(h, AMBIT_METER_SERVICE);
   if (!context->num) return h->fail(h, AMBIT_INVALID, "this kernel does not lend `%s`", AMBIT_NUM_SERVICE);
   *ctx = context;
   return AMBIT_OK;

@@ -13,11 +13,13 @@ INLINE uint32_t serve_run(void *ctx, const ambit_tape *t, const ambit_run *r, pl
 }
 
 static AMBIT_WORKER uint32_t eval_tape(void *ctx, const ambit_tape *t, void *base, size_t pitch, size_t lanes) {
+  const ambit_meter_service *meter = ((interval_context *)ctx)->meter;
   place at = { base, 2 * pitch, lanes };
   findings f = { 0 };
   uint32_t flags = 0;
   for (const ambit_run *r = t->run; r < t->run + t->nrun; r++) {
     const uint32_t *dst = t->dst + r->first, *a = t->a + r->first, *b = t->b + r->first;
+    if (meter) meter->operation(r->op);
     switch (r->op) {
 #define CASE(OP, work, other)                                                                                          \
   case AMBIT_OP_##OP: run(&f, at, r->count, dst, a, other, work); break;

@@ -7,11 +7,13 @@
 #ifndef INTERVAL_H
 #define INTERVAL_H
 #include <ambit/arithmetic.h>
+#include <ambit/meter.h>
 #include <ambit/num.h>
 #include <ambit/rounding.h>
 
 typedef struct interval_context {
   const ambit_num_service *num;
+  const ambit_meter_service *meter; /* NULL: not profiled */
   ambit_rounding outside; /* environment to restore on leave */
 } interval_context;
 

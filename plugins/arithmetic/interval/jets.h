@@ -47,6 +47,7 @@ typedef struct step {
 typedef struct jets jets;
 struct jets {
   const ambit_num_service *num;
+  const ambit_meter_service *meter;
   uint32_t order, ndir, width, blocks;
   uint32_t nslot, nsource, nin; /* sources are the constants and inputs, nin of them inputs */
   uint32_t nstep, nmoving;      /* steps whose degree is at least 1 come first in `moving` */

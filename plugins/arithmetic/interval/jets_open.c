@@ -204,6 +204,7 @@ ambit_status jets_open(const ambit_host *h, void *ctx, const ambit_tape *t, uint
   if (status) return status;
   uint32_t blocks = (ndir + width - 1) / width;
   jets shape = { .num = ((interval_context *)ctx)->num,
+    .meter = ((interval_context *)ctx)->meter,
     .order = order,
     .ndir = ndir,
     .width = width,

@@ -251,18 +251,30 @@ static inline void advance_step(jets *j, const step *s, uint32_t k) {
 }
 
 /* upward mode */
-static AMBIT_WORKER void advance_order(jets *j, uint32_t k) {
+static AMBIT_WORKER void advance_sources(jets *j, uint32_t k) {
   if (j->ndir && j->centre && k >= j->centre->failed) j->flags |= AMBIT_F_UNBOUNDED;
   for (uint32_t i = 0; i < j->nsource; i++)
     if (k <= j->slot[i].degree)
       source(j, i, k);
     else if (j->slot[i].u.rad[k] != 0)
       j->flags |= AMBIT_F_UNBOUNDED; /* put() was given what the tape excludes */
+}
+
+/* upward mode; steps [from, to), of those that move if k > 0 */
+static AMBIT_WORKER void advance_steps(jets *j, uint32_t k, uint32_t from, uint32_t to) {
   if (k == 0)
-    for (uint32_t i = 0; i < j->nstep; i++) advance_step(j, &j->step[i], 0);
+    for (uint32_t i = from; i < to; i++) advance_step(j, &j->step[i], 0);
   else
-    for (uint32_t i = 0; i < j->nmoving; i++)
+    for (uint32_t i = from; i < to; i++)
       if (k <= j->moving[i]->degree) advance_step(j, j->moving[i], k);
+}
+
+/* one after the other, each told before it is done */
+static void advance_metered(jets *j, uint32_t k, uint32_t count) {
+  for (uint32_t i = 0; i < count; i++) {
+    j->meter->operation(k ? j->moving[i]->op : j->step[i].op);
+    advance_steps(j, k, i, i + 1);
+  }
 }
 
 static uint32_t advance(void *self, uint32_t k) {
@@ -270,7 +282,12 @@ static uint32_t advance(void *self, uint32_t k) {
   if (k == 0) j->failed = j->order + 1, j->flags = 0;
   if (k > j->failed) return j->flags; /* nothing can be said any more */
   ambit_rounding old = ambit_round_up();
-  advance_order(j, k);
+  advance_sources(j, k);
+  uint32_t count = k ? j->nmoving : j->nstep;
+  if (j->meter)
+    advance_metered(j, k, count);
+  else
+    advance_steps(j, k, 0, count);
   ambit_rounding_restore(old);
   if (j->flags) j->failed = k;
   return j->flags;

@@ -35,6 +35,7 @@ void krawczyk_map(const krawczyk *k, uint32_t op, span *r, const span *a, const 
 
 void krawczyk_multiply(const krawczyk *k, span *r, const double *Mlo, const double *Mhi, uint32_t cols, const span *v) {
   for (uint32_t j = 0; j < cols; j++) k->in.lo[j] = v[j].lo, k->in.hi[j] = v[j].hi;
+  ambit_work_multiply(k->counted);
   k->num->matmul(k->n, cols, 1, k->out.lo, k->out.hi, Mlo, Mhi, k->in.lo, k->in.hi);
   for (uint32_t i = 0; i < k->n; i++) r[i] = (span) { k->out.lo[i], k->out.hi[i] };
 }

@@ -58,6 +58,7 @@ typedef struct krawczyk {
   ambit_problem problem;
   const ambit_num_service *num;
   const ambit_contract_service *contract;
+  ambit_work *counted;
   options options;
   uint32_t n, np, m;               /* m = n + np */
   ambit_lane rhs, jacobian, slope; /* f, df/dx, df/dp */

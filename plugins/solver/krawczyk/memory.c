@@ -143,6 +143,7 @@ ambit_status krawczyk_open(const ambit_host *h, const ambit_problem *p, const do
   k->host = h, k->n = p->nx, k->np = p->np, k->m = p->nx + p->np;
   k->num = h->service(h, AMBIT_NUM_SERVICE);
   k->contract = h->service(h, AMBIT_CONTRACT_SERVICE);
+  k->counted = ambit_work_open(h);
   if (!k->num || !k->contract) return h->fail(h, AMBIT_INVALID, "the host lends too few services");
   ambit_status status = check_options(h, option, &k->options);
   if (status == AMBIT_OK) status = check_problem(h, &k->problem);

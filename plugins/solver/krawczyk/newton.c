@@ -21,6 +21,7 @@
 static int set_matrix(krawczyk *k, matrix M) {
   uint32_t n = k->n;
   size_t entries = (size_t)n * n;
+  ambit_work_multiply(k->counted);
   k->num->matmul(n, n, n, k->A.lo, k->A.hi, k->C, k->C, M.lo, M.hi);
   for (size_t i = 0; i < entries; i++)
     if (!isfinite(k->A.lo[i]) || !isfinite(k->A.hi[i])) return 0;
@@ -79,6 +80,7 @@ static void set_residual(krawczyk *k) {
   }
   if (!krawczyk_vector(k, k->other, k->f_mid)) return;
   krawczyk_map(k, AMBIT_OP_SUB, k->p_off, k->mid + k->n, k->other + k->n, k->np);
+  ambit_work_multiply(k->counted);
   k->num->matmul(k->n, k->n, k->np, k->CS.lo, k->CS.hi, k->C, k->C, k->S.lo, k->S.hi);
   krawczyk_multiply(k, k->f_mid, k->C, k->C, k->n, k->f_mid);
   krawczyk_multiply(k, k->row, k->CS.lo, k->CS.hi, k->np, k->p_off);

@@ -19,6 +19,7 @@ static enum why examine(krawczyk *k, ambit_sink *sink, double share) {
   span *x = k->box;
   enum why why = WHY_DONE;
   k->examined++;
+  ambit_work_try(k->counted);
   if (krawczyk_contract(k, x) && !krawczyk_is_known(k, x)) {
     int proved = krawczyk_prove(k, x, k->around);
     if (proved > 0) why = krawczyk_keep_root(k, sink, x, k->around);

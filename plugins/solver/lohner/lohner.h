@@ -11,6 +11,7 @@
 #include "ball.h"
 #include <ambit/jet.h>
 #include <ambit/solver.h>
+#include <ambit/work.h>
 
 #define PIECES_MAX 16
 #define LOHNER_WIDTH 10 /* times its magnitude: how wide a state may get, if `width_max` says nothing */
@@ -108,6 +109,7 @@ typedef struct lohner {
   const ambit_jet_service *jet;
   options options;
   uint32_t nx, np, nc, ndir; /* nc columns; directions of slopes: the columns, then the states */
+  ambit_work *counted;
   ambit_jet *centre_jet, *box_jet;
 
   /* -- the set */

@@ -212,8 +212,9 @@ static ambit_status open_set(lohner *s, origin *o) {
   ambit_rounding_restore(old);
   if (flags)
     return s->host->fail(s->host, AMBIT_UNABLE,
-        "the initial values are not defined, or not bounded, for all values of their uncertain data; narrow the ranges "
-        "of the data");
+        "at t = %.9g s the initial values are not defined, or too large to compute with, for all values of their "
+        "uncertain data; narrow the ranges of the data in `initial`",
+        s->problem.time[0]);
   s->nc = count_columns(s, o);
   s->ndir = s->nc + s->nx;
   if (!allocate_vectors(s) || !lohner_open_wishes(s)) return no_memory(s->host);
@@ -231,6 +232,7 @@ ambit_status lohner_open(const ambit_host *h, const ambit_problem *p, const doub
   if (!s) return no_memory(h);
   *s = (lohner) { .host = h, .jet = h->service(h, AMBIT_JET_SERVICE), .nx = p->nx, .np = p->np };
   memcpy(&s->problem, p, p->size < sizeof s->problem ? p->size : sizeof s->problem);
+  s->counted = ambit_work_open(h);
   if (!s->jet) return h->fail(h, AMBIT_INVALID, "lohner: this kernel does not lend `%s`", AMBIT_JET_SERVICE);
   s->options = choose_options(p, option);
   origin o;

@@ -280,6 +280,7 @@ static enum why search(lohner *s) {
   double most = smaller(s->longest, s->options.step_max), length = smaller(larger(s->guess, s->options.step_min), most);
   for (int i = 0; i < TRIES; i++) {
     if (!plan(s, length) || (s->step.length < s->options.step_min && !s->at_instant)) return WHY_NO_STEP;
+    ambit_work_try(s->counted);
     lohner_choose_units(s);
     double ratio = truncation(s), slope_ratio;
     if (s->lenient == LENIENT_NOT && ratio < INFINITY && has_no_size(s)) return WHY_NO_STEP;

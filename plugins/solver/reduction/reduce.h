@@ -28,6 +28,7 @@ typedef struct table {
   uint32_t width;
   double *lo, *hi; /* [width] */
   double *value;   /* [width x nout] by rows; NaN: not defined there */
+  ambit_work *counted;
 } table;
 
 /* Solutions of transposed systems, `stride` at once: entry i of number c at [i * stride + c]. */

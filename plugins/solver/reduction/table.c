@@ -22,6 +22,7 @@ ambit_status table_open(table *t, reducer *s, const ambit_tape *tape, uint32_t w
   if (!t->base || !t->lo || !t->hi || !t->value) return AMBIT_NOMEM;
   if (a->init && a->init(t->ctx, t->base, n) != AMBIT_OK) return AMBIT_NOMEM;
   t->tape = tape;
+  t->counted = ambit_work_open(s->host);
   set_constants(t);
   return AMBIT_OK;
 }
@@ -51,6 +52,7 @@ void table_load(table *t, const double *in, uint32_t count) {
   const ambit_tape *tape = t->tape;
   const ambit_arithmetic *a = t->arithmetic;
   set_inputs(t, in, count);
+  ambit_work_evaluate(t->counted, tape->ninstr, count);
   if (a->enter) a->enter(t->ctx);
   for (uint32_t i = 0; i < tape->nrun; i++) {
     const ambit_run *run = &tape->run[i];

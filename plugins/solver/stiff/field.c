@@ -177,12 +177,17 @@ static void step(fields *f, uint32_t op, field *r, const field *a, const field *
 
 void fields_run(fields *f) {
   const ambit_tape *t = f->tape;
+  const ambit_meter_service *meter = f->base->meter;
+  if (meter) meter->enter("tape in fields");
+  ambit_work_evaluate(f->base->counted, t->ninstr, 1);
   for (uint32_t i = 0; i < t->ninstr; i++) {
     field *r = &f->slot[t->dst[i]];
+    if (meter) meter->operation(t->op[i]);
     const field *a = &f->slot[t->a[i]];
     if (t->op[i] == AMBIT_OP_POWN)
       field_power(f, r, a, (int32_t)t->b[i]), forget(f, r);
     else
       step(f, t->op[i], r, a, &f->slot[t->b[i]]);
   }
+  if (meter) meter->leave();
 }

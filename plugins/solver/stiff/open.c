@@ -159,7 +159,7 @@ ambit_status stiff_open(const ambit_host *h, const ambit_problem *p, const doubl
   if (status != AMBIT_OK) return status;
   stiff *s = h->alloc(h, sizeof *s);
   if (!s) return h->fail(h, AMBIT_NOMEM, "stiff: out of memory");
-  s->host = h, s->num = h->service(h, AMBIT_NUM_SERVICE);
+  s->host = h, s->num = h->service(h, AMBIT_NUM_SERVICE), s->counted = ambit_work_open(h);
   memcpy(&s->problem, p, p->size < sizeof s->problem ? p->size : sizeof s->problem);
   s->nx = p->nx, s->np = p->np, s->n = s->inputs = p->nx + p->np;
   s->options = choose_options(option);

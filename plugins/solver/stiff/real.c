@@ -2,7 +2,7 @@
 #include "real.h"
 
 int real_open(const ambit_host *h, const series *s, real *r) {
-  *r = (real) { .tape = s->tape, .slot = h->alloc(h, s->tape->nslot * sizeof *r->slot) };
+  *r = (real) { .tape = s->tape, .slot = h->alloc(h, s->tape->nslot * sizeof *r->slot), .counted = s->counted };
   if (!r->slot) return 0;
   for (uint32_t i = 0; i < s->tape->nconst; i++) r->slot[i] = dd_long(poly_get(&s->slot[i], 0));
   return 1;
@@ -38,6 +38,7 @@ static long double operate(uint32_t op, long double a, long double b) {
 
 void real_run(real *r) {
   const ambit_tape *t = r->tape;
+  ambit_work_evaluate(r->counted, t->ninstr, 1);
   for (uint32_t i = 0; i < t->ninstr; i++) {
     long double a = r->slot[t->a[i]];
     r->slot[t->dst[i]] = t->op[i] == AMBIT_OP_POWN ? powl(a, (int32_t)t->b[i]) : operate(t->op[i], a, r->slot[t->b[i]]);

@@ -6,6 +6,7 @@
 typedef struct real {
   const ambit_tape *tape;
   long double *slot;
+  ambit_work *counted;
 } real;
 
 /* 0: no memory. Constants are those of `s`, a series of the same tape. */

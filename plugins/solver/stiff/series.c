@@ -21,7 +21,8 @@ static void set_constant(poly *r, double lo, double hi, const char *text) {
 }
 
 int series_open(const ambit_host *h, const ambit_num_service *num, const ambit_tape *t, uint32_t order, series *s) {
-  *s = (series) { .tape = t, .num = num, .order = order };
+  *s = (series) { .tape = t, .num = num, .order = order, .counted = ambit_work_open(h) };
+  s->meter = h->service(h, AMBIT_METER_SERVICE);
   s->slot = h->alloc(h, t->nslot * sizeof *s->slot);
   if (!s->slot) return 0;
   for (uint32_t i = 0; i < t->nslot; i++)
@@ -57,12 +58,16 @@ static void step(series *s, uint32_t op, poly *r, const poly *a, const poly *b) 
 
 void series_run(series *s) {
   const ambit_tape *t = s->tape;
+  ambit_work_evaluate(s->counted, t->ninstr, 1);
+  if (s->meter) s->meter->enter("tape in polynomials");
   for (uint32_t i = 0; i < t->ninstr; i++) {
     poly *r = &s->slot[t->dst[i]];
+    if (s->meter) s->meter->operation(t->op[i]);
     const poly *a = &s->slot[t->a[i]];
     if (t->op[i] == AMBIT_OP_POWN)
       series_power(s, r, a, (int32_t)t->b[i]), forget(r);
     else
       step(s, t->op[i], r, a, &s->slot[t->b[i]]);
   }
+  if (s->meter) s->meter->leave();
 }

@@ -9,6 +9,8 @@
 #include "dd.h"
 #include <ambit/num.h>
 #include <ambit/solver.h>
+#include <ambit/meter.h>
+#include <ambit/work.h>
 
 /* coefficients 0 .. n-1; room is with the owner */
 typedef struct poly {
@@ -23,6 +25,8 @@ typedef struct series {
   const ambit_num_service *num;
   uint32_t order; /* highest power that slots keep */
   uint32_t first; /* instructions from here on depend on inputs */
+  ambit_work *counted;
+  const ambit_meter_service *meter; /* NULL: not profiled */
   poly *slot;
   poly scratch[POLY_SCRATCH]; /* of 2 order + 3 coefficients */
 } series;

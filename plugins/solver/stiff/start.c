@@ -59,9 +59,9 @@ static ambit_status read_middle(stiff *s) {
 
 static ambit_status undefined(const stiff *s) {
   return s->host->fail(s->host, AMBIT_UNABLE,
-      "the initial values are not defined, or not bounded, for all values of their uncertain data; narrow the ranges "
-      "of "
-      "the data");
+      "at t = %.9g s the initial values are not defined, or too large to compute with, for all values of their "
+      "uncertain data; narrow the ranges of the data in `initial`",
+      s->problem.time[0]);
 }
 
 static ambit_status read_slopes(stiff *s) {

@@ -181,6 +181,7 @@ enum why step_make(stiff *s) {
   double length = s->guess;
   for (int i = 0; i < REJECTIONS; i++) {
     if (!plan(s, length)) return WHY_SHORT;
+    ambit_work_try(s->counted);
     double h = fabs(s->h.hi);
     if (!collocation_solve(&s->q, s->t, s->h.hi) || (s->spread && !spread_solve(s))) {
       s->last_why = WHY_NEWTON;

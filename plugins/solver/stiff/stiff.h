@@ -66,6 +66,7 @@ typedef struct slopes {
 
 typedef struct stiff {
   const ambit_host *host;
+  ambit_work *counted;
   ambit_problem problem;
   const ambit_num_service *num;
   options options;

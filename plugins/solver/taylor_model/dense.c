@@ -70,7 +70,7 @@ static void share_out(worker *w) {
     for (size_t j = 0; j < s->size && spread > 0; j++) share[j] += part[j] / spread;
   }
   for (uint32_t v = 0; v < f->m && s->d > 0; v++)
-    if (share[start_linear(s, v)] > 0) share[start_linear(s, v)] = INFINITY;
+    if (share[polynomial_linear(s, v)] > 0) share[polynomial_linear(s, v)] = INFINITY;
 }
 
 static void choose_columns(worker *w) {

@@ -13,6 +13,7 @@
 #include <ambit/jet.h>
 #include <ambit/pool.h>
 #include <ambit/solver.h>
+#include <ambit/work.h>
 
 /* Why a piece could not go on. */
 enum why {
@@ -60,6 +61,7 @@ typedef struct worker {
   ambit_arithmetic polynomials; /* private: its jets are series_jets */
   ambit_jet *jet, *box, *near;  /* polynomials; slopes over a sub-range; derivatives near the step */
   series *series;               /* inside of jet */
+  ambit_work *counted;
   zonotope_shape shape;
   search search;
   span step;
@@ -93,6 +95,7 @@ typedef struct flow {
   uint32_t nx, np, m, ns;        /* unknowns of the polynomials; sub-ranges of a piece */
   uint32_t *cuts;                /* [m] parts of each unknown; their product is ns */
   double *sub_about, *sub_reach; /* [ns x m] [m] */
+  double *middle, *whole;        /* [m] [m] zeros, ones: the box of a piece */
   /* levels of grouping, 0 the finest; [levels] groups; [levels x ns] the group of each sub-range */
   uint32_t levels, *ngroup, *group;
   double *unit_mid, *unit_rad;                           /* [m] of the problem's unknowns: u = mid + rad xi */
@@ -132,6 +135,10 @@ int flow_split(flow *f, uint32_t number); /* 0: no room */
 
 /* step.c: one step, at most to `goal` */
 enum why flow_step(worker *w, piece *p, double goal);
+/* x [size] := the polynomials of state i at t, behind the start of the step; returns a bound of what is off */
+double flow_evaluate(const worker *w, const span *t, uint32_t i, double *x);
+/* tube.c: what the polynomials know of the tube of a step that is proved */
+void flow_narrow_tube(worker *w, const piece *p);
 /* proof.c: slopes, distance and tube of group n of sub-ranges over w->step; 0: not proved */
 int flow_prove(worker *w, piece *p, uint32_t n);
 /* set.c */

@@ -6,45 +6,57 @@
 */
 #include "polynomial.h"
 
+/* the first `terms` coefficients of a, or all of them in blocks of four, times b */
 static inline __attribute__((always_inline)) void multiply_row(
-    double *c, double factor, const double *a, const double *b, int groups) {
-  four sum[8];
-#pragma GCC unroll 8
-  for (int g = 0; g < groups; g++) sum[g] = *(const four *)(c + 4 * g);
+    four *sum, double factor, const double *a, const double *b, int groups, int terms) {
 #pragma GCC unroll 8
   for (int block = 0; block < groups; block++) {
 #pragma GCC unroll 4
     for (int j = 0; j < 4; j++) {
+      if (4 * block + j >= terms) continue;
       double x = factor * a[4 * block + j];
       four broadcast = { x, x, x, x };
 #pragma GCC unroll 8
       for (int g = block; g < groups; g++) sum[g] += broadcast * *(const four *)(b + 4 * (g - block) - j);
     }
   }
+}
+
+/* row r of the product: with many unknowns, most rows are one or two coefficients long */
+static inline __attribute__((always_inline)) void multiply_into(
+    const space *s, double *c, double factor, cell a, cell b, uint32_t r, int groups, int terms) {
+  uint32_t atop = (uint32_t)a.info[TOP], btop = (uint32_t)b.info[TOP];
+  double *to = c + s->row[r].at;
+  four sum[8];
 #pragma GCC unroll 8
-  for (int g = 0; g < groups; g++) *(four *)(c + 4 * g) = sum[g];
+  for (int g = 0; g < groups; g++) sum[g] = *(const four *)(to + 4 * g);
+  for (uint32_t k = s->pairs[r]; k < s->pairs[r + 1]; k++) {
+    const row *x = &s->row[s->pair[k].a], *y = &s->row[s->pair[k].b];
+    if (x->degree > atop || y->degree > btop) continue;
+    multiply_row(sum, factor, a.c + x->at, b.c + y->at, groups, terms);
+  }
+#pragma GCC unroll 8
+  for (int g = 0; g < groups; g++) *(four *)(to + 4 * g) = sum[g];
 }
 
 static void multiply(const space *s, double *c, double factor, cell a, cell b) {
-  uint32_t atop = (uint32_t)a.info[TOP], btop = (uint32_t)b.info[TOP];
-  for (uint32_t r = 0; r < s->nrow && s->row[r].degree <= atop + btop; r++) {
-    double *to = c + s->row[r].at;
-    for (uint32_t k = s->pairs[r]; k < s->pairs[r + 1]; k++) {
-      const row *x = &s->row[s->pair[k].a], *y = &s->row[s->pair[k].b];
-      if (x->degree > atop || y->degree > btop) continue;
-      const double *u = a.c + x->at, *v = b.c + y->at;
+  uint32_t most = (uint32_t)a.info[TOP] + (uint32_t)b.info[TOP];
+  for (uint32_t r = 0; r < s->nrow && s->row[r].degree <= most; r++) switch (s->row[r].length) {
+    case 1: multiply_into(s, c, factor, a, b, r, 1, 1); break;
+    case 2: multiply_into(s, c, factor, a, b, r, 1, 2); break;
+    case 3: multiply_into(s, c, factor, a, b, r, 1, 3); break;
+    case 4: multiply_into(s, c, factor, a, b, r, 1, 4); break;
+    default:
       switch (s->row[r].groups) {
-      case 1: multiply_row(to, factor, u, v, 1); break;
-      case 2: multiply_row(to, factor, u, v, 2); break;
-      case 3: multiply_row(to, factor, u, v, 3); break;
-      case 4: multiply_row(to, factor, u, v, 4); break;
-      case 5: multiply_row(to, factor, u, v, 5); break;
-      case 6: multiply_row(to, factor, u, v, 6); break;
-      case 7: multiply_row(to, factor, u, v, 7); break;
-      default: multiply_row(to, factor, u, v, 8);
+      case 2: multiply_into(s, c, factor, a, b, r, 2, 8); break;
+      case 3: multiply_into(s, c, factor, a, b, r, 3, 12); break;
+      case 4: multiply_into(s, c, factor, a, b, r, 4, 16); break;
+      case 5: multiply_into(s, c, factor, a, b, r, 5, 20); break;
+      case 6: multiply_into(s, c, factor, a, b, r, 6, 24); break;
+      case 7: multiply_into(s, c, factor, a, b, r, 7, 28); break;
+      default: multiply_into(s, c, factor, a, b, r, 8, 32);
       }
     }
-  }
 }
 
 static inline void add_multiple(const space *s, double *c, double x, const double *b) {

@@ -19,7 +19,7 @@ static double share_of(const flow *f, uint32_t v) {
   double share = 0;
   for (uint32_t i = 0; i < f->nx + f->np; i++) {
     const double *c = i < f->nx ? f->start_x + i * s->size : f->start_p + (i - f->nx) * s->size;
-    double middle = fabs(c[s->row[0].at]), move = fabs(c[start_linear(s, v)]);
+    double middle = fabs(c[s->row[0].at]), move = fabs(c[polynomial_linear(s, v)]);
     if (move > 0) share += move / (middle + move);
   }
   return share;
@@ -38,7 +38,9 @@ static int choose_cuts(flow *f) {
   f->ns = 1;
   for (uint32_t v = 0; v < f->m; v++) f->ns *= f->cuts[v];
   f->sub_about = doubles(f->host, (size_t)f->ns * f->m), f->sub_reach = doubles(f->host, f->m);
-  if (!f->sub_about || !f->sub_reach) return 0;
+  f->middle = doubles(f->host, f->m), f->whole = doubles(f->host, f->m);
+  if (!f->sub_about || !f->sub_reach || !f->middle || !f->whole) return 0;
+  for (uint32_t v = 0; v < f->m; v++) f->middle[v] = 0, f->whole[v] = 1;
   for (uint32_t n = 0; n < f->ns; n++)
     for (uint32_t v = 0, left = n; v < f->m; left /= f->cuts[v++])
       f->sub_about[(size_t)n * f->m + v] = (2.0 * (left % f->cuts[v]) + 1) / f->cuts[v] - 1;
@@ -134,6 +136,7 @@ static ambit_status open_worker(flow *f, worker *w, void *actx) {
   const ambit_problem *p = &f->problem;
   const ambit_jet_service *j = f->jet;
   w->flow = f;
+  w->counted = ambit_work_open(f->host);
   w->source = (series_source) { &f->space, f->num, NULL };
   w->polynomials = (ambit_arithmetic) { .size = sizeof w->polynomials, .rigorous = 1, .jets = &series_jets };
   if (!open_arrays(f, w)) return no_memory(f->host);

@@ -85,6 +85,11 @@ static inline double larger(double a, double b) { return a > b ? a : b; }
 static inline double smaller(double a, double b) { return a < b ? a : b; }
 static inline double gamma_of(double n) { return n * 0x1p-52 / -(n * 0x1p-52 - 1); }
 
+/* where the coefficient of unknown v alone lies; d > 0 */
+static inline size_t polynomial_linear(const space *s, uint32_t v) {
+  return v == 0 ? s->row[0].at + 1u : s->row[s->next[(size_t)v * s->nrow]].at;
+}
+
 ambit_status space_open(const ambit_host *h, space *s, uint32_t m, uint32_t d);
 uint64_t space_count(uint32_t m, uint32_t d); /* monomials */
 void sum_convolve_portable(const space *s, struct sum *x, const series_part *of);

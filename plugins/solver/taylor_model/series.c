@@ -46,6 +46,7 @@ static ambit_status open(const ambit_host *h, void *ctx, const ambit_tape *t, ui
   series *s = h->alloc(h, sizeof *s);
   if (!s) return AMBIT_NOMEM;
   *s = (series) { .space = source->space, .num = source->num, .tape = t, .order = order };
+  s->meter = h->service(h, AMBIT_METER_SERVICE);
   if (!allocate(h, s)) return h->fail(h, AMBIT_NOMEM, "taylor_model: out of memory for polynomial series");
   ambit_rounding old = ambit_round_up();
   put_constants(s);
@@ -74,7 +75,9 @@ static uint32_t advance(void *self, uint32_t k) {
   uint32_t flags = 0;
   for (uint32_t i = 0; i < s->tape->ninstr && !flags; i++) {
     uint32_t degree = s->tape->degree[s->tape->dst[i]];
-    if (k <= degree) flags = series_rule(s, i, k);
+    if (k > degree) continue;
+    if (s->meter) s->meter->operation(s->tape->op[i]);
+    flags = series_rule(s, i, k);
   }
   for (uint32_t i = 0; i < s->tape->nout && !flags; i++) {
     cell x = series_cell(s, s->tape->out[i], k);

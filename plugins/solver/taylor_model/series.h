@@ -8,6 +8,7 @@
 #define TAYLOR_MODEL_SERIES_H
 #include "range.h"
 #include <ambit/jet.h>
+#include <ambit/meter.h>
 #include <ambit/num.h>
 
 #define SCRATCH_CELLS 12
@@ -15,6 +16,7 @@
 typedef struct series {
   const space *space;
   const ambit_num_service *num;
+  const ambit_meter_service *meter; /* NULL: not profiled */
   const ambit_tape *tape;
   uint32_t order;
   double *cells;         /* [nslot x (order + 1)] */

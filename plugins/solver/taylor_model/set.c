@@ -32,12 +32,21 @@ static void box_hull(const flow *f, const piece *p, uint32_t i, double *lo, doub
   }
 }
 
+/* remainders that differ by less than the tolerance are taken as one, over the whole piece */
 static double highest(worker *w, const piece *p, uint32_t i, double sign, double tolerance) {
   const flow *f = w->flow;
+  double most = 0, least = INFINITY;
   search_begin(&w->search, p->x + i * f->space.size, sign);
-  for (uint32_t n = 0; n < f->ns; n++)
-    search_add(
-        &w->search, f->sub_about + (size_t)n * f->m, f->sub_reach, zonotope_at(&w->shape, p->zonotope, n).sum[i]);
+  for (uint32_t n = 0; n < f->ns; n++) {
+    double rest = zonotope_at(&w->shape, p->zonotope, n).sum[i];
+    most = larger(most, rest), least = smaller(least, rest);
+  }
+  if (most - least <= tolerance)
+    search_add(&w->search, f->middle, f->whole, most);
+  else
+    for (uint32_t n = 0; n < f->ns; n++)
+      search_add(
+          &w->search, f->sub_about + (size_t)n * f->m, f->sub_reach, zonotope_at(&w->shape, p->zonotope, n).sum[i]);
   return search_maximum(&w->search, tolerance, 0);
 }
 

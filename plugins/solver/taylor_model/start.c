@@ -20,14 +20,10 @@ static AMBIT_WORKER uint32_t evaluate(flow *f, ambit_jet *jet, series *s) {
     f->unit_mid[i] = mid, f->unit_rad[i] = larger(p->u_hi[i] - mid, mid - p->u_lo[i]);
     memset(c, 0, f->space.size * sizeof *c);
     c[f->space.row[0].at] = mid;
-    c[start_linear(&f->space, i)] = f->unit_rad[i];
+    c[polynomial_linear(&f->space, i)] = f->unit_rad[i];
     series_put(s, i, c, 0);
   }
   return f->jet->advance(jet, 0);
-}
-
-size_t start_linear(const space *s, uint32_t v) {
-  return v == 0 ? s->row[0].at + 1u : s->row[s->next[(size_t)v * s->nrow]].at;
 }
 
 static int is_thin(double rad, double mid) { return rad <= THIN * fabs(mid) + 0x1p-900; }
@@ -45,7 +41,7 @@ static uint32_t keep(flow *f, const series *s, uint32_t m0) {
     memcpy(to, x.c, size * sizeof *to);
     *rad = cell_rad(x);
     if (is_thin(*rad, cell_norm(x))) continue;
-    if (m0 + own < f->m) to[start_linear(&f->space, m0 + own)] = *rad, *rad = 0;
+    if (m0 + own < f->m) to[polynomial_linear(&f->space, m0 + own)] = *rad, *rad = 0;
     own++;
   }
   return own;
@@ -86,8 +82,10 @@ static ambit_status evaluate_over(flow *f, uint32_t m, uint32_t *own) {
   f->jet->close(jet);
   if (flags)
     return h->fail(h, AMBIT_UNABLE,
-        "the initial values are not defined, not smooth or not bounded for all values of their uncertain data; narrow "
-        "the ranges of the data");
+        "at t = %.9g s the initial values are not defined, not smooth, or too large to compute with, for all values of "
+        "their "
+        "uncertain data; narrow the ranges of the data in `initial`",
+        p->time[0]);
   return AMBIT_OK;
 }
 

@@ -4,7 +4,6 @@
 #include "flow.h"
 
 ambit_status start_open(flow *f);                /* space and start_* of the initial set */
-size_t start_linear(const space *s, uint32_t v); /* where the coefficient of unknown v is */
 uint32_t flow_automatic_order(uint32_t m);
 double flow_automatic_split_tolerance(uint32_t m);
 uint32_t flow_automatic_pieces(size_t bytes_of_piece);

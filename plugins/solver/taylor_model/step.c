@@ -120,25 +120,22 @@ static ratio compare(const worker *w) {
 
 /* -- the move */
 
-/* x := sum of X_k h^k, rounding[i] bounding what that changes: X_k goes through k products and k + 1 sums */
-static void evaluate(worker *w) {
-  flow *f = w->flow;
-  uint32_t order = f->options.time_order;
-  size_t size = f->space.size;
-  double h = w->step.h, H = w->step.length;
-  for (uint32_t i = 0; i < f->nx; i++) {
-    double *x = w->x + i * size, off = 0, drift = 0, power = 1;
-    memcpy(x, coefficient(w, i, order).c, size * sizeof *x);
-    for (uint32_t k = order; k-- > 0;) {
-      const double *c = coefficient(w, i, k).c;
-      for (size_t j = 0; j < size; j += 4) *(four *)(x + j) = h * *(const four *)(x + j) + *(const four *)(c + j);
-    }
-    for (uint32_t k = 0; k <= order; k++, power *= H) {
-      off += gamma_of(2.0 * k + 2) * cell_norm(coefficient(w, i, k)) * power;
-      if (k < order) drift += (k + 1.0) * cell_norm(coefficient(w, i, k + 1)) * power;
-    }
-    w->rounding[i] = off + drift * w->step.error + (off > 0 ? TINY : 0);
+/* x := sum of X_k h^k of state i; returns what rounding and the error of h change: X_k has k products and k + 1
+** sums */
+double flow_evaluate(const worker *w, const span *t, uint32_t i, double *x) {
+  uint32_t order = w->flow->options.time_order;
+  size_t size = w->flow->space.size;
+  double off = 0, drift = 0, power = 1;
+  memcpy(x, coefficient(w, i, order).c, size * sizeof *x);
+  for (uint32_t k = order; k-- > 0;) {
+    const double *c = coefficient(w, i, k).c;
+    for (size_t j = 0; j < size; j += 4) *(four *)(x + j) = t->h * *(const four *)(x + j) + *(const four *)(c + j);
   }
+  for (uint32_t k = 0; k <= order; k++, power *= t->length) {
+    off += gamma_of(2.0 * k + 2) * cell_norm(coefficient(w, i, k)) * power;
+    if (k < order) drift += (k + 1.0) * cell_norm(coefficient(w, i, k + 1)) * power;
+  }
+  return off + drift * t->error + (off > 0 ? TINY : 0);
 }
 
 static int is_bounded(const flow *f, piece *p) {
@@ -155,7 +152,8 @@ static enum why move(worker *w, piece *p) {
   flow *f = w->flow;
   uint32_t nx = f->nx;
   double blur = 0, part = 0; /* what the radii of slopes add to remainders; remainders in their boxes; relative */
-  evaluate(w);
+  for (uint32_t i = 0; i < nx; i++) w->rounding[i] = flow_evaluate(w, &w->step, i, w->x + (size_t)i * f->space.size);
+  flow_narrow_tube(w, p);
   memcpy(p->x, w->x, nx * f->space.size * sizeof(double));
   for (uint32_t n = 0; n < f->ns; n++) {
     zonotope z = zonotope_at(&w->shape, p->zonotope, n);
@@ -217,6 +215,7 @@ static enum why try_step(worker *w, piece *p, double goal) {
   uint32_t failed = 0;
   for (int i = 0; i < TRIES; i++) {
     if (!plan(w, p, goal, length) || (w->step.length < o->step_min && !w->at_goal)) return WHY_NO_STEP;
+    ambit_work_try(w->counted);
     int bounded = measure_defect(w), cut_short = w->at_goal || w->step.length < 0.99 * length;
     ratio r = bounded ? compare(w) : (ratio) { INFINITY, INFINITY };
     double allowed = r.rest <= o->split_tolerance ? larger(o->tolerance, SHARE * r.rest) : o->tolerance;

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #define NEWTON_MAX 12
+#define SMALL 1e-9 /* of the largest state: see note_magnitudes() */
 
 static double *room(const valencia *s, size_t n) { return s->host->alloc(s->host, (n + 1) * sizeof(double)); }
 
@@ -152,10 +153,14 @@ static double newton(valencia *s, const double *start, const double *p, double h
   fill_matrix(s, half);
   if (!decompose(s)) return -1;
   solve(s, 1);
-  double change = 0;
+  double change = 0, most = 0;
   for (size_t k = 0; k < g->n * nx; k++) {
     g->rate[k] += g->right[k];
-    double moved = fabs(half * g->rate[k]); /* all there is of a state that starts at 0 */
+    most = larger_or_nan(most, fabs(half * g->rate[k]));
+  }
+  for (size_t k = 0; k < g->n * nx; k++) {
+    /* all there is of a state that starts at 0; beside much larger ones it may be nothing but rounding */
+    double moved = larger(fabs(half * g->rate[k]), SMALL * most);
     double size = larger(larger(fabs(start[k % nx]), s->magnitude[k % nx]), moved) + 1e-300;
     change = larger_or_nan(change, fabs(half * g->right[k]) / size);
   }

@@ -98,8 +98,9 @@ static ambit_status open_origin(valencia *s) {
   ambit_lane_close(&lane);
   if (flags)
     return s->host->fail(s->host, AMBIT_UNABLE,
-        "the initial values are not defined, or not bounded, for all values of their uncertain data; narrow the ranges "
-        "of the data");
+        "at t = %.9g s the initial values are not defined, or too large to compute with, for all values of their "
+        "uncertain data; narrow the ranges of the data in `initial`",
+        s->problem.time[0]);
   memcpy(s->start_p, s->p, s->nx * s->terms.n * sizeof *s->p);
   memcpy(s->start_w, s->w, s->nx * sizeof *s->w);
   return AMBIT_OK;
@@ -121,6 +122,7 @@ ambit_status valencia_open(const ambit_host *h, const ambit_problem *p, const do
   if (!s) return no_memory(h);
   *s = (valencia) { .host = h, .nx = p->nx, .np = p->np, .nu = p->nu, .ndir = p->nx + p->np };
   memcpy(&s->problem, p, p->size < sizeof s->problem ? p->size : sizeof s->problem);
+  s->counted = ambit_work_open(h);
   s->num = h->service(h, AMBIT_NUM_SERVICE), s->jet = h->service(h, AMBIT_JET_SERVICE);
   if (!s->num || !s->jet)
     return h->fail(

@@ -159,16 +159,27 @@ static double factor_for(const valencia *s, double excess) {
   return smaller(larger(f, 0.3), GROW_MAX);
 }
 
+/* no step of h: the clock does not move, it moves no less than by the last one, or less than it may */
+static int is_too_short(valencia *s, double h, double last) {
+  if (!set_times(s, h) || !(s->h < last)) return 1;
+  /* an instant may be closer than the least step */
+  return s->h < s->options.step_min && (!s->at_instant || h < s->options.step_min);
+}
+
+/* The last step, of argument h: if it was proved, only with a larger error than wanted, it is the one to take. */
+static enum why settle(valencia *s, double h, enum why why) {
+  if (why == WHY_NOTHING) set_times(s, h), s->guess = s->h;
+  return why;
+}
+
 static enum why find_step(valencia *s) {
-  double h = s->guess, over_before = INFINITY, rate_before = INFINITY;
+  double h = s->guess, tried = h, last = INFINITY, over_before = INFINITY, rate_before = INFINITY;
   enum why why = WHY_NO_CONTAIN;
   for (;;) {
-    if (!set_times(s, h) || s->h < s->options.step_min) {
-      /* an instant may be closer than the least step */
-      if (!s->at_instant || s->t_next == s->t) return why;
-      if (h < s->options.step_min) return why;
-    }
-    h = s->h, s->kink_name = NULL;
+    if (is_too_short(s, h, last)) return settle(s, tried, why);
+    tried = h;
+    ambit_work_try(s->counted);
+    h = last = s->h, s->kink_name = NULL;
     why = valencia_curve(s) ? valencia_verify(s) : WHY_CURVE;
     if (why != WHY_NOTHING) {
       h *= why == WHY_DOMAIN ? 0.25 : 0.5;
@@ -251,7 +262,7 @@ static void begin(valencia *s) {
   memcpy(s->w, s->start_w, s->nx * sizeof *s->w);
   for (uint32_t k = 0; k < s->nx * s->nx; k++) s->b[k] = k % (s->nx + 1) == 0;
   s->t = p->time[0], s->next = 1, s->has_faces = 0, s->rate_known = 0;
-  s->guess = smaller(0.01 * fabs(p->time[p->ntime - 1] - p->time[0]), s->options.step_max);
+  s->guess = smaller(larger(0.01 * fabs(p->time[p->ntime - 1] - p->time[0]), s->options.step_min), s->options.step_max);
   find_hull(s);
   memset(s->magnitude, 0, s->nx * sizeof *s->magnitude);
   note_magnitudes(s, 0);

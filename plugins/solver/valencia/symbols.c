@@ -62,7 +62,8 @@ static int open_room(valencia *s) {
   const ambit_tape *t = s->problem.rhs;
   const ambit_arithmetic *a = s->problem.arithmetic;
   size_t count = t->nslot + MONOMIALS + TERMS_MAX, elem = a->elem(s->problem.actx);
-  y->lane = (ambit_lane) { t, a, s->problem.actx, s->host->alloc(s->host, count * elem), elem };
+  y->lane =
+      (ambit_lane) { t, a, s->problem.actx, s->host->alloc(s->host, count * elem), elem, ambit_work_open(s->host) };
   if (!y->lane.base || (a->init && a->init(s->problem.actx, y->lane.base, count) != AMBIT_OK)) return 0;
   y->count = count;
   for (uint32_t i = 0; i < t->nconst; i++) ambit_constant_set(a, s->problem.actx, element(s, i), t, i);
@@ -154,6 +155,7 @@ static uint32_t set_inputs(const valencia *s, const double *radius) {
 static uint32_t run_tape(const ambit_lane *l) {
   const ambit_tape *t = l->tape;
   uint32_t flags = 0;
+  ambit_work_evaluate(l->work, t->ninstr, 1);
   for (uint32_t i = 0; i < t->nrun; i++) {
     const ambit_run *r = &t->run[i];
     flags |= l->arithmetic->run[r->op](

@@ -82,6 +82,7 @@ typedef struct symbols {
 
 typedef struct valencia {
   const ambit_host *host;
+  ambit_work *counted;
   ambit_problem problem;
   options options;
   const ambit_num_service *num;

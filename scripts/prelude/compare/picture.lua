@@ -1,21 +1,18 @@
--- compare/picture.lua -- comparisons as a gnuplot script: width across (of several results: their largest
+-- compare/picture.lua -- comparisons as a gnuplot script: error or width across (of several results: their largest
 -- overestimation, since widths of different quantities do not compare), CPU time up, both logarithmic; one panel for
--- each comparison, one colour and marker for each arithmetic, its orders joined by a line. What cannot be drawn
--- (failures, widths that are zero, infinite or beyond the axis) is listed below.
+-- each comparison, one colour and marker for each method, its orders joined by a line. What cannot be drawn is listed
+-- below.
 --
 -- Everything is placed here, in pixels, and gnuplot draws it: so labels can keep clear of points and of each other.
 local compare_label = require "ambit.compare.label"
 local compare_table = require "ambit.compare.table"
 local compare_axis = require "ambit.compare.axis"
+local drawn = require "ambit.compare.drawn"
 
-local picture = {}
+local picture = { colours = drawn.colours }
 
 local panels_at_most = 6
-local notes_at_most = 12
 local char, line_height = 6.9, 17 -- pixels, of 13 px sans-serif
-
-picture.colours = { "#4477aa", "#ee6677", "#228833", "#aa3377", "#ccaa22", "#33aacc", "#885522", "#555555" }
-local markers = { 7, 5, 9, 13, 11, 15, 4, 6 }
 
 local function quoted(text) return "'" .. tostring(text):gsub("'", "''"):gsub("[\r\n]+", " ") .. "'" end
 
@@ -25,103 +22,6 @@ function picture.printable(text)
 end
 
 local function short(text, pixels) return compare_table.short(text, math.floor(pixels / char)) end
-
--- -- what is drawn
-
--- What goes across: the key of the row, the title, where the samples are.
-local function measure_of(comparison)
-  local paths, inner = comparison.paths, comparison.sample and comparison.sample.width
-  if #paths == 1 then
-    return "width", paths[1] == "" and "width of the enclosure" or "width of " .. paths[1], inner
-  end
-  local names = table.concat(paths, ", ")
-  if #names > 40 then names = ("%d results"):format(#paths) end
-  for _, row in ipairs(comparison.rows) do
-    if row.over_sample then
-      return "over_sample", ("largest overestimation of %s: width / sampled width"):format(names), 1
-    end
-  end
-  return "width", "largest width of " .. names, inner
-end
-
-local function drawable(row, key)
-  return row.enclosures and row.rigorous and row.status == "complete" and row[key] and compare_axis.on_axis(row[key])
-      and row.seconds_run > 0
-end
-
--- One style for each family, in the order of first appearance; families of one arithmetic differ in their dashes.
-local function styles_of(comparisons)
-  local styles, arithmetics, count = {}, {}, 0
-  for _, comparison in ipairs(comparisons) do
-    local key = measure_of(comparison)
-    for _, row in ipairs(comparison.rows) do
-      if drawable(row, key) and not styles[row.family] then
-        local base = arithmetics[row.arithmetic]
-        if not base then
-          base = { number = count % #picture.colours + 1, families = 0 }
-          arithmetics[row.arithmetic], count = base, count + 1
-        end
-        base.families = base.families + 1
-        styles[row.family] = { colour = picture.colours[base.number], marker = markers[base.number],
-          dash = (base.families - 1) % 5 + 1, axis = row.axis, name = row.family }
-        styles[#styles + 1] = styles[row.family]
-      end
-    end
-  end
-  return styles
-end
-
-local function note_of(row, key)
-  if row.reason then return ("%s: %s: %s"):format(row.label, row.status, row.reason) end
-  if not row.rigorous then return nil end
-  if row.width == 0 then
-    return ("%s: exact, width 0, in %s"):format(row.label, compare_table.seconds(row.seconds_run))
-  end
-  if row[key] and not compare_axis.on_axis(row[key]) then
-    return ("%s: %.3g is beyond the axis"):format(row.label, row[key])
-  end
-end
-
-local function notes_of(comparisons)
-  local notes = {}
-  for i, comparison in ipairs(comparisons) do
-    local key = measure_of(comparison)
-    for _, row in ipairs(comparison.rows) do
-      local note = not drawable(row, key) and note_of(row, key)
-      if note then notes[#notes + 1] = (#comparisons > 1 and ("%d. "):format(i) or "") .. note end
-    end
-  end
-  if #notes > notes_at_most then
-    notes[notes_at_most] = ("... and %d more, see the table"):format(#notes - notes_at_most + 1)
-    for i = #notes, notes_at_most + 1, -1 do notes[i] = nil end
-  end
-  return notes
-end
-
--- The families of a comparison, each a list of rows by rising order.
-local function families_of(comparison, key)
-  local families = {}
-  for _, row in ipairs(comparison.rows) do
-    if drawable(row, key) then
-      if not families[row.family] then
-        families[row.family] = {}
-        families[#families + 1] = families[row.family]
-      end
-      table.insert(families[row.family], row)
-    end
-  end
-  for _, family in ipairs(families) do
-    table.sort(family, function(a, b) return (tonumber(a.value) or 0) < (tonumber(b.value) or 0) end)
-  end
-  return families
-end
-
--- The time of arithmetics that prove nothing: a line across.
-local function reference_of(comparison)
-  for _, row in ipairs(comparison.rows) do
-    if not row.rigorous and row.seconds_run and row.seconds_run > 0 then return row end
-  end
-end
 
 -- -- layout
 
@@ -169,8 +69,7 @@ local hull_style, reference_style = "lc rgb '#888888' dt 3 lw 1.5", "lc rgb '#88
 local function write_legend(write, l, styles, has)
   local entries = {}
   for _, s in ipairs(styles) do
-    entries[#entries + 1] = { s.axis and ("%s, by %s"):format(s.name, s.axis) or s.name,
-      ("lc rgb '%s' dt %d lw 1.5"):format(s.colour, s.dash), s }
+    entries[#entries + 1] = { s.name, ("lc rgb '%s' dt %d lw 1.5"):format(s.colour, s.dash), s }
   end
   if has.reference then
     entries[#entries + 1] = { ("time of %s, proves nothing"):format(has.reference), reference_style }
@@ -279,9 +178,9 @@ local function write_families(write, l, families, key, styles, x, y, frame, data
 end
 
 local function write_panel(write, l, comparison, i, many, styles, data)
-  local key, title, inner = measure_of(comparison)
+  local key, title, inner = drawn.measure(comparison)
   if inner and not compare_axis.on_axis(inner) then inner = nil end
-  local families, reference = families_of(comparison, key), reference_of(comparison)
+  local families, reference = drawn.families(comparison, key), drawn.reference(comparison)
   local frame = frame_of(l, i)
   local x, y = ranges_of(families, key, inner, reference)
   write_axes(write, l, frame, x, y, title)
@@ -308,17 +207,25 @@ end
 local function legend_of(comparisons)
   local has = {}
   for _, comparison in ipairs(comparisons) do
-    local reference = reference_of(comparison)
-    has.reference = has.reference or reference and reference.arithmetic
-    has.sample = has.sample or (comparison.sample and comparison.sample.width > 0)
+    local reference = drawn.reference(comparison)
+    has.reference = has.reference or reference and (reference.solver or reference.arithmetic)
+    local _, _, inner = drawn.measure(comparison)
+    has.sample = has.sample or inner and inner > 0
   end
   return has
+end
+
+-- What goes across, in one word for all panels.
+function picture.subject(comparisons)
+  local words = {}
+  for _, comparison in ipairs(comparisons) do words[comparison.measure == "error" and "error" or "width"] = true end
+  return words.error and words.width and "error or width" or words.error and "error" or "width"
 end
 
 -- A gnuplot script that draws the comparisons to its standard output (SVG); the second value: how many were left out.
 function picture.script(comparisons, title)
   local shown = table.move(comparisons, 1, math.min(#comparisons, panels_at_most), 1, {})
-  local styles, notes = styles_of(shown), notes_of(shown)
+  local styles, notes = drawn.styles(shown), drawn.notes(shown)
   local l = layout(shown, styles, notes)
   local lines, write = writer()
   local blocks, data = data_blocks()

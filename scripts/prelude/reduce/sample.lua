@@ -112,7 +112,7 @@ local function one(facts, given, t)
   local times, n = grid(given.times), #system.states
   local handle = core.system(system.states, system.units, system.symbols, system.rates)
   local hulls, outcome = core.sample_system(handle, "gsl", nil, reference.options(handle, system.initial, times), {},
-    system.initial, times, t.draws, t.seed, t.threads)
+    system.initial, times, t.draws, t.seed, { threads = t.threads })
   local found = { name = given.name, t = times, error = {}, when = {}, curve = {}, failed = outcome.failed,
     reason = outcome.reason, cpu_seconds = outcome.cpu_seconds }
   for k, output in ipairs(facts.detailed.outputs) do

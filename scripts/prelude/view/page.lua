@@ -1,15 +1,12 @@
 -- view/page.lua -- what is to be shown, as one HTML page that needs nothing but itself. Its parts are scripts/view.
 local core = require "ambit.core"
+local html = require "ambit.page.html"
 local json = require "ambit.view.json"
 local parts = require "ambit.view.parts"
 
 local page = {}
 
 local scripts = { "geometry.js", "camera.js", "model.js", "drawing.js", "hands.js", "table.js", "player.js", "main.js" }
-
-local entities = { ["&"] = "&amp;", ["<"] = "&lt;", [">"] = "&gt;", ['"'] = "&quot;", ["'"] = "&#39;" }
-
-local function html(text) return (json.clean(text):gsub("%c", " "):gsub("[&<>\"']", entities)) end
 
 local function script()
   local list = {}
@@ -20,7 +17,7 @@ end
 -- views: what view_data makes, in order
 function page.of(views, scene)
   local content = json.encode { ambit = core.version, scene = scene, views = views }
-  local fill = { TITLE = html(views[1].title), STYLE = parts["view.css"], SCRIPT = script(), DATA = content }
+  local fill = { TITLE = html.text(views[1].title), STYLE = parts["view.css"], SCRIPT = script(), DATA = content }
   return (parts["page.html"]:gsub("@(%u+)@", fill))
 end
 

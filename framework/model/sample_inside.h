@@ -1,0 +1,43 @@
+/* sample_inside.h -- what sampling expressions and sampling systems share. */
+#ifndef AMBIT_SAMPLE_INSIDE_H
+#define AMBIT_SAMPLE_INSIDE_H
+#include "model/sample.h"
+#include "model/sample_points.h"
+#include <stdio.h>
+#include <time.h>
+
+#define AMBIT_SAMPLE_FEWEST 10 /* draws, from which on extremes are followed uphill */
+
+/* A datum that can be drawn has a range with ends. text: its name, or NULL. */
+static inline ambit_status ambit_sample_check_range(ambit_interval x, const char *text, ambit_failure *f) {
+  const char *quote = text ? "`" : "";
+  if (ambit_interval_is_empty(x))
+    return ambit_fail(
+        f, AMBIT_INVALID, "cannot draw %s%s%s: its range is empty", quote, text ? text : "an unknown", quote);
+  if (!ambit_interval_is_bounded(x))
+    return ambit_fail(f, AMBIT_INVALID, "cannot draw %s%s%s from [%g, %g]: its range is not bounded", quote,
+        text ? text : "an unknown", quote, x.lo, x.hi);
+  return AMBIT_OK;
+}
+
+static inline ambit_status ambit_sample_open_points(ambit_registry *registry, const ambit_sample_plan *plan, size_t n,
+    const ambit_interval *range, ambit_sample_points **points, ambit_failure *f) {
+  const ambit_sample_points_request q = { plan->draws, plan->seed, plan->points, plan->no_corners, n, range };
+  return ambit_sample_points_open(registry, &q, points, f);
+}
+
+static inline void ambit_sample_tell_points(const ambit_sample_points *points, ambit_sample_result *result) {
+  snprintf(result->points, sizeof result->points, "%s", ambit_sample_points_name(points));
+  snprintf(result->why, sizeof result->why, "%s", ambit_sample_points_why(points));
+}
+
+static inline int32_t ambit_sample_progress(ambit_sink *sink, double done) {
+  return sink && sink->progress ? sink->progress(sink, done, "sampling") : 0;
+}
+
+static inline double ambit_sample_wall(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+#endif

@@ -1,0 +1,24 @@
+-- measure.lua -- the counted work of the problems: { [name] = { [count] = number } }. Bytes are not among the counts:
+-- they depend on how wide a processor's vectors are.
+local core = require "ambit.core"
+local session = require "ambit.session"
+
+local measure = { counts = { "steps" } }
+
+for _, entry in ipairs(core.work) do
+  if entry[1] ~= "allocated" then measure.counts[#measure.counts + 1] = entry[1] end
+end
+
+-- The counts of all verbs that run() asks for.
+function measure.one(run)
+  local first, sums = #session.verbs + 1, {}
+  run()
+  for _, count in ipairs(measure.counts) do
+    local sum = 0
+    for i = first, #session.verbs do sum = sum + session.verbs[i].report[count] end
+    sums[count] = sum
+  end
+  return sums
+end
+
+return measure
