@@ -165,11 +165,13 @@ static double *find_option(const ambit_draws *d, const char *name) {
   return NULL;
 }
 
-bool ambit_draws_tighten(ambit_draws *d, double by) {
+bool ambit_draws_tighten(ambit_draws *d, double by, double longest) {
   double *relative = find_option(d, "relative"), *absolute = find_option(d, "absolute");
+  double *step_max = find_option(d, "step_max");
   if (!relative || !absolute) return false;
   *relative *= by;
   *absolute *= by;
+  if (step_max) *step_max = fmin(*step_max, longest);
   return true;
 }
 

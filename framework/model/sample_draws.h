@@ -22,8 +22,9 @@ void ambit_draws_close(ambit_draws *draws); /* NULL is allowed */
 const ambit_problem *ambit_draws_problem(const ambit_draws *draws);
 void ambit_draws_work(const ambit_draws *draws, ambit_work *sum); /* adds what was counted until now */
 const char *ambit_draws_arithmetic(const ambit_draws *draws);
-/* From now on the options `relative` and `absolute` are multiplied; false: the solver has not both. */
-bool ambit_draws_tighten(ambit_draws *draws, double by);
+/* From now on the options `relative` and `absolute` are multiplied, and `step_max`, if there is one, is no more than
+** `longest`; false: the solver has not both. */
+bool ambit_draws_tighten(ambit_draws *draws, double by, double longest);
 
 typedef struct ambit_draws_one {
   const double *point; /* datum i at point[i * stride] */

@@ -1,8 +1,9 @@
-/* sample_error.c -- the same draws with two tolerances. */
+/* sample_error.c -- the same draws with two tolerances, in lanes and one by one. */
 #include "model/sample_error.h"
 #include <math.h>
 
 #define TIGHTER 0.01      /* tolerances of the second run */
+#define FEWEST_STEPS 128  /* of it */
 #define CAUTION 10        /* times what it shows */
 #define MOST_KEPT 4000000 /* numbers of the first run */
 
@@ -10,8 +11,9 @@ typedef struct keeping {
   const ambit_problem *problem;
   ambit_flow_block block;
   size_t n;
-  double *x;     /* [ntime][nx][n] of the first run; NaN: not reached */
-  double *apart; /* [ntime * nx] of the second run the largest difference, NaN: none was found; NULL in the first */
+  bool again;    /* the second time, with tighter tolerances */
+  double *x;     /* [ntime][nx][n] that came first; NaN: not reached */
+  double *apart; /* [ntime * nx] the largest difference of others from them, NaN: none was found */
 } keeping;
 
 static void keep(void *user, uint32_t k, size_t lane, const double *x, size_t stride) {
@@ -19,7 +21,7 @@ static void keep(void *user, uint32_t k, size_t lane, const double *x, size_t st
   for (size_t i = 0; i < kept->problem->nx; i++) {
     size_t at = k * (size_t)kept->problem->nx + i;
     double *place = &kept->x[at * kept->n + lane];
-    if (!kept->apart)
+    if (isnan(*place) && !kept->again)
       *place = x[i * stride];
     else if (!isnan(*place))
       kept->apart[at] = fmax(kept->apart[at], fabs(x[i * stride] - *place)); /* fmax leaves NaN out */
@@ -34,16 +36,24 @@ static size_t count_witnesses(const ambit_sample_error *q) {
   return most < AMBIT_FLOW_LANES ? most : AMBIT_FLOW_LANES;
 }
 
+static bool is_among(const ambit_extreme *x, size_t n, const ambit_extreme *const *row) {
+  for (size_t k = 1; k < n; k++)
+    if (row[k]->draw == x->draw) return true;
+  return false;
+}
+
 /* The midpoint and the extremes, as many as there is room for: their points, [nu][n]; returns n. */
 static size_t choose_witnesses(const ambit_sample_error *q, double *point) {
   const ambit_problem *p = ambit_flow_problem(q->flow);
-  const double *row[AMBIT_FLOW_LANES] = { NULL };
+  const ambit_extreme *row[AMBIT_FLOW_LANES] = { NULL };
   size_t n = 1, most = count_witnesses(q);
-  for (size_t i = 0; i < (size_t)p->nx * AMBIT_SIDES && n < most; i++)
-    if (q->extreme[i].seen) row[n++] = q->extreme[i].point;
+  for (size_t i = q->extremes->m * AMBIT_SIDES; i-- > 0 && n < most;) {
+    const ambit_extreme *x = &q->extremes->at[i];
+    if (x->seen && !is_among(x, n, row)) row[n++] = x;
+  }
   for (size_t i = 0; i < p->nu; i++) {
     point[i * n] = ambit_interval_mid(ambit_flow_range(q->flow)[i]);
-    for (size_t k = 1; k < n; k++) point[i * n + k] = row[k][i];
+    for (size_t k = 1; k < n; k++) point[i * n + k] = row[k]->point[i];
   }
   return n;
 }
@@ -53,7 +63,11 @@ static bool run(const ambit_sample_error *q, keeping *kept, const double *point)
   kept->block.point = point;
   kept->block.see = keep;
   kept->block.user = kept;
-  return ambit_flow_make(q->flow, 0, &kept->block) == AMBIT_OK;
+  kept->block.alone = false;
+  bool good = ambit_flow_make(q->flow, 0, &kept->block) == AMBIT_OK;
+  kept->block.alone = true;
+  if (ambit_flow_is_one_by_one(q->flow) || !ambit_flow_has_draws(q->flow)) return good;
+  return good && ambit_flow_make(q->flow, 0, &kept->block) == AMBIT_OK;
 }
 
 ambit_status ambit_sample_estimate_error(const ambit_sample_error *q, ambit_arena *arena, double *error) {
@@ -68,11 +82,13 @@ ambit_status ambit_sample_estimate_error(const ambit_sample_error *q, ambit_aren
   if (!kept->x) return AMBIT_NOMEM;
   for (size_t i = 0; i < values; i++) error[i] = NAN;
   for (size_t i = 0; i < values * kept->n; i++) kept->x[i] = NAN;
-  bool done = run(q, kept, point) && ambit_flow_tighten(q->flow, TIGHTER);
   kept->apart = error;
-  if (!done || !run(q, kept, point)) return AMBIT_OK;
-  for (size_t i = 0; i < values; i++)
-    error[i] =
-        CAUTION * error[i] + (ambit_interval_is_empty(q->hull[i]) ? 0 : 0x1p-50 * ambit_interval_mag(q->hull[i]));
+  bool done = run(q, kept, point) && ambit_flow_tighten(q->flow, TIGHTER, FEWEST_STEPS);
+  kept->again = true;
+  done = done && run(q, kept, point);
+  for (size_t i = 0; i < values; i++) {
+    double rounding = ambit_interval_is_empty(q->hull[i]) ? 0 : 0x1p-50 * ambit_interval_mag(q->hull[i]);
+    error[i] = done ? CAUTION * error[i] + rounding : NAN;
+  }
   return AMBIT_OK;
 }

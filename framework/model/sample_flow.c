@@ -33,6 +33,7 @@ struct ambit_flow {
   const ambit_expr *unknown; /* [nu] */
   ambit_interval *range;     /* [nu] */
   double relative, absolute;
+  double longest; /* step; 0: any */
   uint32_t threads, ndrawer;
   drawer *drawer;
   ambit_draws *draws; /* or NULL */
@@ -168,6 +169,7 @@ const ambit_interval *ambit_flow_range(const ambit_flow *flow) { return flow->ra
 const char *ambit_flow_arithmetic(const ambit_flow *flow) { return flow->arithmetic; }
 uint32_t ambit_flow_threads(const ambit_flow *flow) { return flow->threads; }
 bool ambit_flow_is_one_by_one(const ambit_flow *flow) { return flow->one_by_one; }
+bool ambit_flow_has_draws(const ambit_flow *flow) { return flow->draws != NULL; }
 
 /* -- the way a block goes */
 
@@ -192,11 +194,12 @@ ambit_status ambit_flow_use_gsl(ambit_flow *flow, bool all, bool stiff, ambit_fa
   return status;
 }
 
-bool ambit_flow_tighten(ambit_flow *flow, double by) {
-  if (flow->one_by_one) return ambit_draws_tighten(flow->draws, by);
+bool ambit_flow_tighten(ambit_flow *flow, double by, double steps) {
+  const ambit_problem *p = &flow->problem;
+  flow->longest = fabs(p->time[p->ntime - 1] - p->time[0]) / steps;
   flow->relative = flow->relative > 0 ? fmax(flow->relative * by, TIGHTEST) : 0;
   flow->absolute *= by;
-  return true;
+  return !flow->draws || ambit_draws_tighten(flow->draws, by, flow->longest);
 }
 
 /* -- starts */
@@ -255,6 +258,7 @@ static void go_in_lanes(const ambit_flow *flow, drawer *d, ambit_flow_block *blo
     .p = d->start + flow->problem.nx * block->n,
     .relative = flow->relative,
     .absolute = flow->absolute,
+    .longest = flow->longest,
     .take = take,
     .pause = pause,
     .user = &way,

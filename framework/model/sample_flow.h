@@ -25,8 +25,9 @@ uint32_t ambit_flow_threads(const ambit_flow *flow);
 ** the system has a Jacobian. */
 ambit_status ambit_flow_use_gsl(ambit_flow *flow, bool all, bool stiff, ambit_failure *f);
 bool ambit_flow_is_one_by_one(const ambit_flow *flow);
-/* From now on with tolerances that are so much tighter; false: not possible. */
-bool ambit_flow_tighten(ambit_flow *flow, double by);
+bool ambit_flow_has_draws(const ambit_flow *flow); /* can blocks go `alone`? */
+/* From now on with tolerances that are so much tighter, and no fewer steps; false: not possible. */
+bool ambit_flow_tighten(ambit_flow *flow, double by, double steps);
 
 typedef enum ambit_fate {
   AMBIT_FATE_REACHED,

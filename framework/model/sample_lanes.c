@@ -281,6 +281,7 @@ static bool is_stiff(stepper *s, pace *p) {
 static ambit_lanes_outcome advance(stepper *s, pace *p, double to, double span, size_t *steps) {
   while (s->t != to && find_good(s) < s->n) {
     double left = to - s->t;
+    if (s->run->longest > 0 && fabs(p->next) > s->run->longest) p->next = copysign(s->run->longest, span);
     bool lands = fabs(p->next) * 1.01 >= fabs(left);
     s->h = lands ? left : p->next;
     try_step(s);

@@ -31,6 +31,7 @@ typedef struct ambit_lanes_run {
   size_t n;                  /* lanes */
   const double *x0, *p;      /* [nx][n], [np][n] */
   double relative, absolute; /* error allowed in a step: absolute + relative |x_i|, root mean square over i */
+  double longest;            /* step; 0: any */
   /* the states x [nx][n] at time[k], k = 1, ...; of the lanes that are not lost */
   void (*take)(void *user, uint32_t k, size_t n, const double *x, const bool *lost);
   int32_t (*pause)(void *user); /* after each step; nonzero: stop. May be NULL */

@@ -310,7 +310,7 @@ static ambit_status polish(job *j, ambit_failure *f) {
   return status == AMBIT_NOMEM ? no_memory(f) : status == AMBIT_STOPPED ? status : AMBIT_OK;
 }
 
-/* -- the error, at the midpoint and the extremes of the last instant */
+/* -- the error, at the midpoint and the extremes */
 
 static ambit_status estimate_error(job *j, const ambit_interval *hull, double *error, ambit_failure *f) {
   const ambit_problem *p = j->problem;
@@ -318,7 +318,7 @@ static ambit_status estimate_error(job *j, const ambit_interval *hull, double *e
   if (j->result->status != AMBIT_OK) return AMBIT_OK;
   const ambit_sample_error q = { .flow = j->flow,
     .draws = j->plan.draws,
-    .extreme = j->drawer[0].extremes.at + (size_t)(j->ninstant - 1) * p->nx * AMBIT_SIDES,
+    .extremes = &j->drawer[0].extremes,
     .hull = hull };
   ambit_status status = ambit_sample_estimate_error(&q, j->arena, error);
   return status == AMBIT_NOMEM ? no_memory(f) : AMBIT_OK;

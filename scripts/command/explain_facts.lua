@@ -32,7 +32,7 @@ end
 
 local stages = { "seconds_graph", "seconds_tape", "seconds_context", "seconds_open", "seconds_run", "seconds_close" }
 
--- A verb without a report of its own (reduce, hybrid) has only its time.
+-- A verb that has no report of its own has only its time.
 local function spent(verb, key)
   if key == "seconds_run" and not verb.report[key] then return verb.cpu_seconds end
   return verb.report[key] or 0

@@ -40,9 +40,10 @@ local function mappings()
   return by_path
 end
 
--- The loader names a library as it was asked for, the mappings name the file behind all links: libm.so.6 may be
--- libm.so.6.0.1 in another folder.
-local function mapping_of(maps, name)
+-- Where the loader names a library by a link, the mappings name the file behind it: libm.so.6 may be libm.so.6.0.1 in
+-- another folder.
+local function mapping_of(maps, path_asked, name)
+  if maps[path_asked] then return maps[path_asked] end
   local sum = { mapped = 0, resident = 0 }
   for path, map in pairs(maps) do
     if path:match("[^/]*$"):sub(1, #name) == name then
@@ -58,7 +59,7 @@ function explain.libraries()
   for _, path in ipairs(core.libraries()) do
     local name = path:match "[^/]+$"
     if not name:find "^linux%-" then
-      local map = mapping_of(maps, name)
+      local map = mapping_of(maps, path, name)
       list[#list + 1] = { name = name, mapped = map.mapped, resident = map.resident }
     end
   end

@@ -109,6 +109,7 @@ function verb.certify(t)
   local names, bounds = certify_bound.read(t.error, detailed.outputs, "certify", true)
   local scenarios = scenario.list(t, detailed, "certify", reduced)
   settings.choose(how, t, detailed, scenarios)
+  how.report = {} -- of all runs together
   proof.detailed(detailed, scenarios, how, "certify")
   how.all, how.goal = true, bounds
   if t.refine == nil then how.refine, how.gain = REFINE, GAIN end
@@ -119,7 +120,7 @@ function verb.certify(t)
   result.detailed, result.reduced, result.given = detailed, reduced, scenarios
   if result.status ~= "proved" then session.unable = true end
   session.finish("certify", { status = result.status, reason = result.reason, t_reached = result.t_reached,
-    cpu_seconds = result.cpu_seconds }, {}, { "criterion", how.criterion, "solver", how.solver, "options", how.shown,
+    cpu_seconds = result.cpu_seconds }, how.report, { "criterion", how.criterion, "solver", how.solver, "options", how.shown,
     "error", fields(names, result.error), "bounds", fields(names, bounds) })
   return setmetatable(result, Certificate)
 end

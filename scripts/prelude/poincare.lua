@@ -113,7 +113,7 @@ function verb.poincare(t)
     x, now = image.x, image.t
   end
   map.cpu_seconds, map.step_count, map.rigorous = q.cpu_seconds, q.step_count, q.rigorous
-  session.finish("poincare", map, {}, { "solver", q.solver, "options", q.settings, "t_max", latest })
+  session.finish("poincare", map, q.report, { "solver", q.solver, "options", q.settings, "t_max", latest })
   return map
 end
 

@@ -117,6 +117,7 @@ end
 
 local function begin(job)
   job.start, job.proofs, job.cpu_seconds_rank = core.cpu(), 0, 0
+  job.settings.report = {} -- of all runs together
   job.terms, job.log, job.history, job.ranked = {}, {}, {}, {}
   job.solver_options = options_of(job.asked)
   job.solver_of = function() return job.settings end
@@ -274,7 +275,7 @@ local function finish(job, result)
   local errors, times = {}, job.scenarios[1].times
   for _, name in ipairs(result.outputs) do errors[#errors + 1], errors[#errors + 2] = name, result.error[name] end
   session.finish("reduce", { status = result.status, reason = result.reason, cpu_seconds = result.cpu_seconds,
-    t_reached = times[#times] }, {},
+    t_reached = times[#times] }, job.settings.report,
     { "criterion", result.criterion, "solver", result.settings.solver, "options", result.settings.options, "ranking",
       result.ranking, "strategy", result.strategy, "cluster", result.cluster, "give_up", result.give_up, "error",
       errors, "terms_before", result.terms_before, "terms_after", result.terms_after, "proofs", result.proofs })

@@ -224,7 +224,7 @@ function verb.hybrid(t)
   local result = switch_run.new(q)
   result.status, result.reason = run_modes(q, result, mode)
   switch_run.finish(result, q)
-  session.finish("hybrid", result, {}, { "solver", q.solver, "options", q.settings, "t_start", q.times[1], "t_end",
+  session.finish("hybrid", result, q.report, { "solver", q.solver, "options", q.settings, "t_start", q.times[1], "t_end",
     q.times[#q.times] })
   return result
 end

@@ -1,4 +1,7 @@
 # The programs of scripts/bench run: they print a table and end without an error. Their times are nobody's test.
+if(NOT AMBIT_ONCE)
+  return()
+endif()
 function(ambit_bench name)
   add_test(NAME bench.${name} COMMAND ${CMAKE_COMMAND} -DCOMMAND=$<TARGET_FILE:ambit>
     -DPROGRAM=${PROJECT_SOURCE_DIR}/scripts/bench/${name}.lua "-DWORDS=${ARGN}" -P ${PROJECT_SOURCE_DIR}/cmake/check_bench.cmake)

@@ -71,6 +71,19 @@ describe("ambit explain", function()
     has(output, "0 verbs", "the scene has no mechanism", "not asked for: the scene has no ambit.reduce")
   end)
 
+  it("measures each of two plugins whose files have the same name", function()
+    if not has_cjson then return pending "cjson is not installed" end
+    local by = records(decay .. [[
+ambit.simulate { f, initial = { x = 1 }, t = 1, solver = "taylor_model" }
+ambit.evaluate { ambit.between(0, 1), arithmetic = "taylor_model" }]])
+    local mapped = {}
+    for _, library in ipairs(by.library) do
+      if library.name == "taylor_model.so" then mapped[#mapped + 1] = library.mapped end
+    end
+    assert.equal(2, #mapped)
+    assert.are_not.equal(mapped[1], mapped[2])
+  end)
+
   it("shows that a kinematic scene maps no solver and no GSL, and builds poses alone", function()
     local code, output = explain "scripts/manipulator.lua"
     assert.equal(0, code)

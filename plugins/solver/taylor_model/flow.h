@@ -106,6 +106,7 @@ typedef struct flow {
   uint32_t npiece; /* pieces in use: piece[0 .. npiece - 1] */
   piece *piece;    /* [pieces_max + 1] one more for splitting */
   uint32_t *todo;  /* [pieces_max] */
+  int put_off;     /* piece 0 is alone and goes on in spite of its truncation */
   uint32_t next;   /* the instant ahead */
   double t, t_to;
   uint32_t failed; /* the piece that ended the run */
@@ -132,6 +133,8 @@ int32_t flow_emit(flow *f, double t_from, int dense);
 /* pieces.c: from t to f->t_to for all pieces; WHY_NOTHING, or why f->failed could not */
 enum why flow_advance_pieces(flow *f);
 int flow_split(flow *f, uint32_t number); /* 0: no room */
+int flow_put_off(flow *f);                /* the split of piece 0; 0: it should not be */
+enum why flow_go_back(flow *f);           /* to where it was put off, and in pieces from there to f->t */
 
 /* step.c: one step, at most to `goal` */
 enum why flow_step(worker *w, piece *p, double goal);

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #define DEPTH_MAX 40
+#define PUTS_OFF 3 /* unknowns from which a split is put off: with fewer, pieces are cheap */
 #define WORTH 1e-3 /* smallest width of a state, relative, that splitting may mend when steps fail */
 
 /* -- halving */
@@ -105,6 +106,31 @@ int flow_split(flow *f, uint32_t number) {
   become_half(&f->worker[0], parent, spare, v, 0);
   become_half(&f->worker[0], second, spare, v, 1);
   return 1;
+}
+
+/* -- going back
+
+A piece that is alone puts off its first split (run.c). What it was then lies in the slot behind the last one, which
+nothing else needs until the split. */
+
+static void keep(const flow *f, piece *to, const piece *from) {
+  copy(f, to, from);
+  memcpy(to->zonotope, from->zonotope, f->ns * f->worker[0].shape.size * sizeof(double));
+  to->why = from->why;
+}
+
+int flow_put_off(flow *f) {
+  if (f->m < PUTS_OFF || f->options.pieces_max < 2) return 0;
+  keep(f, &f->piece[f->options.pieces_max], &f->piece[0]);
+  return f->put_off = f->piece[0].tolerant = 1;
+}
+
+enum why flow_go_back(flow *f) {
+  piece *p = &f->piece[0];
+  keep(f, p, &f->piece[f->options.pieces_max]);
+  f->put_off = 0, f->t_to = f->t;
+  flow_split(f, 0); /* there is room: it was put off */
+  return p->t == f->t_to ? WHY_NOTHING : flow_advance_pieces(f);
 }
 
 /* -- rounds */

@@ -2,6 +2,10 @@
 ** on has to say. */
 #include "flow.h"
 #include <stdio.h>
+#include <stdlib.h>
+
+#define BLURRED 0.05
+#define NEGLIGIBLE 1e-9
 
 /* -- records; the sink's world is round-to-nearest */
 
@@ -61,27 +65,52 @@ static int merge(flow *f) {
 
 /* -- one piece */
 
+/* is so much of the set remainder that pieces must do better? */
+static int is_blurred(const flow *f, const piece *p) {
+  const zonotope_shape *shape = &f->worker[0].shape;
+  for (uint32_t i = 0; i < f->nx; i++) {
+    double rest = 0, most = getenv("BLUR") ? atof(getenv("BLUR")) : BLURRED;
+    for (uint32_t n = 0; n < f->ns; n++) rest = larger(rest, zonotope_at(shape, p->zonotope, n).sum[i]);
+    if (rest > most * (p->hi[i] - p->lo[i]) + NEGLIGIBLE * larger(fabs(p->lo[i]), fabs(p->hi[i]))) return 1;
+  }
+  return 0;
+}
+
+/* a piece that can't go on alone */
+static enum why give_up_alone(flow *f, enum why why) {
+  piece *p = &f->piece[0];
+  p->why = why, f->failed = 0;
+  if (f->put_off) return flow_go_back(f);
+  if (why == WHY_DEFECT && flow_put_off(f)) return WHY_NOTHING;
+  if (why != WHY_WIDE && flow_split(f, 0)) return WHY_NOTHING;
+  if (p->tolerant || (why != WHY_DEFECT && why != WHY_NO_STEP)) return why;
+  p->tolerant = 1;
+  return WHY_NOTHING;
+}
+
+/* The first split is put off as long as the remainder stays a small part of the set: where the flow contracts it does
+** so to the end, and pieces would gain nothing. If it does not, all is done again in pieces from there. */
 static enum why go_alone(flow *f) {
   worker *w = &f->worker[0];
   piece *p = &f->piece[0];
-  while (f->next < f->problem.ntime && f->npiece == 1) {
-    double t_from = f->t;
+  enum why why = WHY_NOTHING;
+  while (why == WHY_NOTHING && f->next < f->problem.ntime && f->npiece == 1) {
     clear_bounds(f, p->tube_lo, p->tube_hi);
-    enum why why = flow_step(w, p, f->problem.time[f->next]);
+    why = flow_step(w, p, f->problem.time[f->next]);
+    if (why == WHY_NOTHING) {
+      flow_hull(w, p);
+      why = !merge(f) ? WHY_WIDE : f->put_off && is_blurred(f, p) ? WHY_DEFECT : WHY_NOTHING;
+    }
     if (why != WHY_NOTHING) {
-      p->why = why, f->failed = 0;
-      if (why != WHY_WIDE && flow_split(f, 0)) return WHY_NOTHING;
-      if (p->tolerant || (why != WHY_DEFECT && why != WHY_NO_STEP)) return why;
-      p->tolerant = 1;
+      why = give_up_alone(f, why);
       continue;
     }
-    flow_hull(w, p);
+    double t_from = f->t;
     f->t = p->t;
-    if (!merge(f)) return WHY_WIDE;
     f->next += f->t == f->problem.time[f->next];
     if (flow_emit(f, t_from, 1)) return WHY_STOPPED;
   }
-  return WHY_NOTHING;
+  return why;
 }
 
 /* -- many */

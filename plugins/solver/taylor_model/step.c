@@ -218,7 +218,8 @@ static enum why try_step(worker *w, piece *p, double goal) {
     ambit_work_try(w->counted);
     int bounded = measure_defect(w), cut_short = w->at_goal || w->step.length < 0.99 * length;
     ratio r = bounded ? compare(w) : (ratio) { INFINITY, INFINITY };
-    double allowed = r.rest <= o->split_tolerance ? larger(o->tolerance, SHARE * r.rest) : o->tolerance;
+    double rest = r.rest <= o->split_tolerance ? r.rest : p->tolerant ? o->split_tolerance : 0;
+    double allowed = larger(o->tolerance, SHARE * rest);
     double over = bounded ? r.time / allowed : INFINITY;
     if (!(over <= 1)) { /* never again as long: an infinite ratio would otherwise shrink and grow in turn */
       most = smaller(most, 0.9 * w->step.length);

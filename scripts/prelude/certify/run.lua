@@ -7,6 +7,7 @@ local carry = require "ambit.verify.carry"
 local core = require "ambit.core"
 local refine = require "ambit.certify.refine"
 local uncertain = require "ambit.uncertain"
+local work = require "ambit.work"
 
 local run = {}
 
@@ -106,9 +107,11 @@ end
 local function options_of(how) return how.options or {} end
 
 local function watch(q, w, how, unknowns, box)
-  return core.watch(q.system.system, how.solver or "lohner", how.arithmetic, options_of(how),
+  local findings, outcome, report = core.watch(q.system.system, how.solver or "lohner", how.arithmetic, options_of(how),
     how.arithmetic_options or {}, q.initial, q.times, w.g, w.name, w.kind, unknowns, box.lo, box.hi, CUTS, w.limit,
     w.rivals, how.run_options and how.run_options.threads)
+  if how.report then work.add(how.report, report) end
+  return findings, outcome, report
 end
 
 -- A run for its own sake: how far it gets.

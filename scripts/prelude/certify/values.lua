@@ -2,6 +2,7 @@
 -- the states there and, where it is smooth, as a state of its own (certify/run.lua); the intersection of both.
 local core = require "ambit.core"
 local run = require "ambit.certify.run"
+local work = require "ambit.work"
 
 local values = {}
 
@@ -74,6 +75,7 @@ local function solve(q, how)
     how.options or {}, how.arithmetic_options or {}, q.initial, q.times, nil,
     { dense = true, silent = true, threads = how.run_options and how.run_options.threads })
   facts.steps = report.steps
+  if how.report then work.add(how.report, report) end
   return track, facts
 end
 

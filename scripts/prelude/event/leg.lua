@@ -5,6 +5,7 @@ local core = require "ambit.core"
 local event = require "ambit.event"
 local option = require "ambit.option"
 local simulate = require "ambit.simulate"
+local work = require "ambit.work"
 
 local leg = {}
 
@@ -13,7 +14,7 @@ local CUTS, MOST_CUTS, SEARCHES = 16, 16, 8 -- of the time in which an undecided
 -- Makes a verb's request the base of its legs. A set in pieces is no function of the data to go on from: solvers that
 -- can split it are told not to, unless the user says how often.
 function leg.prepare(q, t)
-  q.cpu_seconds, q.step_count, q.rigorous = 0, 0, true
+  q.cpu_seconds, q.step_count, q.rigorous, q.report = 0, 0, true, {}
   for _, name in ipairs(option.names(option.declaration("solver", q.solver))) do
     if name == "pieces_max" and t.pieces_max == nil then
       q.options = table.move(q.options, 1, #q.options, 1, {})
@@ -46,6 +47,7 @@ function leg.run(base, system, initial, times, list, options)
   local run = simulate.solve(q)
   base.cpu_seconds, base.step_count = base.cpu_seconds + run.cpu_seconds, base.step_count + run.step_count
   base.rigorous = base.rigorous and run.rigorous
+  work.add(base.report, run.report)
   return run, q.watch
 end
 

@@ -1,17 +1,20 @@
 -- sample/overestimation.lua -- an enclosure held against the hull of a sample: how many times as wide it is, and
 -- whether it misses what was seen.
 --
--- The true range lies between the two. So a factor is never less than the true overestimation, and tends to it as the
--- hull comes near the range; an enclosure that does not contain the hull but for the error of the samples is wrong.
+-- The true range lies between the enclosure and the hull made smaller by the error of the samples. So the ratio of their
+-- widths is never less than the true overestimation, and tends to it as the hull comes near the range; an enclosure that
+-- does not contain that smaller hull is wrong.
 local check = require "ambit.check"
 local core = require "ambit.core"
 
 local over = {}
 
--- Width of the enclosure per width of the hull; nil: the hull is empty or has no width, so it says nothing.
-function over.factor(enclosure, lo, hi)
-  if not (hi > lo) then return nil end
-  return enclosure:width() / (hi - lo)
+-- Width of the enclosure per width of the hull that is sure; nil: the hull is empty or nothing but error, so it says
+-- nothing. An unknown error (nil, NaN) is taken for none.
+function over.factor(enclosure, lo, hi, error)
+  local sure = hi - lo - (error and error == error and 2 * error or 0)
+  if not (sure > 0) then return nil end
+  return enclosure:width() / sure
 end
 
 -- Does the enclosure miss a value that was seen, by more than that may be off? Unknown errors excuse everything.
@@ -36,10 +39,10 @@ local function of_run(run, t)
   return run:at(t)
 end
 
-local function factors(run, enclosures, hulls)
+local function factors(run, enclosures, hulls, errors)
   local list = {}
   for _, name in ipairs(run.states) do
-    list[name] = over.factor(enclosures[name], hulls[name].lo, hulls[name].hi)
+    list[name] = over.factor(enclosures[name], hulls[name].lo, hulls[name].hi, errors[name])
   end
   return list
 end
@@ -50,13 +53,13 @@ local methods = {}
 -- By state name at one of the times of the sample.
 function methods:at(t)
   local facts = getmetatable(self).facts
-  local hulls = facts.sample:at(t)
+  local hulls, errors = facts.sample:at(t), facts.sample:error_at(t)
   local enclosures = of_run(facts.run, t)
   if not enclosures then
     check.fail("at: the run has no tight enclosure at t = %s: put it into the list of times, or simulate with " ..
       "dense = true", core.literal(t))
   end
-  return factors(facts.run, enclosures, hulls)
+  return factors(facts.run, enclosures, hulls, errors)
 end
 
 local function text(self)
@@ -86,7 +89,7 @@ function over.of_run(run, sample)
     local enclosures = of_run(run, t)
     if enclosures then
       local hulls, errors = sample:at(t), sample:error_at(t)
-      final, facts.t = factors(run, enclosures, hulls), t
+      final, facts.t = factors(run, enclosures, hulls, errors), t
       for _, name in ipairs(run.states) do
         local hull = hulls[name]
         if final[name] then facts.max[name] = math.max(facts.max[name] or 0, final[name]) end
@@ -107,28 +110,45 @@ end
 
 -- -- results of evaluate
 
+local function at_path(path) return path == "" and "" or " at " .. path:gsub("%.$", "") end
+
 local function walk(result, sample, errors, visit, path)
-  if type(result) ~= "table" then return visit(result, sample, errors, path) end
+  if type(result) ~= "table" then
+    if check.kind(result) ~= "enclosure" then
+      check.fail("overestimation: expected what ambit.evaluate or ambit.simulate gave%s, got %s", at_path(path),
+        check.kind(result))
+    elseif check.kind(sample) ~= "enclosure" then
+      check.fail("overestimation: expected what ambit.sample made of the same%s, got %s", at_path(path),
+        check.kind(sample))
+    end
+    return visit(result, sample, errors, path)
+  end
   local list = {}
   for _, key in ipairs(check.sorted(result)) do
     local inner = type(sample) == "table" and sample[key]
-    if not inner then check.fail("overestimation: the sample has nothing at %s", path .. tostring(key)) end
+    if inner == nil or inner == false then
+      check.fail("overestimation: the sample has nothing at %s", path .. tostring(key))
+    end
     list[key] = walk(result[key], inner, type(errors) == "table" and errors[key] or nil, visit,
       path .. tostring(key) .. ".")
   end
   return list
 end
 
+local function errors_of(sample) return type(sample) == "table" and sample.error or nil end
+
 -- Of what evaluate gave, in its shape: factors.
 function over.of_result(result, sample)
-  return walk(result, sample, nil, function(x, hull) return over.factor(x, hull.lo, hull.hi) end, "")
+  return walk(result, sample, errors_of(sample), function(x, hull, error)
+    return over.factor(x, hull.lo, hull.hi, error)
+  end, "")
 end
 
 -- A run, or what evaluate gave, against a sample -> text that says what is missed and by how much, or nil.
 function over.contradiction(result, sample)
   if type(result) == "table" and result.track then return over.of_run(result, sample).contradiction end
   local found
-  walk(result, sample, type(sample) == "table" and sample.error or nil, function(x, hull, error, path)
+  walk(result, sample, errors_of(sample), function(x, hull, error, path)
     if not found and over.misses(x, hull.lo, hull.hi, error) then
       found = complaint((path:gsub("%.$", "")), x, hull.lo, hull.hi, error)
     end
@@ -140,7 +160,7 @@ end
 -- -> factor or nil, text or nil.
 function over.of_inner(inner, i, k, enclosure, name)
   local lo, hi, error = inner.lo[i][k], inner.hi[i][k], inner.error[i][k]
-  return over.factor(enclosure, lo, hi),
+  return over.factor(enclosure, lo, hi, error),
     over.misses(enclosure, lo, hi, error) and complaint(name, enclosure, lo, hi, error) or nil
 end
 
