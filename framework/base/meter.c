@@ -6,6 +6,7 @@
 */
 #include "base/meter.h"
 #include <pthread.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -40,7 +41,7 @@ struct ambit_profile {
   double inside, outside; /* ticks of an empty frame: in it, around it */
   double mark;            /* ticks of an empty mark, all of them in it */
   struct timespec start;
-  bool cut;
+  atomic_bool cut; /* any thread says so */
 };
 
 static _Thread_local meter *current;
@@ -107,7 +108,7 @@ static void pop(meter *m, uint64_t at) {
   }
   const level *top = &m->stack[--m->depth];
   ambit_meter_frame *f = top->frame, *parent = m->depth ? m->stack[m->depth - 1].frame : NULL;
-  uint64_t ticks = at - top->since;
+  uint64_t ticks = at > top->since ? at - top->since : 0; /* clocks of two processors may differ */
   f->count++;
   f->marks += top->mark;
   f->ticks += ticks;
@@ -142,7 +143,9 @@ void ambit_meter_mark(uint32_t kind, const char *name) {
   if (!m) return;
   uint64_t at = now();
   if (is_marked(m)) pop(m, at);
-  if (!m->beyond) push(m, kind, name, NULL, true, at);
+  if (m->beyond) return;
+  push(m, kind, name, NULL, true, at);
+  m->beyond = 0; /* one that found no room is nobody's to leave */
 }
 
 uint32_t ambit_meter_depth(void) { return current ? current->depth + current->beyond : 0; }
@@ -206,9 +209,13 @@ static meter *take_meter(ambit_profile *p) {
   return m;
 }
 
+/* On a thread of a pool: the place of the first thread that it works for, so that a pool inside a pool is not lost. */
 ambit_meter_place ambit_meter_here(void) {
   const meter *m = current;
-  return m ? (ambit_meter_place) { m->profile, m->stack[m->depth - 1].frame } : (ambit_meter_place) { 0 };
+  if (!m) return (ambit_meter_place) { 0 };
+  ambit_meter_frame *top = m->stack[m->depth - 1].frame, *f = top;
+  while (f && !f->anchor) f = f->parent;
+  return (ambit_meter_place) { m->profile, f ? f->anchor : top };
 }
 
 bool ambit_meter_join(const ambit_meter_place *place, const char *name) {

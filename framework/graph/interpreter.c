@@ -63,7 +63,9 @@ ambit_status ambit_block_open(
     return ambit_fail(f, AMBIT_INVALID, "the arithmetic's elements have %zu bytes; a multiple of 8 is required", elem);
   ambit_block *made = calloc(1, sizeof *made);
   if (!made) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
-  *made = (ambit_block) { .tape = t, .arithmetic = full, .ctx = ctx, .lanes = lanes, .elem = elem, .metered = ambit_meter_is_on() };
+  *made = (ambit_block) {
+    .tape = t, .arithmetic = full, .ctx = ctx, .lanes = lanes, .elem = elem, .metered = ambit_meter_is_on()
+  };
   ambit_status status = allocate(made, f);
   if (status != AMBIT_OK) {
     ambit_block_close(made);

@@ -25,7 +25,7 @@ struct ambit_jet {
   double *mid, *rad; /* [ndir] scratch of integrate */
   ambit_work *work;  /* or NULL */
   bool metered;
-  uint32_t *moving;  /* [order + 1] results whose degree in time is at least k */
+  uint32_t *moving; /* [order + 1] results whose degree in time is at least k */
 };
 
 /* -- opening */
@@ -204,7 +204,9 @@ static uint32_t solve(ambit_jet *jet, uint32_t nx, uint32_t order) {
   for (uint32_t k = 0; k < order; k++) {
     uint32_t flags = advance(jet, k);
     if (flags) return flags;
+    if (jet->metered) ambit_meter_enter(AMBIT_FRAME_ARITHMETIC, "integration");
     for (uint32_t i = 0; i < nx; i++) integrate(jet, i, jet->tape->out[i], k);
+    if (jet->metered) ambit_meter_leave();
   }
   return 0;
 }

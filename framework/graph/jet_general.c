@@ -93,6 +93,12 @@ uint32_t ambit_series_convolve(
   return total(s, dst, product, n);
 }
 
+/* Whose time it is that follows, to the end of the frame around: all that an instruction's rules do is the
+** instruction's; AMBIT_OP_COUNT: nobody's. */
+static void tell(const ambit_series *s, uint32_t op) {
+  if (s->meter) s->meter->operation(op);
+}
+
 /* -- one order */
 
 static void weigh(ambit_series *s, uint32_t slot, uint32_t column, uint32_t k) {
@@ -123,6 +129,7 @@ static void advance_input(ambit_series *s, uint32_t slot, uint32_t k) {
 static void advance_instruction(ambit_series *s, uint32_t i, uint32_t k) {
   uint32_t slot = s->tape->dst[i];
   if (k >= s->length[slot]) return;
+  tell(s, s->tape->op[i]);
   s->used = 0;
   ambit_series_value(s, i, k);
   weigh(s, slot, 0, k);
@@ -140,6 +147,7 @@ static uint32_t advance(void *self, uint32_t k) {
   if (k > s->order) return AMBIT_F_UNBOUNDED;
   s->flags = s->refused;
   if (s->arithmetic->enter) s->arithmetic->enter(s->ctx);
+  tell(s, AMBIT_OP_COUNT);
   for (uint32_t i = 0; i < s->tape->nin; i++) advance_input(s, s->tape->nconst + i, k);
   for (uint32_t i = 0; i < s->tape->ninstr; i++) advance_instruction(s, i, k);
   if (s->arithmetic->leave) s->arithmetic->leave(s->ctx);
@@ -154,6 +162,7 @@ static void integrate(void *self, uint32_t in, uint32_t slot, uint32_t k) {
     s->refused = AMBIT_F_UNBOUNDED;
     return;
   }
+  tell(s, AMBIT_OP_COUNT);
   if (s->arithmetic->enter) s->arithmetic->enter(s->ctx);
   for (uint32_t c = 0; c < s->columns; c++) {
     if (c == s->mean && s->centre) continue;
@@ -300,6 +309,7 @@ static ambit_status open(const ambit_host *h, void *ctx, const ambit_tape *t, ui
     .arithmetic = source->arithmetic,
     .ctx = source->actx,
     .centre = centre,
+    .meter = h->service ? h->service(h, AMBIT_METER_SERVICE) : NULL,
     .order = order,
     .ndir = ndir,
     .mean = mean,

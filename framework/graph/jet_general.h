@@ -8,6 +8,7 @@
 #define AMBIT_JET_GENERAL_H
 #include "graph/jet.h"
 #include "num/interval.h"
+#include <ambit/meter.h>
 
 #define AMBIT_SERIES_NEW UINT32_MAX /* as a target: the next scratch element */
 
@@ -17,6 +18,7 @@ struct ambit_series {
   const ambit_arithmetic *arithmetic;
   void *ctx;
   const ambit_series *centre;
+  const ambit_meter_service *meter; /* NULL: not profiled */
   /* numbers of the mean's and the first slope's column; columns per slot */
   uint32_t order, ndir, mean, slope, columns;
   size_t elem, count; /* bytes per element, elements in all */

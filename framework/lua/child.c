@@ -2,10 +2,13 @@
 ** on and is told. The child is a fork, so it sees everything that the caller built; what it returns is one text.
 **
 ** Three limits: `cpu` is the budget, at which running verbs are stopped and keep what they proved (as core.deadline);
-** the child is killed at `wall` seconds, and when it takes much more CPU than its budget (by whoever waits for it: a
-** limit of the system's would make the child's own CPU clock as coarse as the timer tick); allocations beyond `memory`
-** bytes more than it started with fail. Sanitized builds know no memory limit: they reserve address space by the
-** terabyte.
+** the child is killed at `wall` seconds, not counting those in which a busy machine let it wait, and when it takes much
+** more CPU than its budget (by whoever waits for it: a limit of the system's would make the child's own CPU clock as
+** coarse as the timer tick); allocations beyond `memory` bytes more than it started with fail. Sanitized builds know
+** no memory limit: they reserve address space by the terabyte.
+**
+** A child has ended when its process has: the end of its pipe says less, as what it runs may close every file and go
+** on, or start a process that keeps the pipe open.
 */
 #include "lua/core.h"
 #include "lua/interrupt.h"
@@ -25,7 +28,17 @@
 #include <unistd.h>
 
 #define TYPE "ambit.child"
-#define SLICE_MS 50 /* how often limits and Ctrl-C are looked at */
+#define SLICE_MS 50               /* how often limits and Ctrl-C are looked at */
+#define LONGEST ((size_t)1 << 30) /* bytes that a child may say */
+#define LEAVING_MS 1              /* and whether a child whose pipe is at its end has left */
+
+#if defined(__SANITIZE_ADDRESS__)
+#define SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define SANITIZED 1
+#endif
+#endif
 
 typedef struct child {
   pid_t pid; /* 0: waited for */
@@ -33,6 +46,8 @@ typedef struct child {
   double began, wall;
   double cpu;          /* at which it is killed, s */
   bool late;           /* killed at one of these limits */
+  bool ended;          /* its pipe is at its end */
+  bool unheard;        /* killed because there was no room for what it said */
   size_t resident;     /* bytes at the start */
   size_t length, room; /* of what it has said so far */
   char *text;          /* [room], malloc */
@@ -67,24 +82,28 @@ static void memory_now(size_t *space, size_t *resident) {
   *resident = held * page;
 }
 
-static void set_limit(int resource, double most) {
+/* Allocations of so many bytes more than there are now fail. */
+static void limit_space(double more) {
+#if defined(SANITIZED)
+  (void)more;
+#else
+  size_t space, resident;
+  memory_now(&space, &resident);
+  double most = (double)space + more;
   struct rlimit old;
-  if (!(most < 1e18) || getrlimit(resource, &old) != 0) return;
+  if (!(most < 1e18) || getrlimit(RLIMIT_AS, &old) != 0) return;
   rlim_t n = (rlim_t)most;
-  if (old.rlim_max != RLIM_INFINITY && n > old.rlim_max) n = old.rlim_max;
+  if (old.rlim_cur != RLIM_INFINITY && n > old.rlim_cur) n = old.rlim_cur;
   struct rlimit limit = { n, old.rlim_max };
-  setrlimit(resource, &limit);
+  setrlimit(RLIMIT_AS, &limit);
+#endif
 }
 
 static void limit_child(ambit_lua *core, const limits *most) {
   core->deadline = isfinite(most->cpu) ? cpu_now() + most->cpu : 0;
   struct rlimit none = { 0, 0 };
   setrlimit(RLIMIT_CORE, &none);
-#if !defined(__SANITIZE_ADDRESS__)
-  size_t space, resident;
-  memory_now(&space, &resident);
-  set_limit(RLIMIT_AS, (double)space + most->memory);
-#endif
+  limit_space(most->memory);
 }
 
 static void say(int fd, const char *text, size_t length) {
@@ -136,6 +155,7 @@ static int start(lua_State *L) {
   memory_now(&space, &c->resident);
   int end[2];
   if (pipe2(end, O_CLOEXEC) != 0) ambit_lua_error(L, "no pipe to a child process: %s", strerror(errno));
+  fcntl(end[0], F_SETFL, O_NONBLOCK);
   fflush(NULL);
   pid_t parent = getpid(), pid = fork();
   if (pid == 0) be_child(L, core, &most, end[1], parent);
@@ -148,22 +168,33 @@ static int start(lua_State *L) {
 
 static child *check_child(lua_State *L, int idx) { return luaL_checkudata(L, idx, TYPE); }
 
-/* Takes what there is; false: that was all. */
-static bool listen_to(child *c) {
+/* Takes some of what there is; false: there is no more now. */
+static bool take_some(child *c) {
   if (c->length + 65536 > c->room) {
-    char *larger = realloc(c->text, 2 * c->room + 131072);
-    if (!larger) return false;
+    char *larger = c->length < LONGEST ? realloc(c->text, 2 * c->room + 131072) : NULL;
+    if (!larger) {
+      c->unheard = c->ended = true;
+      kill(c->pid, SIGKILL);
+      return false;
+    }
     c->text = larger;
     c->room = 2 * c->room + 131072;
   }
   ssize_t n = read(c->pipe, c->text + c->length, c->room - c->length);
-  if (n < 0) return errno == EINTR || errno == EAGAIN;
-  c->length += (size_t)n;
-  return n > 0;
+  if (n > 0) c->length += (size_t)n;
+  c->ended = n == 0 || (n < 0 && errno != EINTR && errno != EAGAIN);
+  return n > 0 || (n < 0 && errno == EINTR);
+}
+
+static bool has_left(const child *c) {
+  siginfo_t info;
+  memset(&info, 0, sizeof info);
+  return waitid(P_PID, (id_t)c->pid, &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == c->pid;
 }
 
 static const char *outcome_of(const child *c, int status) {
   if (c->late) return "late";
+  if (c->unheard) return "out of memory";
   if (WIFSIGNALED(status)) return "crashed";
   if (WEXITSTATUS(status) != 0 || c->length == 0) return "crashed";
   return c->text[0] == '+' ? "done" : c->text[0] == 'm' ? "out of memory" : "failed";
@@ -202,12 +233,37 @@ static void push_result(lua_State *L, child *c) {
   forget(c);
 }
 
+/* Seconds for which it was ready to run, but the machine had other work; 0 if the system does not say. */
+static double queued(pid_t pid) {
+  char name[64];
+  unsigned long long ran = 0, waited = 0;
+  snprintf(name, sizeof name, "/proc/%d/schedstat", (int)pid);
+  FILE *f = fopen(name, "re");
+  if (!f) return 0;
+  if (fscanf(f, "%llu %llu", &ran, &waited) != 2) waited = 0;
+  fclose(f);
+  return 1e-9 * (double)waited;
+}
+
 static bool is_over(const child *c) {
   clockid_t clock;
   struct timespec t;
-  if (now() - c->began > c->wall) return true;
+  double spent = now() - c->began;
+  if (spent > c->wall && spent - queued(c->pid) > c->wall) return true;
   if (!isfinite(c->cpu) || clock_getcpuclockid(c->pid, &clock) != 0 || clock_gettime(clock, &t) != 0) return false;
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec > c->cpu;
+}
+
+/* Listens to it and keeps it within its limits; true: it has ended. */
+static bool attend(child *c, bool spoke) {
+  bool left = has_left(c);
+  if (spoke && !c->ended) take_some(c);
+  while (left && !c->ended && take_some(c)) continue;
+  if (!left && !c->late && is_over(c)) {
+    c->late = true;
+    kill(c->pid, SIGKILL);
+  }
+  return left;
 }
 
 /* Listens until one has ended, Ctrl-C, or `until`; its place in the array, or -1. */
@@ -216,15 +272,14 @@ static int wait_for_one(child **c, uint32_t n, double until) {
   if (!watch) return -1;
   int ended = -1;
   while (ended < 0 && !ambit_interrupt_pending() && now() < until) {
-    for (uint32_t i = 0; i < n; i++) watch[i] = (struct pollfd) { .fd = c[i]->pipe, .events = POLLIN };
-    if (poll(watch, n, SLICE_MS) < 0 && errno != EINTR) break;
-    for (uint32_t i = 0; i < n && ended < 0; i++) {
-      if (!c[i]->late && is_over(c[i])) {
-        c[i]->late = true;
-        kill(c[i]->pid, SIGKILL);
-      }
-      if ((watch[i].revents & (POLLIN | POLLHUP | POLLERR)) && !listen_to(c[i])) ended = (int)i;
+    int most = SLICE_MS;
+    for (uint32_t i = 0; i < n; i++) {
+      watch[i] = (struct pollfd) { .fd = c[i]->ended ? -1 : c[i]->pipe, .events = POLLIN };
+      if (c[i]->ended) most = LEAVING_MS;
     }
+    if (poll(watch, n, most) < 0 && errno != EINTR) break;
+    for (uint32_t i = 0; i < n && ended < 0; i++)
+      if (attend(c[i], watch[i].revents & (POLLIN | POLLHUP | POLLERR))) ended = (int)i;
   }
   free(watch);
   return ended;

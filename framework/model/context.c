@@ -40,9 +40,16 @@ double *ambit_context_options(ambit_lease *lease, const ambit_param *param, cons
   return ambit_params_resolve(param, owner, noption, option, value, f) == AMBIT_OK ? value : NULL;
 }
 
+/* What to turn where memory was short, unless the plugin has named something of its own. */
+static const char *memory_advice(ambit_status status, const char *said) {
+  if (status != AMBIT_NOMEM || strchr(said, '`')) return "";
+  return "; make fewer data uncertain, split the model, lower `order` where it is an option, or allow more memory";
+}
+
 ambit_status ambit_context_failed(const ambit_lease *lease, ambit_status status, const char *who, ambit_failure *f) {
-  if (lease->failure.message[0]) return ambit_fail(f, status, "%s: %s", who, lease->failure.message);
-  return ambit_fail(f, status, "%s: %s, without a reason", who, ambit_status_name(status));
+  const char *said = lease->failure.message, *advice = memory_advice(status, said);
+  if (said[0]) return ambit_fail(f, status, "%s: %s%s", who, said, advice);
+  return ambit_fail(f, status, "%s: %s, without a reason%s", who, ambit_status_name(status), advice);
 }
 
 static ambit_status open_arithmetic(ambit_context *c, ambit_failure *f) {

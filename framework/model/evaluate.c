@@ -42,8 +42,7 @@ static ambit_status prepare(job *j, ambit_failure *f) {
 
 /* Without the memory for it the enclosure stays as wide as it is. */
 static ambit_status narrow(job *j, size_t i, ambit_interval *x, ambit_failure *f) {
-  const ambit_monotone m = { j->q->graph, &j->context, j->seal, j->bound.nunknown, j->bound.unknown,
-    &j->tally.work };
+  const ambit_monotone m = { j->q->graph, &j->context, j->seal, j->bound.nunknown, j->bound.unknown, &j->tally.work };
   ambit_failure own = { 0 };
   ambit_status status = ambit_monotone_narrow(&m, j->bound.expr[i], x, &own);
   return status == AMBIT_OK || status == AMBIT_NOMEM ? AMBIT_OK : ambit_fail(f, status, "%s", own.message);

@@ -23,7 +23,7 @@ ambit.compare { solvers = { "lohner", { "taylor_model", order = { 8, 12 } } }, a
   --json FILE      one object per line; `-` is standard output (the tables then go to standard error)
   --svg FILE       error or width against run time, drawn by gnuplot
   --repeat N       runs of each combination after one to warm up, of which the fastest counts (default 5)
-  --limit SECONDS  of CPU time for each combination (default 10); after one that takes longer, higher orders of the same
+  --limit SECONDS  of CPU time for each combination (default 4); after one that takes longer, higher orders of the same
                    method are skipped
   --quick          the same as --repeat 1 --limit 1
 Words behind `--` are the scene's, even if they look like options. Ctrl-C ends the comparison; tables and files hold
@@ -98,6 +98,7 @@ end
 local function results(file, options, requests, failed)
   local good, settings = pcall(settings_of, options)
   if not good then return complain(settings) or 1 end
+  settings.interrupted = core.interrupted() -- while the scene ran: nothing more is run
   local engine = compare_engine.new(settings)
   local list, some_failed = engine:calm(compare_all, requests, settings)
   engine:calm(print_tables, list, options.json == "-" and io.stderr or io.stdout)

@@ -201,8 +201,8 @@ local function equations(root)
   return list
 end
 
--- of(root) -> { total, cost, waiting, others, stages, calls, operations, verbs }; others: what threads of pools did; every
--- frame gets its `total`
+-- of(root) -> { total, cost, waiting, others, stages, calls, operations, verbs }; others: what threads of pools did;
+-- every frame gets its `total`
 function sums.of(root)
   local total, cost = add_up(root)
   local stage, stages = collector()
@@ -224,8 +224,8 @@ function sums.of(root)
     end
     if waits then others = others + item end -- without workers, items are done by the thread itself
   end)
-  return { total = total, cost = cost, waiting = waiting, others = others, stages = stages(), calls = calls(), operations = operations(),
-    verbs = verbs }
+  return { total = total, cost = cost, waiting = waiting, others = others, stages = stages(), calls = calls(),
+    operations = operations(), verbs = verbs }
 end
 
 return sums

@@ -1,5 +1,7 @@
 -- profile_text.lua -- a profile for people: tables of sums and a flame of indented bars; and folded stacks for programs
 -- that draw flame graphs.
+local json = require "ambit.view.json"
+
 local text = {}
 
 local BAR = 24
@@ -22,11 +24,13 @@ local function print_stages(write, p)
   for _, s in ipairs(p.stages) do line(write, s.name, s.self, p.total, s.about) end
 end
 
--- How a frame is called: services and opcodes say what they are, others by kind.
+-- How a frame is called: services and opcodes say what they are, others by kind. A long name was cut between bytes,
+-- not letters.
 local function label(frame)
-  if frame.kind == "operation" then return frame.name:lower() end
+  local name = json.clean(frame.name)
+  if frame.kind == "operation" then return name:lower() end
   local plain = { script = true, verb = true, stage = true, service = true, thread = true }
-  return plain[frame.kind] and frame.name or frame.kind .. " " .. frame.name
+  return plain[frame.kind] and name or frame.kind .. " " .. name
 end
 
 text.label = label
@@ -77,7 +81,7 @@ local function print_equations(write, p)
   for _, verb in ipairs(p.verbs) do
     if verb.total < 2 * LEAST * p.total then return end -- those behind it take less still
     local list = dear(verb.equations)
-    write(("\nequations of %s: apportioned, from the opcodes measured\n"):format(verb.name))
+    write(("\nequations of %s: apportioned, from the opcodes measured\n"):format(json.clean(verb.name)))
     if not list[1] then write "  no operations, or none that its solver and arithmetic tell\n" end
     for k = 1, math.min(#list, 12) do
       local e = list[k]
@@ -92,8 +96,9 @@ end
 local function print_flame(write, p, frame, depth)
   if frame.total < LEAST * p.total then return end
   local name = ("  "):rep(depth) .. label(frame)
-  if #name > 60 then name = name:sub(1, 57) .. "..." end
-  write((("%6.1f %% %10.4f  %-60s %s"):format(percent(frame.total, p.total), frame.total, name,
+  if utf8.len(name) > 60 then name = name:sub(1, utf8.offset(name, 58) - 1) .. "..." end
+  name = name .. (" "):rep(60 - utf8.len(name))
+  write((("%6.1f %% %10.4f  %s %s"):format(percent(frame.total, p.total), frame.total, name,
     bar(frame.total, p.total)):gsub("%s+$", "")), "\n")
   for _, inner in ipairs(frame.frames) do print_flame(write, p, inner, depth + 1) end
 end
@@ -103,10 +108,10 @@ local function print_head(write, p)
   write(("profile of %s: %.4f s"):format(p.scene, p.total))
   if p.waiting > 0 then write((", of which %.4f s waiting for threads"):format(p.waiting)) end
   write((" (CPU time of the process %.4f s)\n"):format(p.cpu_seconds))
-  write(("measuring took %.4f s besides (%.1f %%), which is taken off; unaccounted for: %.4f s (%.1f %%)\n"):format(p.cost,
-    percent(p.cost, p.total + p.cost), p.unaccounted, percent(p.unaccounted, p.wall_seconds)))
+  write(("measuring took %.4f s besides (%.1f %%), which is taken off; unaccounted for: %.4f s (%.1f %%)\n"):format(
+    p.cost, percent(p.cost, p.total + p.cost), p.unaccounted, percent(p.unaccounted, p.wall_seconds)))
   if p.total - p.waiting > 1.2 * p.cpu_seconds then
-    write "other programs had the processor part of the time: seconds are too long, shares are about right\n"
+    write "other programs had the processor part of the time: seconds are too long, shares of short runs are rough\n"
   end
   if p.is_cut then write "too many different frames: some are counted with those around them\n" end
 end

@@ -28,7 +28,7 @@ function secondsText(s) {
 
 class Diagram {
   constructor(place, data, rows) {
-    Object.assign(this, { data, rows, quantity: data.measure, hidden: new Set() });
+    Object.assign(this, { data, rows, quantity: data.first, hidden: new Set() });
     this.families = [...new Set(data.rows.map(row => row.family))];
     this.svg = element(place, "svg", { class: "plot", role: "group", "aria-label":
       "work against precision; the arrow keys go from mark to mark, Enter shows the row of the table" });
@@ -148,7 +148,7 @@ class Diagram {
 
   title() {
     const units = [...new Set(this.data.units)], text = this.data.quantities.find(q => q[0] === this.quantity)[1];
-    if (this.quantity === "over_sample") return `${text}: width / width of the sampled hull`;
+    if (this.quantity.startsWith("over_sample")) return `${text}: width / width of the sampled hull`;
     return units.length === 1 && units[0] ? `${text}, ${units[0]}` : text;
   }
 

@@ -1,7 +1,7 @@
 // scheme.js -- light or dark: as the system says, or as the reader does, who is remembered where that is allowed.
 // It stands in the head, so that the page is never drawn in the wrong colours first. On paper everything is light.
 (() => {
-  const root = document.documentElement, key = "ambit.scheme";
+  const dark = document.getElementById("dark"), system = dark.media, key = "ambit.scheme";
   const memory = { read: () => localStorage.getItem(key), write: choice => localStorage.setItem(key, choice) };
   const attempt = (act, ...arguments_) => {
     try { return act(...arguments_) || ""; } catch { return ""; } // no storage here
@@ -9,7 +9,7 @@
   let chosen = attempt(memory.read);
 
   const apply = choice => {
-    root.style.colorScheme = choice === "light" || choice === "dark" ? choice : "";
+    dark.media = { light: "not all", dark: "screen" }[choice] || system;
     dispatchEvent(new Event("scheme"));
   };
 

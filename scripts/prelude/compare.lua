@@ -50,7 +50,7 @@ function verb.settings(t, others)
   return {
     arithmetics = get "arithmetics", solvers = get "solvers", reference = reference.read(get "reference"),
     repeats = check.count(get "repeats" or 5, "compare: repeats"),
-    limit = number_of(get "limit", 10, "compare: limit"), memory = number_of(get "memory", 1e9, "compare: memory"),
+    limit = number_of(get "limit", 4, "compare: limit"), memory = number_of(get "memory", 1e9, "compare: memory"),
     n = get "n" ~= nil and check.count(get "n", "compare: n") or nil, seed = seed,
   }
 end
@@ -75,16 +75,12 @@ function verb.run(request, settings, progress)
     else
       simulation.run(comparison, request.question, settings, engine)
     end
+    comparison.advice = advice.of(comparison, judge.front(comparison.rows, comparison.measure))
+    comparison.title = compare_table.size(comparison)
   end)
-  local front = judge.front(comparison.rows, comparison.measure)
-  comparison.advice = advice.of(comparison, front)
-  comparison.title = compare_table.size(comparison)
   comparison.interrupted = engine.interrupted
-  comparison.cpu_seconds = core.cpu() - began
-  for _, row in ipairs(comparison.rows) do
-    comparison.cpu_seconds = comparison.cpu_seconds + (row.cpu_seconds or 0)
-    row.at = nil -- was for finding all that
-  end
+  comparison.cpu_seconds = core.cpu() - began + engine.cpu_seconds
+  for _, row in ipairs(comparison.rows) do row.at = nil end -- was for finding all that
   return comparison
 end
 

@@ -87,7 +87,7 @@ overestimation(result, sample): how many times as wide as the sampled hull: of w
 run (as run:overestimation(sample)) by state name, with .max, .t, .contradiction, :at(t).]],
   compare = [[
 compare { expression or table of them, at = { name = value }, arithmetics = { "interval", { "affine", symbols =
-{ 10, 20 } } }, repeats = 5, limit = 10 } or compare { m:dynamics() or ode, initial, t, solvers = { "lohner",
+{ 10, 20 } } }, repeats = 5, limit = 4 } or compare { m:dynamics() or ode, initial, t, solvers = { "lohner",
 { "taylor_model", order = { 8, 12 } } }, arithmetics, reference = { t, x = { state = value } } }: width or error against
 run time, a result with status, rows, advice, and a table when printed. Without a subject: how `ambit compare` shall
 compare this scene.]],

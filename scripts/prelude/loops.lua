@@ -125,10 +125,23 @@ end
 
 local loops = {}
 
+-- The states at about the last hundredth of a run; nil: nothing is kept of then. Not every solver says something
+-- between its steps.
+local function before_end(run)
+  local length, found = run.t_reached - run.t_start, nil
+  local good, x = pcall(run.at, run, run.t_reached - length / 100)
+  if good then return x end
+  for step in run:steps() do
+    if (run.t_reached - step.t) / length < 0.01 then break end
+    found = step
+  end
+  return found and found.x
+end
+
 -- The coordinates where a run ended, widened by what they moved in the last hundredth of it; nil: not bounded.
 local function box_around_end(self, run)
-  local box, finish = {}, run.x
-  local before = run:at(run.t_reached - (run.t_reached - run.t_start) / 100)
+  local box, finish, before = {}, run.x, before_end(run)
+  if not before then return nil end
   for _, name in ipairs(coordinate_names(self)) do
     local last = finish[name]
     local moved = math.max(math.abs(last.lo - before[name].hi), math.abs(last.hi - before[name].lo))

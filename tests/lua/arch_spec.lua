@@ -34,7 +34,7 @@ describe("ARCH benchmarks", function()
     local run = simulate(case)
     assert.is_true(case.proved(run, bounds_of(run)))
     assert_width(0.002524, run.x.x4:width())
-    assert.is_true(run.step_count <= 67)
+    assert.is_true(run.step_count <= 77)
     local bounds = bounds_of(run)
     bounds.x4 = bounds.x4 + 0.5
     assert.is_false(case.proved(run, bounds)) -- what would reach 4.5 is noticed
@@ -57,8 +57,8 @@ describe("ARCH benchmarks", function()
     local case = cases_of "coupled_van_der_pol" ["CVDP20 mu = 1"]
     local run = simulate(case)
     assert.is_true(case.proved(run, bounds_of(run)))
-    assert_width(0.1044, run.x.x1:width())
-    assert_width(0.4363, run.x.y1:width())
+    assert_width(0.1113, run.x.x1:width())
+    assert_width(0.4616, run.x.y1:width())
   end)
 
   it("hold Robertson's stiff reactions", function()
@@ -87,8 +87,9 @@ describe("ARCH benchmarks", function()
   it("follow hunters and prey past a circle that some touch", function()
     local row = require "lotka_volterra"[1].run()
     assert.is_true(row.proved)
-    assert.equal(24, row.certain + row.undecided)
-    assert.is_true(row.undecided <= 1)
+    local twice, four = row.crossings[2], row.crossings[4]
+    assert.equal(240000, twice + four + row.undecided) -- of the start, in units of 1e-7
+    assert.is_true(row.undecided > 0 and row.undecided <= 160) -- one of them touches
     assert_width(1.77e-5, row.widths.area)
   end)
 end)

@@ -1,6 +1,7 @@
 -- Combinations in processes of their own: what crashes, hangs, takes all memory or leaves is a row like any other.
 require "ambit"
 local compare_engine = require "ambit.compare.engine"
+local wire = require "ambit.wire"
 
 local function has(text, ...)
   for _, piece in ipairs { ... } do assert.truthy(tostring(text):find(piece, 1, true), text) end
@@ -23,6 +24,10 @@ describe("a combination in a child", function()
     assert.equal(0.1, row.width)
     assert.same({ 1, 2 }, row.list)
     assert.is_true(row.cpu_seconds >= 0 and row.memory >= 0)
+    local engine = compare_engine.new(generous)
+    local a = engine:child(function() return {} end)
+    local b = engine:child(function() return {} end)
+    assert.equal(a.cpu_seconds + b.cpu_seconds, engine.cpu_seconds) -- what is no row is counted too
   end)
 
   it("may crash", function()
@@ -40,6 +45,38 @@ describe("a combination in a child", function()
     local row = one(function() while true do end end, { limit = 0.05, wall = 0.3, memory = 1e9 })
     assert.equal("late", row.status)
     has(row.reason, "did not stop")
+  end)
+
+  it("may wait for what does not come", function()
+    local row = one(function() os.execute "sleep 30" end, { limit = 5, wall = 0.2, memory = 1e9 })
+    assert.equal("late", row.status)
+    has(row.reason, "waits for something")
+  end)
+
+  it("may close every file and go on, or leave a process behind that keeps them open", function()
+    local hostile, seconds = require "hostile", os.time()
+    local row = one(function()
+      hostile "closing"
+      while true do end
+    end, { limit = 0.05, wall = 0.3, memory = 1e9 })
+    assert.equal("late", row.status)
+    row = one(function()
+      hostile "forking"
+      return { status = "complete" }
+    end, generous)
+    assert.equal("complete", row.status)
+    assert.is_true(os.time() - seconds < 15) -- the process that is left lives for 20
+  end)
+
+  it("may stop itself, and may hand over what cannot be read", function()
+    local row = one(function() os.execute "kill -STOP $PPID" end, { limit = 5, wall = 0.2, memory = 1e9 })
+    assert.equal("late", row.status)
+    local write = wire.write
+    wire.write = function() return "garbage" end
+    row = one(function() return {} end, generous)
+    wire.write = write
+    assert.equal("failed", row.status)
+    has(row.reason, "cannot be read")
   end)
 
   it("may want too much memory", function()
@@ -80,6 +117,48 @@ describe("a combination in a child", function()
     assert.same({ "complete", "complete", "complete", "skipped", "complete", "skipped" }, statuses)
     has(rows[4].reason, "a3 took 9 s", "limit of 5 s")
     assert.same({ "1/6", "2/6", "3/6", "4/6", "5/6", "6/6", "end" }, ran)
+  end)
+
+  it("is skipped where most of what it follows ended early, or stopped at the limit", function()
+    local function combination(family, status, way, follows)
+      return { label = family .. way, family = family, effort = 1, settings = {}, follows = follows, work = function()
+        return { status = status, way = way, seconds_first = 0 }
+      end }
+    end
+    local list = { combination("a", "unable", 0.2), combination("a", "unable", 0.3), combination("a", "complete", 1),
+      combination("b", "unable", 0.9), combination("c", "complete", 1), combination("c", "unable", 0.1),
+      combination("d", "stopped", 0.1), combination("x", "complete", 1, "a"), combination("y", "complete", 1, "b"),
+      combination("z", "complete", 1, "c"), combination("w", "complete", 1, "d") }
+    local rows = compare_engine.new(generous):rows(list, function(c) return c.work() end,
+      function(row) return row.way end)
+    has(rows[8].status .. rows[8].reason, "skipped", "2 of 3 of a ended early", "0.3 of the way")
+    assert.equal("complete", rows[9].status)
+    assert.equal("complete", rows[10].status)
+    assert.equal("skipped", rows[11].status)
+  end)
+
+  it("keeps what ran when Ctrl-C comes between two", function()
+    local path = os.tmpname()
+    local file = assert(io.open(path, "w"))
+    file:write [[
+      local engine = require "ambit.compare.engine"
+      local list, mine = {}, nil
+      for i = 1, 4 do list[i] = { label = "c" .. i, family = "f", settings = {} } end
+      local progress = { tick = function() end, finish = function() end, begin = function(i)
+        if i == 3 and not mine.interrupted then io.popen("kill -INT $PPID"):close() end
+      end }
+      mine = engine.new({ limit = 5, memory = 1e9 }, progress)
+      local rows = mine:calm(function()
+        return mine:rows(list, function() return { status = "complete" } end)
+      end)
+      for _, row in ipairs(rows) do print(row.status) end
+]]
+    file:close()
+    local pipe = assert(io.popen(("'%s' run %s 2>&1"):format(os.getenv "AMBIT_COMMAND" or "ambit", path)))
+    local text = pipe:read "a"
+    pipe:close()
+    os.remove(path)
+    has(text:gsub("%s+", " "), "complete complete skipped skipped")
   end)
 
   it("is a row where its plugin cannot be used or does not fit", function()

@@ -132,6 +132,20 @@ describe("compare over solvers", function()
     has(agree.contradiction(comparison), "a and c contradict each other about x at t = 1", "[2.5, 4]")
   end)
 
+  it("says what to look at first, and gives no advice where proofs contradict each other", function()
+    local rows = {}
+    for i = 1, 4 do
+      rows[i] = { label = "r" .. i, rigorous = true, status = "complete", width = 1 + 1e-3 * i, width_max = 1 + 0.1 * i,
+        over_sample_max = 2 ^ i, seconds_run = 1 / i }
+    end
+    assert.equal("over_sample_max", judge.telling(rows, "width", { "width_max", "over_sample_max" }))
+    assert.equal("width_max", judge.telling(rows, "width_max", { "over_sample_max" }))
+    assert.equal("width", judge.telling(rows, "width", {}))
+    local front = judge.front(rows, "width")
+    has(advice.of({ measure = "width", rows = rows, status = "complete" }, front), "Use r4")
+    has(advice.of({ measure = "width", rows = rows, status = "unable", contradicted = true }, front), "No advice")
+  end)
+
   it("marks the Pareto front and says what to use", function()
     local rows, state = {}, 7
     local function random()

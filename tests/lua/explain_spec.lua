@@ -71,6 +71,18 @@ describe("ambit explain", function()
     has(output, "0 verbs", "the scene has no mechanism", "not asked for: the scene has no ambit.reduce")
   end)
 
+  it("adds up the runs that a verb is made of", function()
+    if not has_cjson then return pending "cjson is not installed" end
+    local by = records "scripts/bouncing_ball.lua"
+    local hybrid = by.verb[1].report
+    assert.equal("lohner", hybrid.solver)
+    assert.truthy(hybrid.steps > 0 and hybrid.operations > 0 and hybrid.seconds_run > 0)
+    assert.truthy(hybrid.tape_instructions < 100)
+    local reduce = records("scripts/reduce_double_pendulum.lua").verb[1]
+    assert.equal("reduce", reduce.verb)
+    assert.truthy(reduce.report.steps > 0 and reduce.report.coefficients > 0)
+  end)
+
   it("measures each of two plugins whose files have the same name", function()
     if not has_cjson then return pending "cjson is not installed" end
     local by = records(decay .. [[

@@ -1,5 +1,6 @@
 -- Inputs that nobody means: what each was mended for. The whole list is the suite of `ambit stability`.
 local ambit = require "ambit"
+local core = require "ambit.core"
 local session = require "ambit.session"
 
 local function growth() return ambit.ode { states = { "x" }, equations = function(s) return { x = s.x } end } end
@@ -85,6 +86,48 @@ describe("every solver", function()
         { growth(), initial = { x = 1 }, t = { -1.7e308, 1.7e308 }, solver = solver })
     end
     fails({ "t[2]", "got NaN" }, ambit.simulate, { growth(), initial = { x = 1 }, t = { 0, 0 / 0 } })
+  end)
+end)
+
+describe("a slider-crank that runs into its dead point", function()
+  it("ends with a reason in every solver, whatever is kept of the run", function()
+    local m = ambit.mechanism { "slider-crank", gravity = { 0, 0, 0 } }
+    local crank = m:rigid_link { from = m:revolute { from = m.world, axis = "z", name = "a" }, offset = { 1, 0, 0 } }
+    local rod = m:rigid_link { from = m:revolute { from = crank, axis = "z", name = "b" }, offset = { 2, 0, 0 } }
+    local slider = m:prismatic { from = m.world, axis = "x", name = "s" }
+    m:point_mass { at = slider, mass = 1 }
+    m:close_pin { a = rod, b = slider }
+    m:independent { "s" }
+    local initial = m:assemble { s = "2.875", guess = { a = "0.3", b = "-0.5" } }.configuration
+    initial["s'"] = 1
+    for _, solver in ipairs { "gsl", "lohner" } do
+      for _, keep in ipairs { "all", "last" } do
+        local run = solve { m:dynamics(), initial = initial, t = { 0, 0.5 }, solver = solver, keep = keep }
+        assert.equal("unable", run.status)
+        assert.truthy(math.abs(run.t_reached - 0.125) < 0.001)
+        assert.truthy(run.reason:find "^at t = 0.125 s ")
+      end
+    end
+  end)
+end)
+
+describe("memory that is too small", function()
+  it("is told with what to turn", function()
+    local child = core.child(function()
+      local names, initial = {}, {}
+      for i = 1, 1000 do names[i], initial[i] = "x" .. i, i end
+      local ring = ambit.ode { states = names, equations = function(s)
+        local rates = {}
+        for i, name in ipairs(names) do rates[name] = s[names[i % 1000 + 1]] - s[name] end
+        return rates
+      end }
+      return select(2, pcall(ambit.simulate, { ring, initial = initial, t = { 0, 1 }, solver = "valencia" }))
+    end, { cpu = 20, memory = 3e8 })
+    local _, ended = core.child_wait({ child }, 60)
+    assert.equal("done", ended.outcome)
+    for _, word in ipairs { "solver `valencia`", "out of memory", "fewer data uncertain", "`order`" } do
+      assert.truthy(ended.value:find(word, 1, true), ended.value)
+    end
   end)
 end)
 

@@ -180,6 +180,28 @@ describe("the profile", function()
     end
   end)
 
+  -- A series' products inside the rule of a sine are the sine's, whoever computes them; what is no instruction at all
+  -- (integrals of series, curves of a solver) is no opcode of the tape's, so equations don't pay for it.
+  it("gives opcodes what their rules do, and nothing else", function()
+    for _, settings in ipairs { 'solver = "lohner", arithmetic = "affine"', 'solver = "lohner", arithmetic = "gradient"',
+      'solver = "lohner", arithmetic = "interval"', 'solver = "valencia", arithmetic = "interval"',
+      'solver = "valencia", arithmetic = "affine"', 'solver = "taylor_model"' } do
+      local p = profile([[
+        local ambit = require "ambit"
+        local f = ambit.ode { states = { "x", "y" },
+          equations = function(s) return { x = s.y, y = -ambit.sin(s.x) } end }
+        ambit.simulate { f, initial = { x = ambit.around(1, "1%"), y = 0 }, t = { 0, "0.2" }, ]] .. settings .. " }")
+      local other = 0
+      for _, op in ipairs(p.operations) do
+        assert.truthy(({ sin = true, cos = true, neg = true, other = true })[op.name], settings .. ": " .. op.name)
+        if op.name == "other" then other = op.self end
+      end
+      local verb, sum = p.verbs[1], 0
+      for _, e in ipairs(verb.equations) do sum = sum + e.self end
+      assert.is_true(math.abs(sum + other - verb.operations) <= 1e-6 * verb.operations, settings)
+    end
+  end)
+
   it("knows mechanisms, evaluations, equilibria, reductions, draws and properties", function()
     local p, code, problems = profile(arm .. [[
       for _, arithmetic in ipairs { "real", "interval", "affine", "taylor_model" } do
@@ -241,6 +263,23 @@ describe("the profile", function()
 end)
 
 describe("the command profile", function()
+  it("writes whole letters, also of names that were cut", function()
+    local scene, folded = os.tmpname(), os.tmpname()
+    os.remove(scene)
+    scene = scene .. ("\u{3b1}"):rep(60) .. "b.lua" -- of which an odd number of bytes fits
+    local file = assert(io.open(scene, "w"))
+    file:write(ode .. [[run { solver = "lohner" }]])
+    file:close()
+    local code, stdout = shell(("%s profile --folded %s %s"):format(quoted(command), folded, quoted(scene)))
+    local stacks = read(folded)
+    os.remove(scene)
+    os.remove(folded)
+    assert.equal(0, code)
+    assert.truthy(stacks:find "\u{3b1}")
+    assert.truthy(utf8.len(stacks))
+    assert.truthy(utf8.len(stdout))
+  end)
+
   it("prints tables, bars and folded stacks", function()
     local scene, folded = write(ode .. [[run { solver = "lohner" } print "not seen"]]), os.tmpname()
     local code, stdout, stderr = shell(("%s profile --folded %s %s"):format(quoted(command), folded, quoted(scene)))

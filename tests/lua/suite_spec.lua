@@ -1,5 +1,6 @@
 -- The stability suite: what is wrong is called wrong, what changes fails, what crashes or hangs is a row.
 local ambit = require "ambit"
+local case_of = require "ambit.suite.case"
 local select_cases = require "ambit.suite.select"
 local suite = require "ambit.suite.run"
 local suite_table = require "ambit.suite.table"
@@ -74,6 +75,42 @@ describe("the stability suite", function()
       local row = row_of(saying { outcome = "proved", enclosures = { x = x } })
       assert.equal("wrong", row.outcome)
       assert.equal("changed", row.verdict)
+    end
+  end)
+
+  it("does not let a reference go unseen", function()
+    local function outcome(case)
+      case.over = case.over or { {} }
+      local row = row_of(case)
+      assert.equal("changed", row.verdict)
+      return row.outcome, row.reason
+    end
+    local function says(answer) return function() return answer end end
+    local reference = { x = { y = "1" } }
+    assert.equal("wrong", (outcome { run = says { outcome = "proved" }, reference = reference }))
+    local name, reason = outcome { make = decay, over = lohner, reference = { t = 5, x = { x = "0.006?1" } },
+      expected = { lohner = "proved" } }
+    assert.equal("wrong", name)
+    assert.truthy(reason:find("the reference at t = 5 was held against nothing", 1, true), reason)
+    assert.equal("crashed", (outcome { make = decay, over = lohner, reference = { t = 1, x = { y = "1" } },
+      expected = { default = "refused" } }))
+    assert.equal("crashed", (outcome { make = decay, over = lohner, reference = { x = { x = E } },
+      expected = { default = "refused" } }))
+  end)
+
+  it("takes no outcome that is none, and no refusal without a reason", function()
+    assert.equal("changed", row_of(saying { outcome = "fine" }).verdict)
+    assert.equal("changed", row_of(saying {}).verdict)
+    local silent = { run = function() error("", 0) end, over = { {} }, expected = { default = "refused" } }
+    assert.equal("the reason gives no reason", row_of(silent).changed)
+  end)
+
+  it("expects nothing in the quick run that a loaded machine could change", function()
+    for _, entry in ipairs(select_cases.of(select_cases.own(), { quick = true })) do
+      for _, c in ipairs(entry.combinations) do
+        local expected = case_of.expected(entry.case, c)
+        assert.is_true(expected ~= "late" and expected ~= "out of memory", entry.case.name .. " " .. (c.solver or ""))
+      end
     end
   end)
 

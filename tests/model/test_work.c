@@ -13,6 +13,7 @@
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <string.h>
 #include <time.h>
 #include <cmocka.h>
 
@@ -301,6 +302,10 @@ static void survives_too_many_frames(void **state) {
     ambit_meter_leave();
     ambit_meter_leave();
   }
+  ambit_meter_enter(AMBIT_FRAME_CORE, "1"); /* a frame that has its place, a mark that has none */
+  ambit_meter_mark(AMBIT_FRAME_OPERATION, "new");
+  ambit_meter_leave();
+  assert_int_equal(ambit_meter_depth(), 1);
   for (int i = 0; i < 10000; i++) ambit_meter_enter(AMBIT_FRAME_ELEMENT, "deep");
   ambit_meter_unwind(1);
   assert_int_equal(ambit_meter_depth(), 1);
@@ -339,6 +344,37 @@ static void joins_threads(void **state) {
     assert_true(ambit_profile_self_seconds(p, find(items, "work")) > 15e-4);
     ambit_profile_close(p);
   }
+}
+
+static ambit_status inner(void *user, uint32_t number, uint32_t worker) {
+  ambit_pool *pool;
+  (void)number, (void)worker;
+  assert_int_equal(ambit_pool_open(NULL, 2, &pool), AMBIT_OK);
+  ambit_meter_enter(AMBIT_FRAME_STAGE, "inner");
+  ambit_status status = ambit_pool_run(pool, 5, item, user, NULL);
+  ambit_meter_leave();
+  ambit_pool_close(pool);
+  return status;
+}
+
+static uint64_t count_of(const ambit_meter_frame *f, const char *name) {
+  uint64_t n = strcmp(f->name, name) == 0 ? f->count : 0;
+  for (const ambit_meter_frame *child = f->child; child; child = child->next) n += count_of(child, name);
+  return n;
+}
+
+/* what a pool does that an item of another pool opens is not lost */
+static void joins_threads_of_threads(void **state) {
+  (void)state;
+  ambit_pool *pool;
+  ambit_profile *p = ambit_profile_begin();
+  assert_int_equal(ambit_pool_open(NULL, 2, &pool), AMBIT_OK);
+  assert_int_equal(ambit_pool_run(pool, 4, inner, NULL, NULL), AMBIT_OK);
+  ambit_pool_close(pool);
+  const ambit_meter_frame *root = ambit_profile_end(p);
+  assert_int_equal(count_of(root, "inner"), 4);
+  assert_int_equal(count_of(root, "work"), 20);
+  ambit_profile_close(p);
 }
 
 /* -- shares */
@@ -425,6 +461,7 @@ int main(void) {
     cmocka_unit_test(nests_frames),
     cmocka_unit_test(survives_too_many_frames),
     cmocka_unit_test(joins_threads),
+    cmocka_unit_test(joins_threads_of_threads),
     cmocka_unit_test_setup_teardown(shares_instructions, set_up, tear_down),
     cmocka_unit_test(profiles_without_changing),
     cmocka_unit_test(lends_the_meter_only_then),

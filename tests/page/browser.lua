@@ -79,6 +79,27 @@ inspect("stability", "empty suite", page "stability empty_suite", { texts = { { 
 inspect("stability", "a large suite", page "stability suite 70 12", { counts = { { ".case tbody tr", 840 } } }, 1280,
   900)
 
+-- -- a diagram is first drawn over what tells the combinations apart
+
+local alike = page "compare alike"
+inspect("compare", "equal final widths", alike, {}, 1280, 900)
+if not alike:find '"first":"over_sample_max"' then fail("alike", "the diagram begins with equal widths") end
+
+-- -- both schemes have the same colours, in a way that older browsers know
+
+local function colours(name)
+  local list, known = {}, {}
+  for colour in read("scripts/page/" .. name):gmatch "%s(%-%-[%w-]+): #" do
+    if not known[colour] then list[#list + 1], known[colour] = colour, true end
+  end
+  table.sort(list)
+  return table.concat(list, " ")
+end
+
+local light, dark = colours "page.css", colours "dark.css"
+if light ~= dark then fail("colours", ("light %s, but dark %s"):format(light, dark)) end
+if alike:find("light-dark(", 1, true) then fail("colours", "light-dark() is not known to older browsers") end
+
 -- -- without scripts the tables are there
 
 for name, text in pairs { compare = page "compare usual", stability = page "stability suite 12 9" } do

@@ -61,27 +61,22 @@ int bound_neumann(size_t n, const double *K, double *X) {
 
 /* A^-1 X = (I - K)^-1 C X with K = I - C A */
 int bound_solution(size_t n, const double *C, const iv *A, size_t m, const iv *X, double *r) {
-  square K, E;
-  for (size_t i = 0; i < n; i++)
-    for (size_t j = 0; j < n; j++) {
-      iv sum = iv_of(i == j);
-      for (size_t l = 0; l < n; l++) sum = iv_fma(sum, A[l * n + j], -C[i * n + l]);
-      K[i * n + j] = iv_mag(sum);
-    }
-  if (!bound_neumann(n, K, E)) return 0;
-  for (size_t j = 0; j < m; j++) {
-    double y[N_MAX];
-    for (size_t i = 0; i < n; i++) {
-      iv sum = { 0, 0 };
-      for (size_t l = 0; l < n; l++) sum = iv_fma(sum, X[l * m + j], C[i * n + l]);
-      y[i] = iv_mag(sum);
-    }
-    for (size_t i = 0; i < n; i++) {
-      double sum = y[i];
-      for (size_t l = 0; l < n; l++) sum += E[i * n + l] * y[l];
-      r[i * m + j] = sum;
-    }
+  square K, E, Y;
+  K[0] = Y[0] = 0; /* there may be no columns */
+  iv row[N_MAX];
+  for (size_t i = 0; i < n; i++) {
+    for (size_t j = 0; j < n; j++) row[j] = iv_of(i == j);
+    for (size_t l = 0; l < n; l++) iv_add_scaled(n, row, A + l * n, -C[i * n + l]);
+    for (size_t j = 0; j < n; j++) K[i * n + j] = iv_mag(row[j]);
   }
+  if (!bound_neumann(n, K, E)) return 0;
+  for (size_t i = 0; i < n; i++) {
+    memset(row, 0, sizeof row);
+    for (size_t l = 0; l < n; l++) iv_add_scaled(m, row, X + l * m, C[i * n + l]);
+    for (size_t j = 0; j < m; j++) Y[i * m + j] = iv_mag(row[j]);
+  }
+  bound_multiply(n, n, m, E, Y, r);
+  for (size_t i = 0; i < n * m; i++) r[i] += Y[i];
   return 1;
 }
 

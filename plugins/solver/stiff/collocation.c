@@ -11,7 +11,10 @@
 #define ACCURATE 1e-12L      /* of a correction, relative: beyond it Newton's method has failed */
 #define SHARE 0.1            /* of a state's size that counts as moving */
 #define SHARE_OF_FRAMES 1e-3 /* the same for frames */
-#define SHRINKS 0.03         /* a factor is kept while each correction is this much smaller than the last */
+#define SHARE_AHEAD 1e-10    /* of what a state will be, below which it counts as nothing */
+#define TINY 1e-100
+#define LOOKS 400
+#define SHRINKS 0.03 /* a factor is kept while each correction is this much smaller than the last */
 
 int collocation_open(const ambit_host *h, collocation *q) {
   size_t n = q->nx, m = n + q->np, N = q->N;
@@ -19,6 +22,7 @@ int collocation_open(const ambit_host *h, collocation *q) {
   q->Z = h->alloc(h, N * n * sizeof *q->Z);
   q->c = h->alloc(h, (N + 1) * n * sizeof *q->c);
   q->size = h->alloc(h, m * sizeof *q->size);
+  q->least = h->alloc(h, n * sizeof *q->least);
   q->unit = h->alloc(h, n * sizeof *q->unit);
   q->scale = h->alloc(h, m * sizeof *q->scale);
   q->A = h->alloc(h, N * n * N * n * sizeof *q->A);
@@ -26,7 +30,9 @@ int collocation_open(const ambit_host *h, collocation *q) {
   q->J = h->alloc(h, N * n * n * sizeof *q->J);
   q->f = h->alloc(h, n * sizeof *q->f);
   q->row = h->alloc(h, N * n * sizeof *q->row);
-  return q->x && q->Z && q->c && q->size && q->unit && q->scale && q->A && q->residual && q->J && q->f && q->row;
+  for (size_t a = 0; q->least && a < n; a++) q->least[a] = TINY;
+  return q->x && q->Z && q->c && q->size && q->least && q->unit && q->scale && q->A && q->residual && q->J && q->f &&
+         q->row;
 }
 
 static void put(const collocation *q, real *r, const long double *y, long double t) {
@@ -78,7 +84,7 @@ static int measure(collocation *q) {
       most = fmaxl(most, fabsl(q->x[a] + q->Z[i * q->nx + a]));
     }
     if (!(most < 1e100L)) return 0;
-    q->size[a] = most > 1e-100L ? (double)most : 1e-100;
+    q->size[a] = fmax((double)most, q->least[a]);
     q->unit[a] = (double)moved + SHARE * q->size[a];
     q->scale[a] = (double)moved + SHARE_OF_FRAMES * q->size[a];
   }
@@ -162,6 +168,30 @@ int collocation_solve(collocation *q, double t, double h) {
   if (!(last <= ACCURATE)) return 0;
   to_chebyshev(q);
   return 1;
+}
+
+void collocation_look_ahead(collocation *q, double t, double h, double last) {
+  uint32_t n = q->nx;
+  long double start[N_MAX];
+  double most[N_MAX] = { 0 };
+  memcpy(start, q->x, n * sizeof *start);
+  for (int i = 0; i < LOOKS && (last - t) / h > 0; i++, h *= 2) {
+    if (fabs(h) > fabs(last - t)) h = last - t;
+    if (!predict(q, t, 0.5 * h) || !measure(q)) break;
+    for (uint32_t a = 0; a < n; a++) {
+      most[a] = fmax(most[a], q->size[a]);
+      q->x[a] += q->Z[(q->N - 1) * n + a];
+    }
+    t += h;
+  }
+  memcpy(q->x, start, n * sizeof *start);
+  for (uint32_t a = 0; a < n; a++) q->least[a] = fmax(TINY, SHARE_AHEAD * most[a]);
+  collocation_outgrow(q);
+}
+
+void collocation_outgrow(collocation *q) {
+  for (uint32_t a = 0; a < q->nx; a++)
+    if (fabsl(q->x[a]) >= q->least[a]) q->least[a] = TINY;
 }
 
 int collocation_linearise(collocation *q, double t, double h) {

@@ -114,15 +114,16 @@ static int bound_inverse(frame *r, uint32_t n) {
   square K, T;
   memset(K, 0, (size_t)n * n * sizeof *K);
   for (uint32_t l = 0; l <= r->order; l++)
-    for (uint32_t i = 0; i < n; i++)
-      for (uint32_t k = 0; k < n; k++) {
-        iv sum = iv_of(l == 0 && i == k ? -1 : 0);
-        for (uint32_t a = 0; a < n; a++) {
-          double x = r->C[i * n + a], y = r->U[l][a * n + k];
-          sum.high += x * y, sum.low += (-x) * y;
-        }
-        K[i * n + k] += iv_mag(sum);
+    for (uint32_t i = 0; i < n; i++) {
+      double high[N_MAX], low[N_MAX];
+      for (uint32_t k = 0; k < n; k++) high[k] = l == 0 && i == k ? -1 : 0, low[k] = -high[k];
+      for (uint32_t a = 0; a < n; a++) {
+        double x = r->C[i * n + a];
+        const double *y = r->U[l] + a * n;
+        for (uint32_t k = 0; k < n; k++) high[k] += x * y[k], low[k] += (-x) * y[k];
       }
+      for (uint32_t k = 0; k < n; k++) K[i * n + k] += iv_mag((iv) { low[k], high[k] });
+    }
   if (!bound_neumann(n, K, r->E)) return 0;
   for (uint32_t i = 0; i < n; i++)
     for (uint32_t k = 0; k < n; k++) {

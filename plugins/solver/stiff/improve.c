@@ -11,6 +11,12 @@
 
 #define DEGREE_MAX NODES_MAX
 
+static inline double row_times(uint32_t n, const double *row, const double *x) {
+  double sum = 0;
+  for (uint32_t a = 0; a < n; a++) sum += row[a] * x[a];
+  return sum;
+}
+
 /* v := U^-1 d to degree top: v_k = (C d)_k - sum_l (C U_l) v_(k-l), as C U_0 is about I */
 static void through(const stiff *s, uint32_t top, double v[][N_MAX]) {
   const frame *f = &s->frame;
@@ -21,8 +27,7 @@ static void through(const stiff *s, uint32_t top, double v[][N_MAX]) {
     for (uint32_t i = 0; i < n; i++) {
       double sum = 0;
       for (uint32_t a = 0; a < s->nx; a++) sum += f->C[i * n + a] * s->defect[a * w + k];
-      for (uint32_t l = 1; l <= k && l <= f->order; l++)
-        for (uint32_t a = 0; a < n; a++) sum -= turned[l][i * n + a] * v[k - l][a];
+      for (uint32_t l = 1; l <= k && l <= f->order; l++) sum -= row_times(n, turned[l] + i * n, v[k - l]);
       v[k][i] = sum;
     }
 }
@@ -69,8 +74,7 @@ void improve_piece(stiff *s) {
   for (uint32_t i = 0; i < s->nx; i++)
     for (uint32_t k = 0; k <= top; k++) {
       double sum = 0;
-      for (uint32_t l = 0; l <= k && l <= s->frame.order; l++)
-        for (uint32_t a = 0; a < n; a++) sum += s->frame.U[l][i * n + a] * z[k - l][a];
+      for (uint32_t l = 0; l <= k && l <= s->frame.order; l++) sum += row_times(n, s->frame.U[l] + i * n, z[k - l]);
       if (!(fabs(sum) < INFINITY)) continue;
       s->shift[i] += fabs(sum);
       poly_set(&s->P[i], k, dd_add(poly_get(&s->P[i], k), (dd) { sum, 0 }));

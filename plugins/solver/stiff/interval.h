@@ -32,6 +32,14 @@ static inline iv iv_scale(iv a, double x) {
 /* a + b x */
 static inline iv iv_fma(iv a, iv b, double x) { return iv_add(a, iv_scale(b, x)); }
 
+/* r += a x, entry by entry; r is none of a */
+static inline void iv_add_scaled(size_t n, iv *restrict r, const iv *restrict a, double x) {
+  if (x >= 0)
+    for (size_t k = 0; k < n; k++) r[k].low += a[k].low * x, r[k].high += a[k].high * x;
+  else
+    for (size_t k = 0; k < n; k++) r[k].low += a[k].high * -x, r[k].high += a[k].low * -x;
+}
+
 /* a b, b >= 0 or b <= 0 */
 static inline iv iv_times(iv a, iv b) {
   if (b.low > 0) { /* -low < 0: turn both */

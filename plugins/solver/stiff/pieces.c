@@ -40,19 +40,20 @@ const dd *pieces_table(const stiff *s, uint32_t level, uint32_t j) { return entr
 void pieces_cut(stiff *s, uint32_t level, uint32_t j) {
   uint32_t N = s->q.N, w = N + 1, nx = s->nx;
   const dd *T = pieces_table(s, level, j);
+  dd c[NODES_MAX + 1];
   for (uint32_t a = 0; a < s->inputs; a++) {
     poly *p = &s->P[a];
     p->n = a < nx ? N + 1 : 1, p->tail = 0;
     dd first = dd_of(s->q.x[a]);
     if (a < nx) first = dd_add(first, (dd) { s->below[a], 0 });
     for (uint32_t k = 1; k <= N && a < nx; k++) {
-      dd c = dd_of(s->q.c[k * nx + a]);
-      first = dd_add(first, dd_mul(c, dd_add(T[k * w], (dd) { k % 2 ? 1 : -1, 0 })));
+      c[k] = dd_of(s->q.c[k * nx + a]);
+      first = dd_add(first, dd_mul(c[k], dd_add(T[k * w], (dd) { k % 2 ? 1 : -1, 0 })));
     }
     poly_set(p, 0, a < nx ? first : s->start[a]);
     for (uint32_t l = 1; l < p->n; l++) {
       dd sum = { 0, 0 };
-      for (uint32_t k = l; k <= N; k++) sum = dd_add(sum, dd_mul(T[k * w + l], dd_of(s->q.c[k * nx + a])));
+      for (uint32_t k = l; k <= N; k++) sum = dd_add(sum, dd_mul(T[k * w + l], c[k]));
       poly_set(p, l, sum);
     }
   }

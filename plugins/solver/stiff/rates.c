@@ -31,12 +31,9 @@ static void coefficient(const stiff *s, uint32_t l, iv *Q) {
 
 /* r := C Q */
 static void through(const double *C, const iv *Q, uint32_t n, iv *r) {
+  memset(r, 0, (size_t)n * n * sizeof *r);
   for (uint32_t i = 0; i < n; i++)
-    for (uint32_t k = 0; k < n; k++) {
-      iv sum = { 0, 0 };
-      for (uint32_t b = 0; b < n; b++) sum = iv_fma(sum, Q[b * n + k], C[i * n + b]);
-      r[i * n + k] = sum;
-    }
+    for (uint32_t b = 0; b < n; b++) iv_add_scaled(n, r + i * n, Q + b * n, C[i * n + b]);
 }
 
 void rates_bound(const stiff *s, matrix_bounds *r) {

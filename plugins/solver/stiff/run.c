@@ -88,7 +88,7 @@ static double first_length(const stiff *s) {
 static enum why integrate(stiff *s, ambit_sink *sink) {
   start(s);
   s->t = s->problem.time[0];
-  s->next = 1, s->level = 1, s->careful = 0, s->last_why = WHY_NOTHING;
+  s->next = 1, s->level = 1, s->careful = 0, s->looked_ahead = 0, s->last_why = WHY_NOTHING;
   hull(s);
   for (uint32_t i = 0; i < s->nx; i++) s->limit[i] = s->options.width_max;
   s->guess = first_length(s);
@@ -142,6 +142,11 @@ static ambit_status explain(const stiff *s, enum why why) {
         "by "
         "`width_max`",
         s->problem.name[s->culprit], s->limit[s->culprit], s->t);
+  case WHY_FAST:
+    return h->fail(h, AMBIT_UNABLE,
+        "at t = %.9g s a step of %.3g s is too long for the rates of the equations: their product has no square among "
+        "the numbers; end before it, or allow no longer steps by `step_max`",
+        s->t, s->h.hi);
   default:
     return h->fail(h, AMBIT_UNABLE,
         "at t = %.9g s no step could be proved, the last try was %.3g s long, with an enclosure up to %.3g wide: %s; a "

@@ -13,7 +13,8 @@
 #define CAREFUL_STEPS 4
 #define SHRINK_NEWTON 0.3
 #define IMPROVEMENTS 2
-#define HIGHEST 4 /* level: 64 pieces */
+#define HIGHEST 4       /* level: 64 pieces */
+#define MOST_RATE 1e150 /* over a piece: frames are compared by squares */
 
 /* -- lengths */
 
@@ -121,10 +122,17 @@ static void choose_frame(stiff *s, uint32_t m) {
   if (evaluate_slopes(s, m / 2, m)) natural_choose(s, m / 2, m);
 }
 
+static int too_fast(const stiff *s, uint32_t m) {
+  double most = 0;
+  for (size_t i = 0; i < (size_t)(m + 1) * s->n * s->n; i++) most = fmax(most, fabs(s->rate[i]));
+  return most > MOST_RATE;
+}
+
 static enum why prove_pieces(stiff *s) {
   uint32_t m = 4u << s->level;
   s->half = (dd) { s->h.hi / (2.0 * m), s->h.lo / (2.0 * m) };
   evaluate_rates(s, m);
+  if (too_fast(s, m)) return WHY_FAST;
   if (s->problem.wish & AMBIT_WISH_DENSE) dense_start(s);
   if (s->spread) choose_frame(s, m);
   for (uint32_t j = 0; j < m; j++) {
@@ -144,6 +152,7 @@ static enum why prove_step(stiff *s) {
     why = prove_pieces(s);
     if (why == WHY_NOTHING) return why;
     bring_back(s);
+    if (why == WHY_FAST) return why;
   }
   s->level = HIGHEST;
   return why;
@@ -177,13 +186,25 @@ static double rescaled(const stiff *s) {
   return 0.9 * pow(s->options.tolerance / fmax(s->q.error, 1e-22), 1.0 / s->q.N);
 }
 
+/* where the first step fails, states without size are given one before it is made shorter */
+static int solve(stiff *s) {
+  const ambit_problem *p = &s->problem;
+  int good = collocation_solve(&s->q, s->t, s->h.hi);
+  if (!good && s->t == p->time[0] && !s->looked_ahead) {
+    collocation_look_ahead(&s->q, s->t, s->h.hi, p->time[p->ntime - 1]);
+    s->looked_ahead = 1;
+    good = collocation_solve(&s->q, s->t, s->h.hi);
+  }
+  return good && (!s->spread || spread_solve(s));
+}
+
 enum why step_make(stiff *s) {
   double length = s->guess;
   for (int i = 0; i < REJECTIONS; i++) {
     if (!plan(s, length)) return WHY_SHORT;
     ambit_work_try(s->counted);
     double h = fabs(s->h.hi);
-    if (!collocation_solve(&s->q, s->t, s->h.hi) || (s->spread && !spread_solve(s))) {
+    if (!solve(s)) {
       s->last_why = WHY_NEWTON;
       length = SHRINK_NEWTON * h;
       continue;
@@ -197,11 +218,13 @@ enum why step_make(stiff *s) {
     enum why why = prove_step(s);
     if (why == WHY_NOTHING) {
       place_start(s);
+      collocation_outgrow(&s->q);
       factor = fmax(0.5, fmin(factor, s->careful ? CAREFUL : GROWTH));
       s->careful -= s->careful > 0;
       s->guess = fmax(factor * h, s->at_instant && !s->careful ? s->guess : 0);
       return WHY_NOTHING;
     }
+    if (why == WHY_FAST) return why; /* shorter steps would never get there */
     s->last_why = why;
     s->careful = CAREFUL_STEPS;
     length = 0.5 * h;

@@ -28,6 +28,7 @@ enum why {
   WHY_SPLIT,
   WHY_FRAME,
   WHY_GROWTH, /* errors grow too fast to be bounded on the piece */
+  WHY_FAST,   /* rates over the piece whose squares are no numbers */
   WHY_SHORT,
   WHY_WIDE,
   WHY_STOPPED
@@ -113,6 +114,7 @@ typedef struct stiff {
   uint32_t level, next; /* 2^(level + 2) pieces; the instant ahead */
   int careful;          /* steps that are not made much longer yet */
   int at_instant;
+  int looked_ahead;   /* collocation.h */
   spectrum *spectrum; /* [PIECES_MAX + 1] */
   double *rate;       /* [(PIECES_MAX + 1) x n x n] (eta/2) J at the ends of pieces */
 

@@ -101,7 +101,7 @@ static int open_piece(const flow *f, piece *p, size_t zonotope) {
 static int open_pieces(flow *f) {
   size_t zonotope = f->worker[0].shape.size;
   if (!f->options.pieces_max)
-    f->options.pieces_max = flow_automatic_pieces(piece_doubles(f, zonotope) * sizeof(double));
+    f->options.pieces_max = flow_automatic_pieces(piece_doubles(f, zonotope) * sizeof(double), f->space.count);
   uint32_t n = f->m ? f->options.pieces_max : 1;
   f->piece = f->host->alloc(f->host, (n + 1u) * sizeof *f->piece);
   f->todo = f->host->alloc(f->host, (n + 1u) * sizeof *f->todo);
@@ -204,7 +204,6 @@ static ambit_status open_all(flow *f) {
   ambit_status status = start_open(f);
   if (status == AMBIT_NOMEM) return no_memory(f->host);
   if (status != AMBIT_OK) return status;
-  if (f->options.split_tolerance == 0) f->options.split_tolerance = flow_automatic_split_tolerance(f->m);
   if (!choose_cuts(f) || !choose_groups(f)) return no_memory(f->host);
   status = open_workers(f);
   if (status != AMBIT_OK) return status;

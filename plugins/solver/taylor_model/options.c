@@ -4,9 +4,13 @@
 
 #define RESOLUTION 0x1p-40    /* automatic step_min over the time span */
 #define LEAST_TOLERANCE 1e-20 /* far below the rounding errors of a step */
-#define MONOMIALS 130         /* that an automatic order stays below */
+#define MONOMIALS 130         /* that an automatic order stays below, whatever the set */
+#define MONOMIALS_MOST 800    /* ... if a wide set in many unknowns asks for more */
+#define MANY 4                /* unknowns: pieces multiply so that they are the last resort */
+#define NEGLECTED 1e-6        /* relative size of terms that such an order leaves out */
 #define MEMORY (96u << 20)    /* bytes that an automatic number of pieces stays below */
 #define PIECES 256
+#define FULL 260 /* monomials up to which there may be as many */
 
 enum {
   OPTION_ORDER,
@@ -46,9 +50,13 @@ static ambit_status check(const ambit_host *h, const double *o) {
   return AMBIT_OK;
 }
 
-uint32_t flow_automatic_order(uint32_t m) {
+/* Terms of degree d go like the set's relative width to the power of d. */
+uint32_t flow_automatic_order(uint32_t m, double width) {
   uint32_t order = m <= 1 ? 15 : 10;
   while (order > 1 && space_count(m, order) > MONOMIALS) order--;
+  if (m < MANY) return order;
+  double left = pow(width, order + 1.0);
+  for (; left > NEGLECTED && space_count(m, order + 1) <= MONOMIALS_MOST; left *= width) order++;
   return order;
 }
 
@@ -68,22 +76,33 @@ ambit_status flow_choose(const ambit_host *h, const ambit_problem *p, const doub
     .pieces_max = (uint32_t)o[OPTION_PIECES_MAX],
     .outputs = (uint32_t)o[OPTION_OUTPUTS],
     .keep = p->nx <= 24 ? 32 : 16,
-    .tolerance = larger(o[OPTION_TOLERANCE], LEAST_TOLERANCE),
+    .tolerance = o[OPTION_TOLERANCE],
     .split_tolerance = o[OPTION_SPLIT_TOLERANCE],
     .step_max = o[OPTION_STEP_MAX],
     .step_min = o[OPTION_STEP_MIN],
     .width_max = o[OPTION_WIDTH_MAX] };
-  if (!r->time_order) r->time_order = automatic_time_order(smaller(r->tolerance, 1e-3));
   return AMBIT_OK;
 }
 
 /* With one unknown a piece more is cheap, and remainders that start small stay small for long. With more, pieces
 ** multiply, and all of them are soon in use. */
-double flow_automatic_split_tolerance(uint32_t m) { return m <= 1 ? 1e-11 : m == 2 ? 1e-8 : 1e-6; }
+static double automatic_split_tolerance(uint32_t m) { return m <= 1 ? 1e-11 : m == 2 ? 1e-8 : m < MANY ? 1e-6 : 1e-5; }
 
-uint32_t flow_automatic_pieces(size_t bytes_of_piece) {
-  size_t most = MEMORY / (bytes_of_piece + 1);
-  return most > PIECES ? PIECES : most < 2 ? 2 : (uint32_t)most;
+/* many unknowns and a wide set truncate so much in the unknowns that exactness in time is wasted */
+static double automatic_tolerance(uint32_t m, double width) {
+  return m < MANY ? 1e-11 : smaller(larger(1e-6 * width, 1e-11), 1e-7);
+}
+
+void flow_choose_tolerances(options *o, uint32_t m, double width) {
+  if (o->tolerance == 0) o->tolerance = automatic_tolerance(m, width);
+  o->tolerance = larger(o->tolerance, LEAST_TOLERANCE);
+  if (o->split_tolerance == 0) o->split_tolerance = automatic_split_tolerance(m);
+  if (!o->time_order) o->time_order = automatic_time_order(smaller(o->tolerance, 1e-3));
+}
+
+uint32_t flow_automatic_pieces(size_t bytes_of_piece, size_t monomials) {
+  size_t most = MEMORY / (bytes_of_piece + 1), few = monomials > FULL ? PIECES * FULL / monomials : PIECES;
+  return most > few ? (uint32_t)few : most < 2 ? 2 : (uint32_t)most;
 }
 
 double flow_automatic_step_min(const ambit_problem *p) { return RESOLUTION * fabs(p->time[p->ntime - 1] - p->time[0]); }

@@ -2,10 +2,9 @@
 ** on has to say. */
 #include "flow.h"
 #include <stdio.h>
-#include <stdlib.h>
 
-#define BLURRED 0.05
-#define NEGLIGIBLE 1e-9
+#define BLURRED 0.1     /* remainder, of the set's width, from which pieces must serve */
+#define NEGLIGIBLE 1e-9 /* of the state's magnitude */
 
 /* -- records; the sink's world is round-to-nearest */
 
@@ -69,9 +68,9 @@ static int merge(flow *f) {
 static int is_blurred(const flow *f, const piece *p) {
   const zonotope_shape *shape = &f->worker[0].shape;
   for (uint32_t i = 0; i < f->nx; i++) {
-    double rest = 0, most = getenv("BLUR") ? atof(getenv("BLUR")) : BLURRED;
+    double rest = 0;
     for (uint32_t n = 0; n < f->ns; n++) rest = larger(rest, zonotope_at(shape, p->zonotope, n).sum[i]);
-    if (rest > most * (p->hi[i] - p->lo[i]) + NEGLIGIBLE * larger(fabs(p->lo[i]), fabs(p->hi[i]))) return 1;
+    if (rest > BLURRED * (p->hi[i] - p->lo[i]) + NEGLIGIBLE * larger(fabs(p->lo[i]), fabs(p->hi[i]))) return 1;
   }
   return 0;
 }

@@ -56,11 +56,23 @@ static int allocate(flow *f) {
   return f->start_x && f->start_p && f->start_x_rad && f->start_p_rad && f->unit_mid && f->unit_rad;
 }
 
-/* the set over m polynomial unknowns; *own: how many more it should be */
-static ambit_status evaluate_over(flow *f, uint32_t m, uint32_t *own) {
+/* relative width of the set; what is about zero has none */
+static double width_of(const flow *f) {
+  double sum = 0, count = 0;
+  for (uint32_t i = 0; i < f->nx + f->np; i++) {
+    int state = i < f->nx;
+    const double *c = state ? f->start_x + i * f->space.size : f->start_p + (i - f->nx) * f->space.size;
+    double middle = fabs(c[f->space.row[0].at]), all = polynomial_norm(&f->space, c), reach = all - middle;
+    reach += state ? f->start_x_rad[i] : f->start_p_rad[i - f->nx];
+    if (middle > reach && !is_thin(reach, middle)) sum += log(reach / (middle + reach)), count++;
+  }
+  return count > 0 ? exp(sum / count) : 0;
+}
+
+/* the set over m polynomial unknowns of this degree; *own: how many more it should be */
+static ambit_status evaluate_over(flow *f, uint32_t m, uint32_t order, uint32_t *own) {
   const ambit_problem *p = &f->problem;
   const ambit_host *h = f->host;
-  uint32_t order = f->options.order ? f->options.order : flow_automatic_order(m);
   f->m = m;
   if (m > UNKNOWNS_MAX || space_count(m, order) > MONOMIALS_MAX)
     return h->fail(h, AMBIT_INVALID,
@@ -90,9 +102,15 @@ static ambit_status evaluate_over(flow *f, uint32_t m, uint32_t *own) {
 }
 
 ambit_status start_open(flow *f) {
-  uint32_t own = 0;
-  ambit_status status = evaluate_over(f, f->problem.nu, &own);
-  if (status == AMBIT_OK && own) status = evaluate_over(f, f->problem.nu + own, &own);
+  uint32_t own = 0, m = f->problem.nu, asked = f->options.order;
+  uint32_t order = asked ? asked : flow_automatic_order(m, 0);
+  ambit_status status = evaluate_over(f, m, order, &own);
+  if (status != AMBIT_OK) return status;
+  double width = width_of(f);
+  m += own;
+  uint32_t better = asked ? asked : flow_automatic_order(m, width);
+  if (own || better != order) status = evaluate_over(f, m, better, &own);
+  if (status == AMBIT_OK) flow_choose_tolerances(&f->options, m, width);
   return status;
 }
 

@@ -3,9 +3,10 @@
 #define TAYLOR_MODEL_START_H
 #include "flow.h"
 
-ambit_status start_open(flow *f);                /* space and start_* of the initial set */
-uint32_t flow_automatic_order(uint32_t m);
-double flow_automatic_split_tolerance(uint32_t m);
-uint32_t flow_automatic_pieces(size_t bytes_of_piece);
+ambit_status start_open(flow *f); /* space and start_* of the initial set, and tolerances */
+/* `width`: of the set relative to its place, the geometric mean over all that is uncertain */
+uint32_t flow_automatic_order(uint32_t m, double width);
+void flow_choose_tolerances(options *o, uint32_t m, double width);
+uint32_t flow_automatic_pieces(size_t bytes_of_piece, size_t monomials);
 double flow_automatic_step_min(const ambit_problem *p);
 #endif

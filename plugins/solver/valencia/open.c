@@ -122,7 +122,7 @@ ambit_status valencia_open(const ambit_host *h, const ambit_problem *p, const do
   if (!s) return no_memory(h);
   *s = (valencia) { .host = h, .nx = p->nx, .np = p->np, .nu = p->nu, .ndir = p->nx + p->np };
   memcpy(&s->problem, p, p->size < sizeof s->problem ? p->size : sizeof s->problem);
-  s->counted = ambit_work_open(h);
+  s->counted = ambit_work_open(h), s->meter = h->service(h, AMBIT_METER_SERVICE);
   s->num = h->service(h, AMBIT_NUM_SERVICE), s->jet = h->service(h, AMBIT_JET_SERVICE);
   if (!s->num || !s->jet)
     return h->fail(

@@ -37,6 +37,17 @@ static void leave(const ambit_lane *l) {
   if (l->arithmetic->leave) l->arithmetic->leave(l->ctx);
 }
 
+/* Around operations that are no instructions of the tape: a profile must not charge the equations for them. */
+static void enter_curves(const valencia *s) {
+  if (!s->meter) return;
+  s->meter->enter("curves");
+  s->meter->operation(AMBIT_OP_COUNT);
+}
+
+static void leave_curves(const valencia *s) {
+  if (s->meter) s->meter->leave();
+}
+
 /* -- what the arithmetic keeps */
 
 #define TRIED 16
@@ -45,6 +56,7 @@ static void leave(const ambit_lane *l) {
 static uint32_t kept_degree(const valencia *s, int32_t var) {
   uint32_t k = 0, power = at(s, TERM), again = at(s, FACTOR);
   interval one = { -1, 1 };
+  enter_curves(s);
   put(s, at(s, SIGMA), one, var), put(s, power, point(1), -1), put(s, again, point(1), -1);
   for (; k < TRIED; k++) {
     apply(s, AMBIT_OP_MUL, at(s, SUM), power, at(s, SIGMA));
@@ -54,6 +66,7 @@ static uint32_t kept_degree(const valencia *s, int32_t var) {
     apply(s, AMBIT_OP_ADD, power, at(s, SUM), at(s, HALF));
     apply(s, AMBIT_OP_ADD, again, at(s, NEXT), at(s, HALF));
   }
+  leave_curves(s);
   return k;
 }
 
@@ -168,9 +181,12 @@ uint32_t valencia_symbols_run(valencia *s, const double *radius, int only_middle
   const ambit_lane *l = &s->symbols.lane;
   const ambit_tape *t = l->tape;
   enter(l);
+  enter_curves(s);
   uint32_t flags = set_monomials(s, only_middle);
   flags |= set_inputs(s, radius);
+  leave_curves(s);
   flags |= run_tape(l);
+  enter_curves(s);
   l->arithmetic->bounds(l->ctx, l->base, t->nslot, s->symbols.lo, s->symbols.hi);
   for (uint32_t i = 0; i < s->nx; i++) {
     flags |= set_curve(s, i, 1);
@@ -179,6 +195,7 @@ uint32_t valencia_symbols_run(valencia *s, const double *radius, int only_middle
     out[i] = bounds(s, at(s, NEXT));
     if (!is_bounded(out[i])) flags |= AMBIT_F_UNBOUNDED;
   }
+  leave_curves(s);
   leave(l);
   return flags;
 }

@@ -12,6 +12,7 @@
 #include "interval.h"
 #include <ambit/block.h>
 #include <ambit/jet.h>
+#include <ambit/meter.h>
 #include <ambit/num.h>
 #include <ambit/solver.h>
 
@@ -83,6 +84,7 @@ typedef struct symbols {
 typedef struct valencia {
   const ambit_host *host;
   ambit_work *counted;
+  const ambit_meter_service *meter; /* NULL: not profiled */
   ambit_problem problem;
   options options;
   const ambit_num_service *num;

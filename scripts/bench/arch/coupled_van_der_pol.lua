@@ -3,7 +3,7 @@
 local ambit = require "ambit"
 local between = ambit.between
 
-local function case(name, mu, b, x, bound, t, settings)
+local function case(name, mu, b, x, bound, t)
   local function oscillators(s)
     local pull = b * (s.x2 - s.x1)
     return { x1 = s.y1, y1 = mu * (1 - s.x1 ^ 2) * s.y1 + pull - s.x1,
@@ -12,7 +12,6 @@ local function case(name, mu, b, x, bound, t, settings)
   local request = { ambit.ode { states = { "x1", "y1", "x2", "y2" }, equations = oscillators },
     initial = { between(x[1], x[2]), between("2.35", "2.45"), between(x[1], x[2]), between("2.35", "2.45") },
     t = { 0, t }, solver = "taylor_model" }
-  for key, value in pairs(settings) do request[key] = value end
   return {
     problem = name, property = ("y1, y2 < %s"):format(bound), request = request,
     proved = function(run, bounds)
@@ -23,8 +22,7 @@ local function case(name, mu, b, x, bound, t, settings)
 end
 
 return {
-  case("CVDP20 mu = 1", 1, 1, { "1.25", "1.55" }, 2.75, 7, {}),
-  case("CVDP20 mu = 2", 2, 1, { "1.55", "1.85" }, 4.05, 8, { split_tolerance = 1e-5, tolerance = 1e-7 }),
-  case("CVDP23 b in [1, 3]", 1, between(1, 3), { "1.25", "1.55" }, 2.75, 7,
-    { order = 5, split_tolerance = 1e-5, tolerance = 1e-7 }),
+  case("CVDP20 mu = 1", 1, 1, { "1.25", "1.55" }, 2.75, 7),
+  case("CVDP20 mu = 2", 2, 1, { "1.55", "1.85" }, 4.05, 8),
+  case("CVDP23 b in [1, 3]", 1, between(1, 3), { "1.25", "1.55" }, 2.75, 7),
 }

@@ -48,6 +48,9 @@ local function of_farthest(rows, from)
 end
 
 function advice.of(comparison, front)
+  if comparison.contradicted then
+    return "No advice: one of the proofs is wrong, and it may be the tightest."
+  end
   if #front > 0 then return of_front(front, comparison.measure) end
   if comparison.t then return of_farthest(comparison.rows, comparison.t[1]) end
 end

@@ -2,6 +2,7 @@
 -- is said of those that cannot be drawn (failures, widths that are zero, infinite or beyond the axis).
 local compare_axis = require "ambit.compare.axis"
 local compare_table = require "ambit.compare.table"
+local judge = require "ambit.compare.judge"
 
 local drawn = {}
 
@@ -11,8 +12,10 @@ drawn.colours = { "#4477aa", "#ee6677", "#228833", "#aa3377", "#ccaa22", "#33aac
 local markers = { 7, 5, 9, 13, 11, 15, 4, 6 }
 
 local function of_simulation(comparison)
-  local key, inner = comparison.measure, 0
+  local key, inner = judge.telling(comparison.rows, comparison.measure, { "width_max", "over_sample_max" }), 0
   if key == "error" then return key, "largest distance from the reference", nil end
+  if key == "over_sample_max" then return key, "largest overestimation at any time: width / sampled width", 1 end
+  if key == "width_max" then return key, "largest width of " .. drawn.list(comparison.names) .. " at any time", nil end
   local sample = comparison.sample
   for k in ipairs(sample and sample.lo or {}) do
     inner = math.max(inner, sample.hi[k][#sample.t] - sample.lo[k][#sample.t])

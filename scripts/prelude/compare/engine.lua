@@ -2,7 +2,8 @@
 -- time and memory: what crashes, hangs or takes all memory is a row like any other. One at a time, because two
 -- neighbours share caches and memory, which would show in the CPU times that are to be compared.
 --
--- Ctrl-C at any time ends the child that runs; what was not run by then is a row that says so.
+-- Ctrl-C at any time ends the child that runs; what was not run by then is a row that says so. What ran stays, wherever
+-- in here the Ctrl-C comes.
 local core = require "ambit.core"
 local wire = require "ambit.wire"
 
@@ -12,6 +13,7 @@ Engine.__index = Engine
 local engine = {}
 
 local TICK = 0.2  -- s, how often the progress bar moves
+local FAR = 0.75  -- part of the way: a method that ends before it with most of its orders is not tried further
 local GRACE = 1   -- s, in which a child that was interrupted may hand over what it has
 local signals = { [4] = "illegal instruction", [6] = "abort", [7] = "bus error", [8] = "arithmetic exception",
   [9] = "killed", [11] = "invalid memory access" }
@@ -21,14 +23,14 @@ local silent = { begin = function() end, tick = function() end, finish = functio
 -- settings: limit (s of CPU time), memory (bytes), wall (s; nil: what a busy machine makes of the limit); progress:
 -- { begin(i, n, label), tick(), finish() } or nil
 function engine.new(settings, progress)
-  return setmetatable({ settings = settings, progress = progress or silent, interrupted = false,
-    seen = core.interrupted() }, Engine)
+  return setmetatable({ settings = settings, progress = progress or silent, kept = {}, cpu_seconds = 0,
+    interrupted = settings.interrupted or false, seen = core.interrupted() }, Engine)
 end
 
--- f(...), once more if Ctrl-C raised an error in it: then the engine is interrupted.
+-- f(...), again if Ctrl-C raised an error in it: then the engine is interrupted.
 function Engine:calm(f, ...)
   local results = table.pack(pcall(f, ...))
-  if not results[1] and core.interrupted() and tostring(results[2]):find "interrupted$" then
+  while not results[1] and core.interrupted() and tostring(results[2]):find "interrupted$" do
     self.interrupted = true
     results = table.pack(pcall(f, ...))
   end
@@ -59,7 +61,15 @@ function Engine:child(f)
   local good, result = pcall(wait, self, child)
   core.child_kill(child)
   if not good then error(result, 0) end
-  if result and result.outcome == "done" then result.data = wire.read(result.value) end
+  self.cpu_seconds = self.cpu_seconds + (result and result.cpu_seconds or 0)
+  if result and result.outcome == "done" then
+    local readable, data = pcall(wire.read, result.value)
+    if readable then
+      result.data = data
+    else
+      result.outcome, result.message = "failed", "what it handed over cannot be read"
+    end
+  end
   return result
 end
 
@@ -86,8 +96,9 @@ local function size(bytes) return ("%.3g MB"):format(bytes / 1e6) end
 local function outcome(self, row, result)
   local text = result.message or ""
   if result.outcome == "late" then
-    return engine.fail(row, "late", ("ended after %.3g s of CPU and %.3g s of wall time: it did not stop at its limit")
-      :format(result.cpu_seconds, result.wall_seconds))
+    return engine.fail(row, "late", ("ended after %.3g s of CPU and %.3g s of wall time: it %s"):format(
+      result.cpu_seconds, result.wall_seconds, result.cpu_seconds > self.settings.limit and
+      "did not stop at its limit" or "waits for something that does not come"))
   elseif result.outcome == "out of memory" or text:find "out of memory" or text:find "not enough memory" then
     return engine.fail(row, "out of memory", ("it wanted more than %s"):format(size(self.settings.memory)))
   elseif result.outcome == "crashed" then
@@ -110,38 +121,57 @@ local function run_one(self, c, work)
   return row
 end
 
--- The combination that took too long, of less effort in the same family or in the one that this one follows.
-local function too_slow(slow, c)
-  local before = slow[c.family]
-  return c.effort and before and c.effort > before.effort and before or c.follows and slow[c.follows]
-end
+-- -- what is not worth trying
 
-local function note_slow(slow, c, row, limit)
-  local seconds = row.seconds_first or row.status == "late" and row.cpu_seconds or 0
-  if c.effort and (seconds > limit or row.status == "late") and not (slow[c.family] and slow[c.family].effort <
-    c.effort) then
-    slow[c.family] = { effort = c.effort, label = c.label, seconds = seconds }
+-- Of each family: { effort, label, seconds } of the first that took too long, how many ran, how many of them were
+-- unable before they had gone FAR of the way, the farthest of those.
+local function new_record() return { ran = 0, early = 0, farthest = 0 } end
+
+-- Why c is skipped, or nil: one of less effort in the same family took too long, or so did one of the family that it
+-- follows, or most of that one ended early.
+local function hopeless(families, c, limit)
+  local own, other = families[c.family], families[c.follows]
+  local slow = own and own.slow and c.effort and c.effort > own.slow.effort and own.slow or other and other.slow
+  if slow then
+    return ("%s took %.3g s, which is over the limit of %.3g s"):format(slow.label, slow.seconds, limit)
+  elseif other and 2 * other.early > other.ran then
+    return ("%d of %d of %s ended early, at %.2g of the way at most: what is named in `solvers` runs all the same")
+      :format(other.early, other.ran, c.follows, other.farthest)
   end
 end
 
--- The rows of the combinations, in their order, none left out.
-function Engine:rows(combinations, work)
-  local rows, slow, limit = {}, {}, self.settings.limit
+-- way(row): which part of its way a row came, or nil
+local function note(families, c, row, limit, way)
+  local family = families[c.family] or new_record()
+  families[c.family] = family
+  local seconds = row.seconds_first or row.status == "late" and row.cpu_seconds or 0
+  local slow = seconds > limit or row.status == "late" or row.status == "stopped"
+  if c.effort and slow and not (family.slow and family.slow.effort < c.effort) then
+    family.slow = { effort = c.effort, label = c.label, seconds = seconds }
+  end
+  local part = row.status == "unable" and way and way(row)
+  family.ran = family.ran + 1
+  if part and part < FAR then family.early, family.farthest = family.early + 1, math.max(family.farthest, part) end
+end
+
+local function row_of(self, c, work, families, way)
+  local limit = self.settings.limit
+  local reason = hopeless(families, c, limit) or self.interrupted and "interrupted"
+  if reason then return engine.fail(new_row(c), "skipped", reason) end
+  local row = self:calm(run_one, self, c, work)
+  note(families, c, row, limit, way)
+  return row
+end
+
+-- The rows of the combinations, in their order, none left out. What an earlier call that Ctrl-C ended had done stays.
+function Engine:rows(combinations, work, way)
+  local families = {}
   for i, c in ipairs(combinations) do
     self.progress.begin(i, #combinations, c.label)
-    local before = too_slow(slow, c)
-    if before then
-      rows[i] = engine.fail(new_row(c), "skipped", ("%s took %.3g s, which is over the limit of %.3g s"):format(
-        before.label, before.seconds, limit))
-    elseif self.interrupted then
-      rows[i] = engine.fail(new_row(c), "skipped", "interrupted")
-    else
-      rows[i] = self:calm(run_one, self, c, work)
-      note_slow(slow, c, rows[i], limit)
-    end
+    self.kept[i] = self.kept[i] or row_of(self, c, work, families, way)
   end
   self.progress.finish()
-  return rows
+  return self.kept
 end
 
 return engine

@@ -145,7 +145,9 @@ function evaluation.run(comparison, request, settings, engine)
   local names = comparison.names
   comparison.rows = engine:rows(grid.combinations(settings.arithmetics),
     function(c) return measure(request, c, settings, names) end)
-  comparison.sample, comparison.sample_problem = sampled(engine, request, settings, names)
+  if not comparison.sample then
+    comparison.sample, comparison.sample_problem = sampled(engine, request, settings, names)
+  end
   hold_against(comparison)
   local proofs = 0
   for _, row in ipairs(comparison.rows) do
@@ -154,6 +156,7 @@ function evaluation.run(comparison, request, settings, engine)
     comparison.instructions = math.max(comparison.instructions or 0, row.instructions or 0)
   end
   local wrong = contradiction(comparison) or missed(comparison)
+  comparison.contradicted = wrong ~= nil
   if wrong or proofs == 0 then
     comparison.status, comparison.reason = "unable", wrong or "no arithmetic proved an enclosure"
   end

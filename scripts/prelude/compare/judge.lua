@@ -40,11 +40,38 @@ function judge.positive(widths, names)
   return list
 end
 
+local function finite(x) return x and x == x and x < math.huge end
+
+-- -- which quantity is to be seen first
+
+local ALIKE = 1.05 -- largest over least, below which a quantity tells nothing apart
+
+-- The largest of the positive ones over the least, among what is drawn.
+local function spread(rows, key)
+  local least, largest = math.huge, 0
+  for _, row in ipairs(rows) do
+    local x = row[key]
+    if row.status == "complete" and (row.rigorous or key == "error") and finite(x) and x > 0 then
+      least, largest = math.min(least, x), math.max(largest, x)
+    end
+  end
+  return largest > 0 and largest / least or 1
+end
+
+-- The measure, unless it is the same for all: then that of the keys which tells the rows apart best.
+function judge.telling(rows, measure, keys)
+  if not measure or spread(rows, measure) >= ALIKE then return measure end
+  local best, most = measure, spread(rows, measure)
+  for _, key in ipairs(keys) do
+    local s = spread(rows, key)
+    if s >= ALIKE and s > most then best, most = key, s end
+  end
+  return best
+end
+
 -- -- the Pareto front
 
 local NOTICED = 0.999 -- widths that differ by less than a thousandth are the same
-
-local function finite(x) return x and x == x and x < math.huge end
 
 -- The rows that may be on the front: proofs that are complete; if there is none, what proves nothing.
 local function candidates(rows, key)

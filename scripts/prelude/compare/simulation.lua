@@ -79,7 +79,7 @@ local function measure(q, c, settings, instants)
   row.track, row.width_max = course.track(run)
   if run.status == "stopped" then
     row.reason = core.interrupted() and "interrupted" or
-      ("its limit of %.3g s of CPU time is used up"):format(settings.limit)
+      ("its limit of %.3g s of CPU time is used up (`limit`)"):format(settings.limit)
   else
     repeated(q, c, settings, row)
   end
@@ -129,6 +129,7 @@ local function outcome(comparison)
   local wrong = agree.contradiction(comparison)
   local complete = false
   for _, row in ipairs(comparison.rows) do complete = complete or row.rigorous and row.status == "complete" end
+  comparison.contradicted = wrong ~= nil
   if wrong then
     comparison.status, comparison.reason = "unable", wrong
   elseif not complete then
@@ -143,12 +144,16 @@ function simulation.run(comparison, q, settings, engine)
   comparison.t = { times[1], times[#times] }
   comparison.unknowns = unknowns_of(q)
   local combinations = solvers.combinations(settings.solvers, settings.arithmetics)
-  if comparison.unknowns ~= 0 then
+  if comparison.unknowns ~= 0 and not comparison.sample then
     engine.progress.begin(0, #combinations, "sampled hull")
     comparison.sample, comparison.sample_problem = sampled(engine, q, settings)
   end
   comparison.instants = instants_of(q, comparison.sample, settings)
-  comparison.rows = engine:rows(combinations, function(c) return measure(q, c, settings, comparison.instants) end)
+  local function way(row)
+    return row.t_reached and (row.t_reached - times[1]) / (times[#times] - times[1])
+  end
+  comparison.rows = engine:rows(combinations,
+    function(c) return measure(q, c, settings, comparison.instants) end, way)
   for _, row in ipairs(comparison.rows) do
     comparison.unknowns = comparison.unknowns or row.unknowns
     comparison.instructions = math.max(comparison.instructions or 0, row.instructions or 0)

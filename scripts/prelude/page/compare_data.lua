@@ -1,6 +1,7 @@
 -- page/compare_data.lua -- what the diagrams of a comparison draw, for JSON. What is in the table is read from there.
 local compare_table = require "ambit.compare.table"
 local html = require "ambit.page.html"
+local judge = require "ambit.compare.judge"
 local json = require "ambit.view.json"
 local number = require "ambit.page.number"
 
@@ -8,7 +9,8 @@ local data = {}
 
 -- What may go across, in the order in which it is offered.
 local quantities = { { "width", "final width" }, { "width_max", "largest width" },
-  { "over_sample", "overestimation" }, { "error", "true error" } }
+  { "over_sample", "final overestimation" }, { "over_sample_max", "largest overestimation" },
+  { "error", "true error" } }
 
 local function finite(x) return x and x == x and math.abs(x) < math.huge end
 
@@ -89,11 +91,13 @@ function data.of(comparison)
     shown[i] = html.plain(compare_table.name_of(name))
     units[i] = html.plain((comparison.units or {})[i] or "")
   end
-  local offers, measure = offered(comparison), nil
-  for _, quantity in ipairs(offers) do
+  local offers, keys, measure = offered(comparison), {}, nil
+  for i, quantity in ipairs(offers) do
     if quantity[1] == comparison.measure or not measure then measure = quantity[1] end
+    keys[i] = quantity[1]
   end
   return { names = shown, units = units, rows = rows, quantities = offers, measure = measure,
+    first = judge.telling(comparison.rows, measure, keys),
     sample = comparison.t and track(comparison.sample, names), reference = reference(comparison.reference, names) }
 end
 

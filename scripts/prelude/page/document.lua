@@ -22,8 +22,8 @@ end
 function document.of(page)
   local facts = table.move(page.facts, 1, #page.facts, 1, {})
   local fill = { TITLE = html.text(page.title), SUBTITLE = html.text(page.subtitle), BODY = page.body,
-    STYLE = joined(page.styles), SCHEME = parts["scheme.js"], LIBRARY = library(page.library),
-    SCRIPT = joined(page.scripts), DATA = json.encode(page.data or {}),
+    STYLE = joined(page.styles), DARK = parts["dark.css"], SCHEME = parts["scheme.js"],
+    LIBRARY = library(page.library), SCRIPT = joined(page.scripts), DATA = json.encode(page.data or {}),
     FACTS = html.facts(table.move(machine.facts(), 1, 3, #facts + 1, facts)) }
   return (parts["page.html"]:gsub("@(%u+)@", fill))
 end

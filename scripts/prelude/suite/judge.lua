@@ -6,7 +6,8 @@ local wire = require "ambit.wire"
 local judge = {}
 
 -- Words by which a message of the interpreter is told from one of Ambit: these are faults, not refusals.
-local faults = { "attempt to ", "bad argument", "stack overflow", "wire: ", "no question is called" }
+local faults = { "attempt to ", "bad argument", "stack overflow", "wire: ", "no question is called",
+  "the reference names" }
 
 local function is_fault(message)
   for _, text in ipairs(faults) do
@@ -70,6 +71,8 @@ local rank = { crashed = 0, wrong = 0, ["out of memory"] = 1, late = 2, refused 
 -- "as expected", "changed" or "better", and in what.
 local function verdict(row, question)
   if row.outcome == "wrong" or row.outcome == "crashed" then return "changed", row.outcome end
+  if not rank[row.outcome] then return "changed", ("an outcome that nobody knows, %s"):format(tostring(row.outcome)) end
+  if row.outcome == "refused" and (row.reason or "") == "" then return "changed", "the reason gives no reason" end
   if row.outcome == "unable" then
     local missing = missing_in(row.reason, question, row.solver)
     if missing then return "changed", "the reason " .. missing end

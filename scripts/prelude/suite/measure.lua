@@ -47,8 +47,9 @@ local function against(values, reference, rigorous, where)
   for name in pairs(reference) do names[#names + 1] = name end
   table.sort(names)
   for _, name in ipairs(names) do
-    local x, truth = values[name], core.interval(reference[name])
-    if x == nil then error(("the reference names `%s`, which is no result"):format(name), 0) end
+    local known, x = pcall(function() return values[name] end)
+    local truth = core.interval(reference[name])
+    if not known or x == nil then error(("the reference names `%s`, which is no result"):format(name), 0) end
     if rigorous and misses(x, truth) then
       return nil, ("%s%s: [%.17g, %.17g] misses the reference %s"):format(name, where, x.lo, x.hi, tostring(truth))
     end
@@ -102,6 +103,10 @@ local outcome_of = { complete = "proved", unable = "unable", stopped = "late", e
 local function fill_reference(row, references, value_at)
   for _, reference in ipairs(references) do
     local values, where = value_at(reference.t)
+    if not values and (row.outcome == "proved" or row.outcome == "computed") then
+      row.outcome, row.reason = "wrong", ("the reference%s was held against nothing"):format(where)
+      return
+    end
     if values then
       local digits, problem = against(values, reference.x, row.rigorous, where)
       if problem then
@@ -124,9 +129,19 @@ local function of_run(run, references)
     row.outcome, row.reason = "wrong", problem
     return row
   end
-  row.width = run.rigorous and look(run.x, "") or nil
+  local width, at_end = look(run.x, at(run.t_reached))
+  if not width then
+    row.outcome, row.reason = "wrong", at_end
+    return row
+  end
+  row.width = run.rigorous and width or nil
+  if row.outcome == "proved" and row.width == math.huge then
+    row.outcome, row.reason = "wrong", "complete, but a state has no bounds" .. at(run.t_reached)
+    return row
+  end
   fill_reference(row, references, function(t)
-    if (t - run.t_start) * (t - run.t_reached) <= 0 then return run:at(t), at(t) end
+    if not t then error("the reference names no time", 0) end
+    return (t - run.t_start) * (t - run.t_reached) <= 0 and run:at(t) or nil, at(t)
   end)
   return row
 end
@@ -243,7 +258,11 @@ local function own(ambit, case, c)
   local row = copy(answer)
   row.enclosures = nil
   if row.rigorous == nil then row.rigorous = row.outcome ~= "computed" end
-  if answer.enclosures then of_values(row, flatten(answer.enclosures, "", {}), case.references) end
+  if answer.enclosures then
+    of_values(row, flatten(answer.enclosures, "", {}), case.references)
+  else
+    fill_reference(row, case.references, function() return nil, "" end)
+  end
   return row
 end
 

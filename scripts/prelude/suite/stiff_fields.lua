@@ -47,6 +47,34 @@ local function tissue_start()
   return list
 end
 
+-- CUSP: Zeeman's threshold nerve impulse with van der Pol oscillators that drive it, eps = 1e-4, CELLS in a ring.
+local CELLS = 8
+
+local function cusp(y, number)
+  local d, rates = number(CELLS ^ 2) / 144, {}
+  local function diffused(i, offset)
+    return d * (y[offset + (i - 2) % CELLS + 1] - 2 * y[offset + i] + y[offset + i % CELLS + 1])
+  end
+  for i = 1, CELLS do
+    local x, a, b = y[i], y[CELLS + i], y[2 * CELLS + i]
+    local u = (x - number "0.7") * (x - number "1.3")
+    local v = u / (u + number "0.1")
+    rates[i] = -10000 * (x ^ 3 + a * x + b) + diffused(i, 0)
+    rates[CELLS + i] = b + number "0.07" * v + diffused(i, CELLS)
+    rates[2 * CELLS + i] = (1 - a ^ 2) * b - a - number "0.4" * x + number "0.035" * v + diffused(i, 2 * CELLS)
+  end
+  return rates
+end
+
+local function cusp_start(ambit)
+  local list = {}
+  for i = 1, CELLS do
+    local angle = 2 * ambit.pi * i / CELLS
+    list[i], list[CELLS + i], list[2 * CELLS + i] = 0, -2 * ambit.cos(angle), 2 * ambit.sin(angle)
+  end
+  return list
+end
+
 -- An elastic beam, clamped at one end and pulled at the other: angles of LINKS links, then their speeds. With the
 -- tridiagonal C (1, 2, ..., 2, 3; -cos of neighbours' angles) and D (-sin of them): theta'' = C v + D C^-1 (D v + w^2).
 local LINKS = 6
@@ -117,12 +145,25 @@ return {
     reference = { t = 5, x = { y1 = "1.6951705464136089?3", y3 = "1.3253057430538231?3", y5 = "0.88985537126425464?3",
       y7 = "0.42009001173997960?3", y9 = "2.3307140446757502?3e-3", y10 = "0.83088835328498999?3",
       y12 = "0.99963526696986985?3", y14 = "0.99999975710194774?3" } } },
-  { name = "beam", title = "An elastic beam of 6 links is pulled, to t = 1",
+  { name = "cusp", title = "CUSP: nerve impulses in a ring of 8 cells, to t = 0.1", budget = { cpu = 15 },
+    source = "E. Hairer, G. Wanner: Solving Ordinary Differential Equations II, IV.10, to an eleventh of its end"
+      .. computed,
+    make = problem.make("CUSP", 3 * CELLS, cusp, cusp_start, "0.1"),
+    expected = { gsl = "computed", stiff = "late", taylor_model = "late", default = "proved" },
+    least = { stiff = { t_reached = 0.005 } },
+    reference = { t = 0.1, x = problem.digits { "-1.4892198673572226?6", "-1.2425382169878797?4",
+      "-6.026428548051316?29e-1", "8.67205722225739?13e-2", "7.8119319361667177?84e-1", "1.3500718927951868?45",
+      "1.5059219775052576?15", "-1.4433132835878841?12", "-1.2286986581041312?3", "2.1333302838674245?3e-1",
+      "1.5102872705941321?3", "1.9458293411532227?3", "1.2345447044498242?3", "-2.0621046250459645?14e-1",
+      "-1.5003887839014065?30", "-1.9302798779463083?3", "1.4729309802324683?3", "2.1834254735152310?3",
+      "1.1289067367186634?3", "-1.6947257276162494?3e-1", "-1.4412219017982618?3", "-2.1824723489155711?3",
+      "-1.1557740568588338?3", "2.2079034391296765?4e-1" } } },
+  { name = "beam", title = "An elastic beam of 6 links is pulled, to t = 1", budget = { cpu = 15 },
     source = "E. Hairer, G. Wanner: Solving Ordinary Differential Equations II, IV.1" .. computed,
     make = problem.make("beam", 2 * LINKS, beam, problem.zeros(2 * LINKS), 1),
     expected = { gsl = "computed", stiff = "unable", taylor_model = "late", valencia = "unable",
       default = "proved" },
-    least = { lohner = { digits = 11 }, valencia = { t_reached = 0.5 } },
+    least = { lohner = { digits = 11 }, stiff = { t_reached = 0.17 }, valencia = { t_reached = 0.5 } },
     reference = { t = 1, x = problem.digits { "7.2342785990792082?6e-2", "2.0092278679352517?3e-1",
       "3.1146424773870686?3e-1",
       "4.0138483599723716?3e-1",

@@ -72,7 +72,7 @@ local bad = {
 local function case(name, title, make, fields)
   return { name = name, group = "extreme", title = title, source = fields.source or "closed form",
     quick = fields.quick ~= false, budget = { cpu = fields.cpu or 10 }, over = over.all(), make = make,
-    reference = fields.reference, expected = fields.expected }
+    reference = fields.reference, expected = fields.expected, least = fields.least }
 end
 
 local proved = { default = "proved", gsl = "computed" }
@@ -103,16 +103,46 @@ local function gimbal_lock(a)
   return t
 end
 
--- Crank and rod in one line: the slider cannot say where the crank goes.
-local function dead_point(a)
-  local m = a.mechanism { "slider-crank", gravity = { 0, "-9.81", 0 } }
+-- A universal joint whose second angle has turned the mass onto the first axis: that axis moves nothing.
+local function cardan(a, second, rate)
+  local m = a.mechanism { "mass on a universal joint", gravity = { 0, 0, 0 } }
+  local joint = m:universal { from = m.world, name = "u" }
+  m:point_mass { at = m:rigid_link { from = joint, offset = { 0, 0, -1 } }, mass = 1 }
+  return start(m, { ["u.2"] = second, ["u.2'"] = rate })
+end
+
+local function cardan_at(a) return cardan(a, a.pi / 2, 0) end
+
+local function cardan_into(a)
+  local t = cardan(a, 1, 1)
+  t.t = { 0, 0.25, 2 }
+  return t
+end
+
+local function slider_crank(a, gravity)
+  local m = a.mechanism { "slider-crank", gravity = gravity }
   local crank = m:rigid_link { from = m:revolute { from = m.world, axis = "z", name = "a" }, offset = { 1, 0, 0 } }
   local rod = m:rigid_link { from = m:revolute { from = crank, axis = "z", name = "b" }, offset = { 2, 0, 0 } }
   local slider = m:prismatic { from = m.world, axis = "x", name = "s" }
-  for _, frame in ipairs { crank, rod, slider } do m:point_mass { at = frame, mass = 1 } end
   m:close_pin { a = rod, b = slider }
   m:independent { "s" }
+  return m, { crank, rod, slider }
+end
+
+-- Crank and rod in one line: the slider cannot say where the crank goes.
+local function dead_point(a)
+  local m, frames = slider_crank(a, { 0, "-9.81", 0 })
+  for _, frame in ipairs(frames) do m:point_mass { at = frame, mass = 1 } end
   return { m:dynamics(), initial = { s = 3, ["s'"] = 0, a = 0, b = 0 }, t = { 0, 1 } }
+end
+
+-- Only the slider has mass: it moves freely, until crank and rod are stretched at s = 3.
+local function into_dead_point(a)
+  local m, frames = slider_crank(a, { 0, 0, 0 })
+  m:point_mass { at = frames[3], mass = 1 }
+  local initial = m:assemble { s = "2.875", guess = { a = "0.3", b = "-0.5" } }.configuration
+  initial["s'"] = 1
+  return { m:dynamics(), initial = initial, t = { 0, 0.0625, 0.5 } }
 end
 
 return {
@@ -131,6 +161,14 @@ return {
     expected = { default = "proved", taylor_model = "late", gsl = "computed" }, quick = false }),
   case("gimbal_lock", "A spherical joint at its singular pose", gimbal_lock,
     { expected = { default = "unable", gsl = "computed" } }),
+  case("universal_singular", "A universal joint at its singular pose", cardan_at, {
+    expected = { default = "unable", gsl = "computed" } }),
+  case("universal_into_singular", "A universal joint turns into its singular pose at t = pi/2 - 1", cardan_into, {
+    expected = { default = "unable", gsl = "computed" }, least = { default = { t_reached = 0.57 } },
+    reference = { t = 0.25, x = { ["u.2"] = "1.25", ["u.2'"] = "1" } } }),
+  case("into_dead_point", "A slider-crank runs into its dead point at t = 1/8", into_dead_point, {
+    cpu = 20, expected = unable, least = { default = { t_reached = 0.12 } },
+    reference = { t = 0.0625, x = { s = "2.9375", ["s'"] = "1" } } }),
   case("dead_point", "A slider-crank led by its slider at the dead point", dead_point,
     { expected = { default = "refused" } }),
 }
