@@ -14,9 +14,9 @@ typedef struct ambit_batch ambit_batch;
 ambit_status ambit_batch_open(
     const ambit_tape *t, const ambit_arithmetic *full, void *ctx, ambit_batch **batch, ambit_failure *f);
 void ambit_batch_close(ambit_batch *batch);
-size_t ambit_batch_places(const ambit_batch *batch); /* slots after sharing */
+size_t ambit_batch_places(const ambit_batch *batch);          /* slots after sharing */
 const ambit_work *ambit_batch_work(const ambit_batch *batch); /* done so far */
-size_t ambit_batch_width(const ambit_batch *batch);  /* lanes at a time */
+size_t ambit_batch_width(const ambit_batch *batch);           /* lanes at a time */
 /* Inputs lo, hi [nin][lanes], outputs rlo, rhi [nout][lanes], which must not overlap. var [nin]: the number of the
 ** independent variable that an input is, or -1; NULL: none is. No allocation; AMBIT_F_* over all lanes. */
 uint32_t ambit_batch_run(

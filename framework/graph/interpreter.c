@@ -34,7 +34,9 @@ static ambit_status allocate(ambit_block *block, ambit_failure *f) {
     return ambit_fail(f, AMBIT_INVALID,
         "%zu slots in %zu lanes of %zu bytes need %.3g bytes, more than there are addresses", slots, lanes, elem, need);
   if (!ambit_memory_allows(bytes))
-    return ambit_fail(f, AMBIT_NOMEM, "%zu slots in %zu lanes of %zu bytes need %.3g bytes, but only %.3g are free",
+    return ambit_fail(f, AMBIT_NOMEM,
+        "%zu slots in %zu lanes of %zu bytes need %.3g bytes, but only %.3g are free; make fewer data uncertain, ask "
+        "for less at once, or allow more memory",
         slots, lanes, elem, need, (double)ambit_memory_available());
   bytes = (bytes / ALIGNMENT + 1) * ALIGNMENT;
   block->base = aligned_alloc(ALIGNMENT, bytes);

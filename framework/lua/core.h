@@ -23,12 +23,12 @@
 typedef struct ambit_lua {
   ambit_graph *graph;
   ambit_registry *registry;
-  ambit_records *records; /* JSON lines of `ambit run --json`, or NULL */
-  ambit_arena *arena;     /* texts that must live as long as the state */
-  bool progress;          /* draw a progress bar on stderr */
+  ambit_records *records;        /* JSON lines of `ambit run --json`, or NULL */
+  ambit_arena *arena;            /* texts that must live as long as the state */
+  bool progress;                 /* draw a progress bar on stderr */
   struct ambit_profile *profile; /* of `ambit profile`, or NULL */
-  bool framed;            /* the function that is called next has its frame in the profile */
-  double deadline;        /* when runs are stopped, s of CPU time of this process; 0: never */
+  bool framed;                   /* the function that is called next has its frame in the profile */
+  double deadline;               /* when runs are stopped, s of CPU time of this process; 0: never */
 } ambit_lua;
 
 /* The functions of the core run in the standard floating-point environment, whatever the host program set. Pushes f

@@ -40,9 +40,9 @@ double *ambit_context_options(ambit_lease *lease, const ambit_param *param, cons
   return ambit_params_resolve(param, owner, noption, option, value, f) == AMBIT_OK ? value : NULL;
 }
 
-/* What to turn where memory was short, unless the plugin has named something of its own. */
+/* What to turn where memory was short, unless the plugin says so itself. */
 static const char *memory_advice(ambit_status status, const char *said) {
-  if (status != AMBIT_NOMEM || strchr(said, '`')) return "";
+  if (status != AMBIT_NOMEM || strchr(said, '`') || strstr(said, "lower ")) return "";
   return "; make fewer data uncertain, split the model, lower `order` where it is an option, or allow more memory";
 }
 

@@ -1,5 +1,5 @@
 -- loops.lua: closed loops, from the scenes of this tree.
--- ambit run scripts/bench/loops.lua   prints a table; exit 1 if a scene is not proved. Times are CPU seconds of the run.
+-- ambit run scripts/bench/loops.lua   prints a table; exit 1 if a scene is not proved. Times are CPU time of the run.
 package.path = (arg[0]:match ".*/" or "./") .. "?.lua;" .. package.path
 local bench = require "bench"
 

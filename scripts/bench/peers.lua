@@ -1,8 +1,8 @@
 -- peers.lua: the problems on which other validated solvers were run, and by what factor Ambit is better.
 -- ambit run scripts/bench/peers.lua [NAME ...]   prints a table for each of P1 P2 P3 P4 P5 P6; exit 1 where a peer is
 -- better by more than its last digit. Figures of peers are quoted (run once, two shared Zen 4 cores: CAPD 5 with C0
--- sets of order 20, VNODE-LP, kv with affine mean values; Flow* was found not to enclose; or the papers named). Ours are
--- measured now: enclosures, CPU seconds of the run, the least of several. A factor over 1 is in our favour.
+-- sets of order 20, VNODE-LP, kv with affine mean values; Flow* was found not to enclose; or the papers named). Ours
+-- are measured now: enclosures, CPU seconds of the run, the least of several. A factor over 1 is in our favour.
 package.path = (arg[0]:match ".*/" or "./") .. "?.lua;" .. package.path
 local ambit = require "ambit"
 local bench = require "bench"
@@ -104,7 +104,8 @@ end
 function parts.P2()
   head("P2", "the same from the point")
   from_a_point(problems.P2, "lohner", { instants = { 1, 5, 10 },
-    width = { { "kv 1.1e-12", 1.1e-12 }, { "kv 1.2e-10", 1.2e-10 }, { "kv 1.9e-10 (CAPD 1.2e-8, VNODE-LP 2e-8)", 1.9e-10 } },
+    width = { { "kv 1.1e-12", 1.1e-12 }, { "kv 1.2e-10", 1.2e-10 },
+      { "kv 1.9e-10 (CAPD 1.2e-8, VNODE-LP 2e-8)", 1.9e-10 } },
     to = 10, cpu = { "CAPD .83 s (VNODE-LP 1.38, kv 18)", .83 },
     step = { "CAPD 1300 in 636 steps (VNODE-LP 2830, kv 40 000)", 1300 },
     until_t = { "kv beyond 27 (CAPD 21.2, VNODE-LP 19.0)", 27, 32 } })
@@ -153,7 +154,8 @@ function parts.P6()
   local pendulum, linear = problems.P6_pendulum, problems.P6_linear
   local run, seconds = go(pendulum, nil, { solver = "lohner" })
   local w = bench.largest(run.x, pendulum.names)
-  row("pendulum from (1, 0): largest width", "kv 8.5e-13 (CAPD 3.3e-12, VNODE-LP 4e-12)", 8.5e-13, "lohner", number(w), w)
+  row("pendulum from (1, 0): largest width", "kv 8.5e-13 (CAPD 3.3e-12, VNODE-LP 4e-12)", 8.5e-13, "lohner",
+    number(w), w)
   row("... CPU", "CAPD .054 s (VNODE-LP .126, kv 2.2)", .054, "lohner", bench.seconds(seconds), seconds)
   run = ambit.simulate(problems.request(linear, nil, { solver = "stiff" }))
   w = bench.largest(run.x, linear.names)

@@ -72,7 +72,8 @@ end
 
 -- P5: a fast decay towards a slow curve.
 problems.P5_linear = {
-  system = ambit.ode { states = { "y" }, equations = function(s, _, t) return { y = -1000 * (s.y - ambit.cos(t)) } end },
+  system = ambit.ode { states = { "y" },
+    equations = function(s, _, t) return { y = -1000 * (s.y - ambit.cos(t)) } end },
   names = { "y" }, initial = { y = 0 }, t = 2000,
 }
 

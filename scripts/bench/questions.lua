@@ -1,6 +1,7 @@
--- questions.lua: what is asked of solvers besides a simulation: events, switching, orbits, derivatives, proofs, postures.
--- ambit run scripts/bench/questions.lua   prints a table: what, truth, measured; exit 1 where one is not proved or misses
--- the truth. Times are CPU seconds.
+-- questions.lua: what is asked of solvers besides a simulation: events, switching, orbits, derivatives, proofs,
+-- postures.
+-- ambit run scripts/bench/questions.lua   prints a table: what, truth, measured; exit 1 where one is not proved or
+-- misses the truth. Times are CPU time.
 package.path = (arg[0]:match ".*/" or "./") .. "?.lua;" .. package.path
 local ambit = require "ambit"
 local core = require "ambit.core"
@@ -95,6 +96,7 @@ do
     return ambit.simulate(t).wall_seconds
   end
   local one, two = math.min(wall(1), wall(1), wall(1)), math.min(wall(2), wall(2), wall(2))
-  bench.figure("P1 in 60 pieces (`split`): two threads against one", "2", ("%.2f times as fast"):format(one / two), true)
+  bench.figure("P1 in 60 pieces (`split`): two threads against one", "2",
+    ("%.2f times as fast"):format(one / two), true)
 end
 bench.leave()

@@ -40,7 +40,8 @@ function parts.P1()
   bench.figure("P1, `lohner`, proves to", "0.69", outcome(run, s), run.t_reached > 0.69)
   local valencia = { solver = "valencia", arithmetic = { "taylor_model", order = 10 } }
   run, s = go(P1, 0.5, valencia)
-  bench.figure("P1, `valencia`, to t = 0.5", "1 s", outcome(run, s, numbers(bench.widths(run.x, names))), done(run, s, 1))
+  bench.figure("P1, `valencia`, to t = 0.5", "1 s", outcome(run, s, numbers(bench.widths(run.x, names))),
+    done(run, s, 1))
   run, s = go(P1, 2, valencia)
   bench.figure("P1, `valencia`, proves to", "1.0", outcome(run, s), run.t_reached > 1)
 end
@@ -52,7 +53,8 @@ function parts.P2()
   bench.figure("P2, `lohner`, to t = 10, largest width", "2e-10, 15 ms", outcome(run, s, number(w)),
     w < 2e-10 and done(run, s, 0.015))
   run, s = go(P2, 10, { solver = "lohner", order = 20 })
-  bench.figure("P2, `lohner`, order 20, a step", "30 us", bench.seconds(s / run.step_count), s / run.step_count <= 30e-6)
+  bench.figure("P2, `lohner`, order 20, a step", "30 us", bench.seconds(s / run.step_count),
+    s / run.step_count <= 30e-6)
   run = ambit.simulate(problems.request(P2, 32, { solver = "lohner" }))
   local first, last = bench.stays_under(run, names, 1e-3)
   bench.figure("P2, `lohner`, first over, last under 1e-3", "29", ("%.2f, %.2f"):format(first, last), last > 29)
@@ -85,8 +87,8 @@ local function stiff(what, problem, required, relative, most)
 end
 
 function parts.P5()
-  stiff("P5, Van der Pol, mu = 1000, `stiff`, to t = 2000, relative width", problems.P5_van_der_pol, "2e-8, 0.3 s", 2e-8,
-    0.3)
+  stiff("P5, Van der Pol, mu = 1000, `stiff`, to t = 2000, relative width", problems.P5_van_der_pol, "2e-8, 0.3 s",
+    2e-8, 0.3)
   stiff("... mu = 1e5, one period", problems.P5_period, "complete", math.huge, math.huge)
   stiff("P5, Robertson, `stiff`, to t = 1e9, relative width", problems.robertson(1e9), "0.1 s", math.huge, 0.1)
   stiff("... to t = 1e11", problems.robertson(1e11), "1 s", math.huge, 1)

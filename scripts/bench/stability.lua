@@ -24,8 +24,9 @@ end
 local function cell(row)
   if not row then return "" end
   if row.outcome == "proved" or row.outcome == "computed" then
-    local digits = row.digits and ("%.1f digits, "):format(row.digits) or row.width and ("width %.2g, "):format(row.width)
-    return (digits or "") .. bench.seconds(row.seconds)
+    local quality = row.digits and ("%.1f digits, "):format(row.digits)
+      or row.width and ("width %.2g, "):format(row.width)
+    return (quality or "") .. bench.seconds(row.seconds)
   end
   if row.t_reached and row.t_end then
     return ("%s at %s of %s"):format(row.outcome, bench.number(row.t_reached), bench.number(row.t_end))
@@ -66,7 +67,8 @@ for _, case in ipairs(result.cases) do
   end
 end
 table.sort(names)
-print(("\n%d extreme inputs; %d crashed, %d missed a reference or gave a NaN for a bound. What became of them:\n"):format(cases, faults.crashed, faults.wrong))
+print(("\n%d extreme inputs; %d crashed, %d missed a reference or gave a NaN for a bound. What became of them:\n")
+  :format(cases, faults.crashed, faults.wrong))
 bench.head("in", table.unpack(outcomes))
 for _, name in ipairs(names) do
   local cells = {}
@@ -87,8 +89,8 @@ print(("\n%d cases in %d seconds of CPU time; %d outcomes not as expected%s%s"):
 
 if arg[1] then
   local page = assert(io.open(arg[1], "w"))
-  page:write("# Every stiff, chaotic and extreme case\n\nWritten by `scripts/bench/stability.lua`; in short: [results](../results.md).\n\n",
-    suite_table.markdown(result), "\n")
+  page:write("# Every stiff, chaotic and extreme case\n\n",
+    "Written by `scripts/bench/stability.lua`; in short: [results](../results.md).\n\n", suite_table.markdown(result), "\n")
   assert(page:close())
 end
 bench.missed = #bad

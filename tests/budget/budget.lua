@@ -109,8 +109,8 @@ return {
   },
   {
     scene = "scripts/ur5.lua",
-    plugins = 9,
-    libraries = 15,
+    plugins = 10,
+    libraries = 18,
     quantities = 55,
     uncertain = 13,
     unknowns = 159,
@@ -121,8 +121,8 @@ return {
     allocations_run = 0,
     steps = 0,
     coefficients = 0,
-    operations = 777,
-    megabytes = 13,
+    operations = 26251413,
+    megabytes = 15,
   },
   {
     scene = "scripts/double_pendulum.lua",
@@ -292,7 +292,7 @@ return {
     steps = 25,
     coefficients = 1128340,
     operations = 1133603,
-    megabytes = 36,
+    megabytes = 35,
   },
   {
     scene = "scripts/bouncing_ball.lua",
@@ -360,6 +360,6 @@ return {
     steps = 452,
     coefficients = 25748000,
     operations = 25748000,
-    megabytes = 25,
+    megabytes = 24,
   },
 }

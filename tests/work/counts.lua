@@ -87,14 +87,14 @@ return {
     evaluations = 3392,
     operations = 8056,
     tried = 26,
-    allocations = 178,
+    allocations = 179,
   },
   ["Robertson, stiff"] = {
     steps = 24,
     evaluations = 5269,
     operations = 38926,
     tried = 29,
-    allocations = 204,
+    allocations = 205,
   },
   ["pendulum, lohner"] = {
     steps = 59,

@@ -14,7 +14,7 @@
 typedef struct interval_context {
   const ambit_num_service *num;
   const ambit_meter_service *meter; /* NULL: not profiled */
-  ambit_rounding outside; /* environment to restore on leave */
+  ambit_rounding outside;           /* environment to restore on leave */
 } interval_context;
 
 /* One per instruction set: the same source, compiled three times (variant.h). */

@@ -29,31 +29,12 @@ int lu_factor(size_t n, double *A, uint32_t *row) {
   return 1;
 }
 
-/* sum of x_k y_k, in four parts that do not wait for each other */
-static inline double dot(size_t n, const double *x, const double *y) {
-  double sum[4] = { 0 };
-  size_t k = 0;
-  for (; k + 4 <= n; k += 4)
-    for (size_t c = 0; c < 4; c++) sum[c] += x[k + c] * y[k + c];
-  for (; k < n; k++) sum[0] += x[k] * y[k];
-  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
-}
-
-static void substitute(size_t n, const double *A, double *b) {
-  for (size_t i = 1; i < n; i++) b[i] -= dot(i, A + i * n, b);
-  for (size_t i = n; i-- > 0;) b[i] = (b[i] - dot(n - i - 1, A + i * n + i + 1, b + i + 1)) / A[i * n + i];
-}
-
 void lu_solve(size_t n, const double *A, const uint32_t *row, size_t m, double *b) {
   for (size_t k = 0; k < n; k++)
     for (size_t j = 0; row[k] != k && j < m; j++) {
       double swap = b[k * m + j];
       b[k * m + j] = b[row[k] * m + j], b[row[k] * m + j] = swap;
     }
-  if (m == 1) {
-    substitute(n, A, b);
-    return;
-  }
   for (size_t i = 1; i < n; i++)
     for (size_t k = 0; k < i; k++) subtract(m, b + i * m, A[i * n + k], b + k * m);
   for (size_t i = n; i-- > 0;) {
@@ -88,15 +69,26 @@ int matrix_inverse(size_t n, const double *A, double *inverse) {
   return 1;
 }
 
+/* r += sum of four rows of b, so that r is loaded once */
+static inline void add_four(
+    size_t n, size_t pitch, double *restrict r, const double *restrict x, const double *restrict b) {
+  for (size_t j = 0; j < n; j++)
+    r[j] += (x[0] * b[j] + x[1] * b[pitch + j]) + (x[2] * b[2 * pitch + j] + x[3] * b[3 * pitch + j]);
+}
+
 typedef double four __attribute__((vector_size(32), aligned(8), may_alias));
 
 /* eight columns of a row of the product, which stay in registers; b, r at the first of them */
 static inline void eight_columns(size_t inner, size_t pitch, const double *x, const double *b, double *r) {
   four low = { 0 }, high = { 0 };
-  for (size_t k = 0; k < inner; k++, b += pitch) {
-    low += x[k] * *(const four *)b;
-    high += x[k] * *(const four *)(b + 4);
+  size_t k = 0;
+  for (; k + 4 <= inner; k += 4, x += 4, b += 4 * pitch) {
+    const four *b0 = (const four *)b, *b2 = (const four *)(b + 2 * pitch);
+    const four *b1 = (const four *)(b + pitch), *b3 = (const four *)(b + 3 * pitch);
+    low += (x[0] * *b0 + x[1] * *b1) + (x[2] * *b2 + x[3] * *b3);
+    high += (x[0] * b0[1] + x[1] * b1[1]) + (x[2] * b2[1] + x[3] * b3[1]);
   }
+  for (; k < inner; k++, x++, b += pitch) low += *x * *(const four *)b, high += *x * *(const four *)(b + 4);
   *(four *)r = low, *(four *)(r + 4) = high;
 }
 
@@ -107,7 +99,9 @@ void matrix_multiply(size_t rows, size_t inner, size_t cols, const double *a, co
     size_t j = 0;
     for (; j + 8 <= cols; j += 8) eight_columns(inner, cols, x, b + j, line + j);
     memset(line + j, 0, (cols - j) * sizeof *line);
-    for (size_t k = 0; j < cols && k < inner; k++) subtract(cols - j, line + j, -x[k], b + k * cols + j);
+    size_t k = 0;
+    for (; j < cols && k + 4 <= inner; k += 4) add_four(cols - j, cols, line + j, x + k, b + k * cols + j);
+    for (; j < cols && k < inner; k++) subtract(cols - j, line + j, -x[k], b + k * cols + j);
   }
 }
 
