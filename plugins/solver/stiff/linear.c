@@ -70,38 +70,19 @@ int matrix_inverse(size_t n, const double *A, double *inverse) {
 }
 
 /* r += sum of four rows of b, so that r is loaded once */
-static inline void add_four(
-    size_t n, size_t pitch, double *restrict r, const double *restrict x, const double *restrict b) {
-  for (size_t j = 0; j < n; j++)
-    r[j] += (x[0] * b[j] + x[1] * b[pitch + j]) + (x[2] * b[2 * pitch + j] + x[3] * b[3 * pitch + j]);
-}
-
-typedef double four __attribute__((vector_size(32), aligned(8), may_alias));
-
-/* eight columns of a row of the product, which stay in registers; b, r at the first of them */
-static inline void eight_columns(size_t inner, size_t pitch, const double *x, const double *b, double *r) {
-  four low = { 0 }, high = { 0 };
-  size_t k = 0;
-  for (; k + 4 <= inner; k += 4, x += 4, b += 4 * pitch) {
-    const four *b0 = (const four *)b, *b2 = (const four *)(b + 2 * pitch);
-    const four *b1 = (const four *)(b + pitch), *b3 = (const four *)(b + 3 * pitch);
-    low += (x[0] * *b0 + x[1] * *b1) + (x[2] * *b2 + x[3] * *b3);
-    high += (x[0] * b0[1] + x[1] * b1[1]) + (x[2] * b2[1] + x[3] * b3[1]);
-  }
-  for (; k < inner; k++, x++, b += pitch) low += *x * *(const four *)b, high += *x * *(const four *)(b + 4);
-  *(four *)r = low, *(four *)(r + 4) = high;
+static inline void add_four(size_t n, double *restrict r, const double *restrict x, const double *restrict b) {
+  for (size_t j = 0; j < n; j++) r[j] += (x[0] * b[j] + x[1] * b[n + j]) + (x[2] * b[2 * n + j] + x[3] * b[3 * n + j]);
 }
 
 void matrix_multiply(size_t rows, size_t inner, size_t cols, const double *a, const double *b, double *r) {
+  memset(r, 0, rows * cols * sizeof *r);
   for (size_t i = 0; i < rows; i++) {
     const double *x = a + i * inner;
-    double *line = r + i * cols;
-    size_t j = 0;
-    for (; j + 8 <= cols; j += 8) eight_columns(inner, cols, x, b + j, line + j);
-    memset(line + j, 0, (cols - j) * sizeof *line);
     size_t k = 0;
-    for (; j < cols && k + 4 <= inner; k += 4) add_four(cols - j, cols, line + j, x + k, b + k * cols + j);
-    for (; j < cols && k < inner; k++) subtract(cols - j, line + j, -x[k], b + k * cols + j);
+    for (; k + 4 <= inner; k += 4)
+      if (x[k] != 0 || x[k + 1] != 0 || x[k + 2] != 0 || x[k + 3] != 0)
+        add_four(cols, r + i * cols, x + k, b + k * cols);
+    for (; k < inner; k++) subtract(cols, r + i * cols, -x[k], b + k * cols);
   }
 }
 
