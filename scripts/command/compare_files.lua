@@ -2,38 +2,17 @@
 local compare_csv = require "ambit.command.compare_csv"
 local compare_records = require "ambit.compare.records"
 local core = require "ambit.core"
+local outputs = require "ambit.command.outputs"
 local picture = require "ambit.compare.picture"
 
 local files = {}
 
 local function complain(message) io.stderr:write("ambit: ", tostring(message), "\n") end
 
-local function write(name, text)
-  local file = assert(io.open(name, "w"))
-  local written, problem = file:write(text)
-  local closed, late = file:close()
-  if not (written and closed) then error(("cannot write %s: %s"):format(name, problem or late), 0) end
-end
-
 -- Said before anything is computed: the file that cannot be written.
-function files.problem(options)
-  local used = {}
-  for _, key in ipairs { "csv", "svg", "html", "json" } do
-    local name = options[key]
-    if name and used[name] then return ("--%s and --%s name the same file, %s"):format(used[name], key, name) end
-    if name then used[name] = key end
-    if name and not (key == "json" and name == "-") then
-      local there = io.open(name)
-      if there then there:close() end
-      local file, problem = io.open(name, "a")
-      if not file then return ("cannot write the file of --%s: %s"):format(key, problem) end
-      file:close()
-      if not there then os.remove(name) end
-    end
-  end
-end
+function files.problem(options) return outputs.problem(options, { "csv", "svg", "html", "json" }, { json = true }) end
 
-local function write_csv(list, name) write(name, compare_csv.text(list)) end
+local function write_csv(list, name) outputs.write(name, compare_csv.text(list)) end
 
 -- -- JSON lines
 
@@ -63,7 +42,7 @@ the picture needs gnuplot, which is not on the PATH (Debian, Ubuntu: apt install
 
 local function draw(script)
   local source = os.tmpname()
-  write(source, script)
+  outputs.write(source, script)
   local pipe = assert(io.popen(("gnuplot '%s'"):format(source)))
   local text = pipe:read "a"
   local drawn = pipe:close()
@@ -79,10 +58,10 @@ local function write_svg(list, name, file)
   if left_out > 0 then
     io.stderr:write(("note: the picture shows the first %d comparisons of %d\n"):format(#list - left_out, #list))
   end
-  write(name, draw(script))
+  outputs.write(name, draw(script))
 end
 
-local function write_html(list, name, file) write(name, require "ambit.page.compare".of(list, file)) end
+local function write_html(list, name, file) outputs.write(name, require "ambit.page.compare".of(list, file)) end
 
 -- Writes what the options ask for, as much as it can; true: something could not be written, and was complained about.
 -- engine:calm: Ctrl-C does not keep a file from being written.

@@ -1,6 +1,7 @@
 -- explain.lua -- `ambit explain`: what a scene loads, builds and leaves out, in numbers.
 local core = require "ambit.core"
 local explain_facts = require "ambit.command.explain_facts"
+local outputs = require "ambit.command.outputs"
 local scene = require "ambit.command.scene"
 
 local command = { scene = true }
@@ -26,14 +27,8 @@ end
 
 -- Says before the work starts what could not be written after it.
 local function check_outputs(options)
-  for _, key in ipairs { "dot", "svg" } do
-    local path = options[key]
-    if path and not (key == "dot" and path == "-") then
-      local file, problem = io.open(path, "a")
-      if not file then return ("cannot write %s"):format(problem) end
-      file:close()
-    end
-  end
+  local problem = outputs.problem(options, { "dot", "svg" }, { dot = true })
+  if problem then return problem end
   if options.svg and not require("ambit.command.explain_svg").has_dot() then
     return "--svg needs the program `dot` of Graphviz (Debian: apt install graphviz); --dot FILE works without it"
   end
@@ -41,13 +36,9 @@ end
 
 local function write_graphs(options, facts)
   local text, tips = require("ambit.command.explain_graph").dot(facts)
-  if options.dot == "-" then
-    io.stdout:write(text)
-  elseif options.dot then
-    local file, problem = io.open(options.dot, "w")
-    if not file then return complain(("cannot write %s"):format(problem)) end
-    file:write(text)
-    file:close()
+  if options.dot then
+    local good, problem = pcall(outputs.write, options.dot, text)
+    if not good then return complain(problem) end
   end
   if not options.svg then return 0 end
   local problem = require("ambit.command.explain_svg").write(options.svg, text, tips)

@@ -1,5 +1,7 @@
 -- explain_svg.lua -- the graph of a scene as a picture: Graphviz lays it out, a style sheet makes it readable in light
 -- and dark, tool tips carry the numbers.
+local outputs = require "ambit.command.outputs"
+
 local explain = {}
 
 local style = [[
@@ -61,10 +63,8 @@ function explain.write(path, dot, tips)
   os.remove(source)
   os.remove(picture)
   if not text or text == "" then return "`dot` could not draw the graph" end
-  local out, problem = io.open(path, "w")
-  if not out then return ("cannot write %s"):format(problem) end
-  out:write(explain.styled(text, tips))
-  out:close()
+  local good, problem = pcall(outputs.write, path, explain.styled(text, tips))
+  return not good and problem or nil
 end
 
 return explain

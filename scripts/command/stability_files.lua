@@ -1,5 +1,6 @@
 -- stability_files.lua -- what `ambit stability` writes besides its table: a page, JSON, CSV, Markdown.
 local json = require "ambit.view.json"
+local outputs = require "ambit.command.outputs"
 local suite_table = require "ambit.suite.table"
 
 local files = {}
@@ -8,27 +9,7 @@ local keys = { "html", "json", "csv", "markdown" }
 
 -- Said before anything is computed: the file that cannot be written.
 function files.problem(options)
-  local used = {}
-  for _, key in ipairs(keys) do
-    local name = options[key]
-    if name and used[name] then return ("--%s and --%s name the same file, %s"):format(used[name], key, name) end
-    if name then used[name] = key end
-    if name and not (key == "json" and name == "-") then
-      local there = io.open(name)
-      if there then there:close() end
-      local file, problem = io.open(name, "a")
-      if not file then return ("cannot write the file of --%s: %s"):format(key, problem) end
-      file:close()
-      if not there then os.remove(name) end
-    end
-  end
-end
-
-local function write(name, text)
-  local file = name == "-" and io.stdout or assert(io.open(name, "w"))
-  local good, problem = file:write(text)
-  if good then good, problem = file == io.stdout and file:flush() or file ~= io.stdout and file:close() end
-  if not good then error(("cannot write %s: %s"):format(name, problem), 0) end
+  return outputs.problem(options, keys, { json = true, markdown = true })
 end
 
 -- Doubles exactly; JSON has no infinity and no NaN: they are null.
@@ -52,7 +33,7 @@ local text_of = {
 
 function files.write(result, options)
   for _, key in ipairs(keys) do
-    if options[key] then write(options[key], text_of[key](result)) end
+    if options[key] then outputs.write(options[key], text_of[key](result)) end
   end
 end
 

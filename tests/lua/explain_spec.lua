@@ -154,7 +154,7 @@ m:revolut { from = m.world }]]
     has(problem, "did you mean `--json`?")
     code, _, problem = explain("error 'ran'", "--dot /nonexistent/x.dot")
     assert.equal(1, code)
-    has(problem, "cannot write /nonexistent/x.dot")
+    has(problem, "cannot write the file of --dot: /nonexistent/x.dot")
     assert.falsy(problem:find "ran")
   end)
 end)

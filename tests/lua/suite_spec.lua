@@ -304,11 +304,11 @@ describe("ambit stability", function()
     -- two at a time: the third starts when the first is done, and interrupts the command that started it
     local third = [[  { name = "third", group = "own", over = { {} }, run = function()
       local parent = io.open "/proc/self/stat":read "a":match "%) %a (%d+)"
-      os.execute("kill -INT " .. parent .. "; exec sleep 60")
+      os.execute("kill -INT " .. parent .. "; exec sleep 60 >/dev/null 2>&1")
     end },
 }
 ]]
-    local file, json = write((cases:format("proved", "os.execute 'exec sleep 60'"):gsub("}\n$", function() return third end))), os.tmpname()
+    local file, json = write((cases:format("proved", "os.execute 'exec sleep 60 >/dev/null 2>&1'"):gsub("}\n$", function() return third end))), os.tmpname()
     local text, code = shell(("%s --json %s"):format(file, json))
     assert.equal(130, code, text)
     assert.truthy(text:find("interrupted: what was done up to there is kept", 1, true), text)
