@@ -1,9 +1,9 @@
 -- compare.lua -- `ambit compare`: runs a scene once, then everything that it evaluates again in each arithmetic and
 -- everything that it simulates again by each solver.
-local asked = require "ambit.command.compare_asked"
+local asked = require "ambit.command.compare.asked"
 local compare = require "ambit.compare"
 local compare_engine = require "ambit.compare.engine"
-local compare_files = require "ambit.command.compare_files"
+local compare_files = require "ambit.command.compare.files"
 local compare_table = require "ambit.compare.table"
 local core = require "ambit.core"
 local progress = require "ambit.compare.progress"

@@ -3,8 +3,8 @@ local core = require "ambit.core"
 local json = require "ambit.view.json"
 local scene = require "ambit.command.scene"
 local session = require "ambit.session"
-local sums = require "ambit.command.profile_sums"
-local text = require "ambit.command.profile_text"
+local sums = require "ambit.command.profile.sums"
+local text = require "ambit.command.profile.text"
 
 local command = { scene = true }
 

@@ -1,6 +1,6 @@
 -- stability.lua -- `ambit stability`: the suite of stiff, chaotic and extreme cases, held against what is expected.
 local core = require "ambit.core"
-local files = require "ambit.command.stability_files"
+local files = require "ambit.command.stability.files"
 local scene = require "ambit.command.scene"
 local select_cases = require "ambit.suite.select"
 local suite = require "ambit.suite.run"

@@ -5,7 +5,7 @@ local data = require "ambit.view.data"
 local page = require "ambit.view.page"
 local scene = require "ambit.command.scene"
 local session = require "ambit.session"
-local target = require "ambit.command.view_target"
+local target = require "ambit.command.view.target"
 
 local command = { scene = true }
 

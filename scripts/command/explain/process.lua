@@ -1,4 +1,4 @@
--- explain_process.lua -- what is in the process, and what could be: plugins, shared libraries and the memory they map.
+-- explain/process.lua -- what is in the process, and what could be: plugins, shared libraries and the memory they map.
 local core = require "ambit.core"
 
 local explain = {}

@@ -1,4 +1,4 @@
--- explain_tree.lua -- the model tree of a mechanism: its parts, what hangs on what, coordinates, masses, closed loops,
+-- explain/tree.lua -- the model tree of a mechanism: its parts, what hangs on what, coordinates, masses, closed loops,
 -- and which of its quantities were built.
 local core = require "ambit.core"
 local element = require "ambit.element"

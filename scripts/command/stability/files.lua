@@ -1,4 +1,4 @@
--- stability_files.lua -- what `ambit stability` writes besides its table: a page, JSON, CSV, Markdown.
+-- stability/files.lua -- what `ambit stability` writes besides its table: a page, JSON, CSV, Markdown.
 local json = require "ambit.view.json"
 local outputs = require "ambit.command.outputs"
 local suite_table = require "ambit.suite.table"

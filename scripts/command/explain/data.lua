@@ -1,4 +1,4 @@
--- explain_data.lua -- the data of a scene: which are uncertain and became variables of a verb, which are fixed.
+-- explain/data.lua -- the data of a scene: which are uncertain and became variables of a verb, which are fixed.
 --
 -- An unknown is one uncertain number of the graph. Data are the numbers that parts, equations and initial values were
 -- given; one unknown may stand in several of them, and a part may make unknowns of its own (the play of a joint).

@@ -1,8 +1,8 @@
--- explain_graph.lua -- the scene as a graph in the language of Graphviz: parts and what they hang on, quantities that
+-- explain/graph.lua -- the scene as a graph in the language of Graphviz: parts and what they hang on, quantities that
 -- were built of them, verbs that needed these, solvers and arithmetics. What is left out is grey and dashed.
 --
 -- Every node has a class, by which a style sheet can colour it, and a tool tip with its numbers.
-local explain_tree = require "ambit.command.explain_tree"
+local explain_tree = require "ambit.command.explain.tree"
 
 local explain = {}
 

@@ -1,4 +1,4 @@
--- profile_text.lua -- a profile for people: tables of sums and a flame of indented bars; and folded stacks for programs
+-- profile/text.lua -- a profile for people: tables of sums and a flame of indented bars; and folded stacks for programs
 -- that draw flame graphs.
 local json = require "ambit.view.json"
 

@@ -1,4 +1,4 @@
--- compare_asked.lua -- what a scene asked that can be compared, each question once: a loop over arithmetics or solvers
+-- compare/asked.lua -- what a scene asked that can be compared, each question once: a loop over arithmetics or solvers
 -- asks the same question several times.
 local core = require "ambit.core"
 local session = require "ambit.session"

@@ -1,6 +1,6 @@
--- explain_text.lua -- what `ambit explain` prints: the five levels of leaving out, memory and time, in columns.
-local explain_parts = require "ambit.command.explain_parts"
-local explain_tree = require "ambit.command.explain_tree"
+-- explain/text.lua -- what `ambit explain` prints: the five levels of leaving out, memory and time, in columns.
+local explain_parts = require "ambit.command.explain.parts"
+local explain_tree = require "ambit.command.explain.tree"
 
 local explain = {}
 

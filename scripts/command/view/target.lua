@@ -1,4 +1,4 @@
--- view_target.lua -- the file that a page goes to: whole or not at all. What is written goes under another name beside
+-- view/target.lua -- the file that a page goes to: whole or not at all. What is written goes under another name beside
 -- it, which takes the place of the old file when everything is there.
 local target = {}
 

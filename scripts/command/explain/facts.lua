@@ -1,9 +1,9 @@
--- explain_facts.lua -- runs a scene with its output discarded and gathers what it loaded, built, computed and left out.
+-- explain/facts.lua -- runs a scene with its output discarded and gathers what it loaded, built, computed and left out.
 local check = require "ambit.check"
 local core = require "ambit.core"
-local explain_data = require "ambit.command.explain_data"
-local explain_tree = require "ambit.command.explain_tree"
-local process = require "ambit.command.explain_process"
+local explain_data = require "ambit.command.explain.data"
+local explain_tree = require "ambit.command.explain.tree"
+local process = require "ambit.command.explain.process"
 local scene = require "ambit.command.scene"
 local session = require "ambit.session"
 local suggest = require "ambit.suggest"

@@ -1,4 +1,4 @@
--- profile_sums.lua -- what the frames of a profile add up to: stages, calls, opcodes, equations. Each sum is over the
+-- profile/sums.lua -- what the frames of a profile add up to: stages, calls, opcodes, equations. Each sum is over the
 -- frames' own times, so that parts never count twice and stages make the whole.
 local core = require "ambit.core"
 

@@ -1,4 +1,4 @@
--- explain_json.lua -- the same as records, one object a line.
+-- explain/json.lua -- the same as records, one object a line.
 local core = require "ambit.core"
 
 local explain = {}

@@ -1,4 +1,4 @@
--- explain_svg.lua -- the graph of a scene as a picture: Graphviz lays it out, a style sheet makes it readable in light
+-- explain/svg.lua -- the graph of a scene as a picture: Graphviz lays it out, a style sheet makes it readable in light
 -- and dark, tool tips carry the numbers.
 local outputs = require "ambit.command.outputs"
 

@@ -1,5 +1,5 @@
--- explain_parts.lua -- a mechanism as text: its parts as an indented tree, closed loops, chains, what was not built.
-local explain_tree = require "ambit.command.explain_tree"
+-- explain/parts.lua -- a mechanism as text: its parts as an indented tree, closed loops, chains, what was not built.
+local explain_tree = require "ambit.command.explain.tree"
 
 local explain = {}
 

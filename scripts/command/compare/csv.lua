@@ -1,4 +1,4 @@
--- compare_csv.lua -- comparisons as CSV (RFC 4180): one line for each combination and result.
+-- compare/csv.lua -- comparisons as CSV (RFC 4180): one line for each combination and result.
 local core = require "ambit.core"
 local evaluation = require "ambit.compare.evaluation"
 

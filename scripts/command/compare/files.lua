@@ -1,5 +1,5 @@
--- compare_files.lua -- what `ambit compare` writes besides its tables: CSV, JSON lines, a picture, a page.
-local compare_csv = require "ambit.command.compare_csv"
+-- compare/files.lua -- what `ambit compare` writes besides its tables: CSV, JSON lines, a picture, a page.
+local compare_csv = require "ambit.command.compare.csv"
 local compare_records = require "ambit.compare.records"
 local core = require "ambit.core"
 local outputs = require "ambit.command.outputs"
