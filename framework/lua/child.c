@@ -344,4 +344,10 @@ void ambit_lua_open_child(lua_State *L, ambit_lua *core) {
   ambit_lua_new_type(L, core, TYPE, type);
   lua_pop(L, 1);
   ambit_lua_set_functions(L, core, functions);
+#if defined(SANITIZED) /* is_sanitized: children have no limit of memory, and crash in another way */
+  lua_pushboolean(L, true);
+#else
+  lua_pushboolean(L, false);
+#endif
+  lua_setfield(L, -2, "is_sanitized");
 }
