@@ -37,9 +37,9 @@ local function jobs_of(cases)
   return jobs
 end
 
--- Calls found(job, ended) for each job as it ends; false: interrupted, with what was running thrown away.
-local function work(jobs, budget, found, progress)
-  local children, running, next_job, done = {}, {}, 1, 0
+-- Calls found(job, ended) for each job as it ends; false: interrupted, with `children` still running.
+local function work(jobs, children, budget, found, progress)
+  local running, next_job, done = {}, 1, 0
   while next_job <= #jobs or #children > 0 do
     while #children < SIDE_BY_SIDE and next_job <= #jobs do
       children[#children + 1], running[#running + 1] = start(jobs[next_job], budget), jobs[next_job]
@@ -47,16 +47,24 @@ local function work(jobs, budget, found, progress)
     end
     if progress then progress(done, #jobs, running) end
     local index, ended = core.child_wait(children, GLANCE)
-    if index then
+    if index and not core.interrupted() then
       table.remove(children, index)
       found(table.remove(running, index), ended)
       done = done + 1
     elseif ended == "interrupted" or core.interrupted() then
-      for _, child in ipairs(children) do core.child_kill(child) end
       return false
     end
   end
   return true
+end
+
+-- The same, and what was running is thrown away. Ctrl-C between two waits is an error in Lua.
+local function work_until_interrupted(...)
+  local jobs, children = ..., {}
+  local good, whole = pcall(work, jobs, children, select(2, ...))
+  for _, child in ipairs(children) do core.child_kill(child) end
+  if not good and not core.interrupted() then error(whole, 0) end
+  return good and whole
 end
 
 local function case_row(case)
@@ -83,7 +91,7 @@ function suite.run(selected, options)
   for i, entry in ipairs(selected) do
     list[i] = { row = case_row(entry.case), count = #entry.combinations, found = {} }
   end
-  local whole = work(jobs_of(selected), options.budget or 1, function(job, ended)
+  local whole = work_until_interrupted(jobs_of(selected), options.budget or 1, function(job, ended)
     local row = judge.row(ended, job.case, job.combination)
     list[job.i].found[job.k] = row
     result.cpu_seconds = result.cpu_seconds + ended.cpu_seconds
