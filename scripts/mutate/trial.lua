@@ -1,0 +1,87 @@
+-- trial.lua -- one mutation tried: written into a copy of the tree, built, tested, taken back.
+--
+-- Outcomes: "killed" and the test that noticed; "unbuilt" (the compiler refuses it); "survived".
+local source = require "mutate.source"
+
+local trial = {}
+
+-- Every process of a test may use so much: a mutation may loop for ever, or ask for all memory.
+local LIMITS = "ulimit -t 120; ulimit -v 8000000; ulimit -c 0; "
+local WALL = 900 -- s for a stage
+
+local function shell(command, log)
+  local ok, _, code = os.execute(("( %s ) >%s 2>&1"):format(command, log))
+  return ok == true, code
+end
+
+local function read(file)
+  local input = assert(io.open(file))
+  local text = input:read "a"
+  input:close()
+  return text
+end
+
+local function write(file, text)
+  local output = assert(io.open(file, "w"))
+  output:write(text)
+  assert(output:close())
+end
+
+-- Copies the committed tree into `place` and configures it. Tests are not linked anew when only the library changes.
+function trial.prepare(place)
+  local make = ([[set -e; rm -rf %s; mkdir -p %s; git archive HEAD | tar -x -C %s;
+    cmake -S %s -B %s/build -G Ninja -DCMAKE_BUILD_TYPE=Release -DAMBIT_TESTS=ON -DCMAKE_LINK_DEPENDS_NO_SHARED=ON;
+    cmake --build %s/build]]):gsub("%%s", place)
+  assert(shell(make, "/dev/null") or nil, "the tree does not build: " .. place)
+end
+
+-- The commands that test an area, quick ones first: { name, command }.
+local function stages(area, place)
+  local list = {}
+  for _, pattern in ipairs(area.tests) do
+    list[#list + 1] = { pattern, ("%stimeout %d ctest --test-dir %s/build -R '%s' --stop-on-failure"):format(LIMITS, WALL,
+      place, pattern) }
+  end
+  for _, spec in ipairs(area.specs or {}) do
+    local path = ("%s/build/tests/lua/plugins:%s/build/tests/plugins:%s/build/plugins"):gsub("%%s", place)
+    list[#list + 1] = { spec .. "_spec", ("%scd %s && AMBIT_PATH=%s AMBIT_COMMAND=%s/build/ambit NO_COLOR=1 timeout %d %s/build/ambit test tests/lua/%s_spec.lua")
+      :format(LIMITS, place, path, place, WALL, place, spec) }
+  end
+  return list
+end
+
+-- The first stage that fails, and what failed in it; nil if all pass.
+local function noticed(area, place, log)
+  for _, stage in ipairs(stages(area, place)) do
+    if not shell(stage[2], log) then
+      local text = read(log)
+      return text:match "%d+ %- ([%w_.]+) %(" or text:match "Failure[^\n]*\n[^\n]*" or stage[1]
+    end
+  end
+end
+
+local function build(area, place, log)
+  return shell(("cmake --build %s/build --target %s"):format(place, table.concat(area.targets, " ")), log)
+end
+
+-- Do all tests of the area pass as it is?
+function trial.is_sound(area, place, log)
+  assert(build(area, place, log), "the area does not build: " .. area.name)
+  return noticed(area, place, log)
+end
+
+function trial.run(area, mutation, place, log)
+  local file = place .. "/" .. mutation.file
+  local text = read(file)
+  write(file, source.with(text, mutation))
+  local outcome, by = "unbuilt", nil
+  if build(area, place, log) then
+    by = noticed(area, place, log)
+    outcome = by and "killed" or "survived"
+  end
+  write(file, text)
+  build(area, place, log)
+  return outcome, by
+end
+
+return trial
