@@ -113,6 +113,8 @@ static void work_is_bounded(void **unused) {
   ambit_expr power = ambit_graph_pown(g, ADD(x, y), INT32_MAX);
   assert_int_equal(ambit_graph_simplify(g, power, 100), power);
   assert_int_equal(ambit_graph_simplify(g, e, 0), e);
+  assert_int_equal(ambit_graph_simplify(g, AMBIT_NO_EXPR, 100), AMBIT_NO_EXPR);
+  assert_int_equal(ambit_graph_simplify(g, ambit_graph_count(g), 100), ambit_graph_count(g));
   ambit_expr sum = 0; /* all powers of x: factoring nests deeply */
   for (int i = 1; i < 600; i++) sum = ADD(sum, ambit_graph_pown(g, x, i));
   assert_int_not_equal(ambit_graph_simplify(g, sum, 1000), AMBIT_NO_EXPR);

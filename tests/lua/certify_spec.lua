@@ -256,6 +256,24 @@ describe("certify", function()
     assert_bound(r.error.x, 0.01 * (exp(1) - 1), 1.02)
   end)
 
+  it("bounds suprema from below by what is proved of single data, not by their upper ends", function()
+    local fall = ambit.ode { states = { "x" }, equations = function(s) return { x = -s.x } end }
+    local rest = ambit.ode { states = { "x" }, equations = function(s) return { x = 0 * s.x } end }
+    local r = ambit.certify { fall, rest, t = { 0, 1 }, initial = { x = ambit.between("0.1", 1) }, outputs = { "x" },
+      error = { x = 3 }, criterion = "bounds", solver = "valencia", tolerance = 1e-3 }
+    assert.is_true(r.error.x >= 1 - exp(-1)) -- without any slack: the enclosures are 1e-13 wide
+    assert.is_true(r.error.x < 0.633)
+  end)
+
+  it("takes the text of an error bound for no more than it says", function()
+    local bound = require "ambit.certify.bound"
+    local function read(text) return select(2, bound.read({ x = text }, { { name = "x" } }, "certify")).x end
+    assert.is_true(read "0.1" < 0.1) -- the double 0.1 is above one tenth
+    assert.equal(0.3, read "0.3")    -- the double 0.3 is below three tenths
+    assert.equal(0.25, read "0.25")
+    assert.equal(0.1, read(0.1))
+  end)
+
   it("accepts the published reduction of the straight drive by its own criterion, with its errors", function()
     local v = ambit.number "50/3"
     local full = car(one_track, v, small_angle)

@@ -68,3 +68,15 @@ describe("lohner", function()
     assert.equal("complete", run.status)
   end)
 end)
+
+describe("taylor_model", function()
+  it("carries a remainder on by all of the flow's slope, not only by the slope's series", function()
+    for _, h in ipairs { 0.1, 0.25, 0.5 } do
+      local start = ambit.between(-1, 1) ^ 2 -- of first order: 0 and a remainder, which the start at 1 uses up
+      local run = ambit.simulate { ode(function(x) return x end), initial = { start }, t = { 0, h },
+        solver = "taylor_model", order = 1, time_order = 20, jacobian_order = 3, tolerance = 1, step_max = h }
+      assert.equal(1, run.step_count)
+      assert.is_true(run.x.x.hi >= math.exp(h) and run.x.x.hi < math.exp(h) + 1e-13)
+    end
+  end)
+end)

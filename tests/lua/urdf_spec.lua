@@ -68,6 +68,15 @@ describe("a URDF", function()
     assert.truthy(problem:find("there is no link `hamd`; did you mean `hand`?", 1, true))
   end)
 
+  it("takes the x axis where a joint names none", function()
+    local m = loaded(arm)
+    local p = value(m:position(m.links.hand), { hinge = 0, slide = "0.7" })
+    local pitch, yaw = 0.2, 0.3
+    near(p.x, 1 + 1.7 * math.cos(yaw) * math.cos(pitch))
+    near(p.y, 2 + 1.7 * math.sin(yaw) * math.cos(pitch))
+    near(p.z, 3 - 1.7 * math.sin(pitch))
+  end)
+
   it("turns by Rz(yaw) Ry(pitch) Rx(roll)", function()
     local m = loaded(arm)
     local r, c, s = value(m:orientation(m.links.arm), { hinge = 0 }), math.cos, math.sin
