@@ -75,6 +75,9 @@ ambit_expr ambit_graph_derivative(ambit_graph *g, ambit_expr e, ambit_expr x, am
 ** has 1). Valid where the derivative is. */
 ambit_expr ambit_graph_time_derivative(
     ambit_graph *g, ambit_expr e, size_t n, const ambit_expr *leaf, const ambit_expr *rate, ambit_failure *f);
+/* The same where ABS, MIN and MAX do not switch; where they do, it is undefined. */
+ambit_expr ambit_graph_rate_off_kinks(
+    ambit_graph *g, ambit_expr e, size_t n, const ambit_expr *leaf, const ambit_expr *rate, ambit_failure *f);
 /* e[i] with leaf from[k] replaced by to[k], in place; shared work. */
 ambit_status ambit_graph_substitute(
     ambit_graph *g, size_t ne, ambit_expr *e, size_t n, const ambit_expr *from, const ambit_expr *to, ambit_failure *f);

@@ -19,3 +19,12 @@ uint32_t ambit_hull(const ambit_tape *t, const ambit_interval *in, ambit_interva
   }
   return flags;
 }
+
+bool ambit_hull_jumps(const ambit_tape *t, const ambit_interval *slot) {
+  for (uint32_t i = 0; i < t->ninstr; i++) {
+    if (t->op[i] != AMBIT_OP_ATAN2) continue;
+    ambit_interval y = slot[t->a[i]], x = slot[t->b[i]];
+    if (y.lo < 0 && y.hi >= 0 && x.lo < 0) return true;
+  }
+  return false;
+}

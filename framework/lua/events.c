@@ -124,7 +124,7 @@ void ambit_lua_events_end(ambit_lua_events *w) {
 /* -- reading it */
 
 static const char *outcome_name(uint32_t outcome) {
-  static const char *const names[] = { "", "crossed", "crosses", "touches", "part", "starts" };
+  static const char *const names[] = { "", "crossed", "crosses", "touches", "part", "starts", "edge" };
   return names[outcome];
 }
 

@@ -53,6 +53,19 @@ static int derivative(lua_State *L) {
   return 1;
 }
 
+/* rate_off_kinks(e, {symbol}, {rate}): de/dt along x' = rate, undefined where abs, min and max switch */
+static int rate_off_kinks(lua_State *L) {
+  ambit_graph *g = AMBIT_LUA(L)->graph;
+  ambit_expr e = ambit_lua_to_expression(L, 1, NULL, "rate_off_kinks").e;
+  size_t n = (size_t)luaL_len(L, 2);
+  ambit_expr *leaf = ambit_lua_to_array(L, 2, n), *rate = ambit_lua_to_array(L, 3, n);
+  ambit_failure f = { 0 };
+  ambit_expr d = ambit_graph_rate_off_kinks(g, e, n, leaf, rate, &f);
+  if (d == AMBIT_NO_EXPR) ambit_lua_raise(L, &f);
+  ambit_lua_push_expression(L, d);
+  return 1;
+}
+
 static int simplify(lua_State *L) {
   ambit_expr e = ambit_lua_to_expression(L, 1, NULL, "simplify").e;
   int fits = 1;
@@ -143,8 +156,8 @@ static int nodes(lua_State *L) {
 void ambit_lua_open_expression(lua_State *L, ambit_lua *core) {
   static const luaL_Reg meta[] = { { "__tostring", text }, { "__eq", equal }, { "__lt", order }, { "__le", order },
     { NULL, NULL } };
-  static const luaL_Reg functions[] = { { "derivative", derivative }, { "simplify", simplify },
-    { "expression", expression }, { "symbol", symbol }, { "time", time_symbol }, { "pi", pi },
+  static const luaL_Reg functions[] = { { "derivative", derivative }, { "rate_off_kinks", rate_off_kinks },
+    { "simplify", simplify }, { "expression", expression }, { "symbol", symbol }, { "time", time_symbol }, { "pi", pi },
     { "is_constant", is_constant }, { "leaves", leaves }, { "nodes", nodes }, { "substitute", substitute },
     { NULL, NULL } };
   static const char *const operators[][2] = { { "__add", "add" }, { "__sub", "sub" }, { "__mul", "mul" },

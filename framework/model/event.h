@@ -2,11 +2,12 @@
 **
 ** A watch is a sink between ambit_simulate and the receiver of the records. It needs nothing from a solver but
 ** enclosures: over each step it evaluates g and g' = dg/dx f + dg/dt. Where g has one sign there is no zero; where g'
-** has one sign every solution has at most one. An event is passed on as a record (AMBIT_REC_EVENT; t_from, t_to: where
-** it happens; lo, hi: the states then; `event`: its number from 1; rigorous: it is proved that every solution crosses
-** exactly once) in front of the step in which it ended. Proofs: docs/numerics/events.md.
+** is defined and has one sign every solution has at most one. Zeros are looked for wherever g is defined. An event is
+** passed on as a record (AMBIT_REC_EVENT; t_from, t_to: where it happens; lo, hi: the states then; `event`: its number
+** from 1; rigorous: it is proved that every solution crosses exactly once) in front of the step in which it ended.
+** Proofs: docs/numerics/events.md.
 **
-** Limits: g must be smooth (abs, min, max are refused). What cannot be decided is reported as such.
+** What cannot be decided is reported as such: touches, edges of the domain of g, zeros where it is not smooth.
 */
 #ifndef AMBIT_EVENT_H
 #define AMBIT_EVENT_H
@@ -28,6 +29,7 @@ typedef struct ambit_event {
 #define AMBIT_EVENT_TOUCHES 3u /* some solutions may touch g = 0, or cross and come back */
 #define AMBIT_EVENT_PART 4u    /* the run ended while some solutions may have crossed and others not */
 #define AMBIT_EVENT_STARTS 5u  /* the initial set lies on both sides: only some solutions cross */
+#define AMBIT_EVENT_EDGE 6u    /* g may leave its domain or jump: some solutions may have a zero there */
 
 typedef struct ambit_event_found {
   uint32_t event; /* index of the list */

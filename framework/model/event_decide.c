@@ -3,7 +3,8 @@
 ** Between two places of definite sign g may be 0 in some pieces. If its change has one sign (way) in all of them, each
 ** solution has at most one zero there, and has it exactly if the signs are -way and way: intermediate value theorem.
 ** With signs way and way, or -way and -way, none has a zero: a change of sign would need a change the other way. If
-** the change has no one sign, only that much is known: the signs differ, or they do not.
+** the change has no one sign, only that much is known: the signs differ, or they do not. Where g is not known to be
+** defined and continuous, not even the signs say anything: there may be a zero.
 */
 #include "model/event_inside.h"
 #include <string.h>
@@ -35,6 +36,7 @@ static bool goes_through(const watched *e) { return e->event.must_leave && e->ev
 ** `after` (0: at the end of the run); 0: there are none, or not in the direction wanted. */
 static uint32_t decide(const ambit_event_watch *w, const watched *e, int before, int after) {
   if (!e->seen) return 0;
+  if (e->torn || before == AMBIT_EVENT_NOWHERE || after == AMBIT_EVENT_NOWHERE) return AMBIT_EVENT_EDGE;
   if (e->mixed) {
     if (!after) return AMBIT_EVENT_PART;
     if (!before) return e->event.starts_on ? AMBIT_EVENT_TOUCHES : AMBIT_EVENT_STARTS;
@@ -62,14 +64,15 @@ void ambit_event_watch_note_sign(ambit_event_watch *w, watched *e, int sign) {
 
 void ambit_event_watch_note_end(ambit_event_watch *w, watched *e) { close(w, e, 0); }
 
-void ambit_event_watch_note_zero(ambit_event_watch *w, watched *e, double a, double b, int way) {
+void ambit_event_watch_note_zero(ambit_event_watch *w, watched *e, double a, double b, int way, bool torn) {
   if (!e->open) {
     e->open = true;
-    e->mixed = e->seen = false;
+    e->mixed = e->torn = e->seen = false;
     e->way = way;
     e->from = a;
   }
   e->mixed = e->mixed || !way || way != e->way;
+  e->torn = e->torn || torn;
   e->until = b;
   if (!ambit_event_watch_zeros(w, e, a, b)) return;
   for (uint32_t i = 0; i < w->nx; i++) {

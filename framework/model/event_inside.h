@@ -8,14 +8,14 @@
 
 typedef struct watched {
   ambit_event event;
-  const ambit_tape *tape; /* g, g' */
-  ambit_contractor *contractor;
-  bool bends;     /* the tape has an operation that can jump */
-  int sign;       /* the sign of g where it was last definite; 0: nowhere yet */
-  bool open;      /* g may have been 0 since `from` */
-  bool mixed;     /* not all g' there have the sign `way` */
-  bool seen;      /* lo, hi hold a box */
-  uint32_t tired; /* how often in a row, lately, the evaluations of a step were used up */
+  const ambit_tape *value, *both; /* g; g and g' */
+  ambit_contractor *contractor;   /* of g alone: where g' is undefined there may be a zero all the same */
+  int sign;                       /* the sign of g where it was last definite; 0: nowhere yet; AMBIT_EVENT_NOWHERE */
+  bool open;                      /* g may have been 0 since `from` */
+  bool mixed;                     /* not all g' there have the sign `way` */
+  bool torn;                      /* g is not known to be defined and continuous everywhere there */
+  bool seen;                      /* lo, hi hold a box */
+  uint32_t tired;                 /* how often in a row, lately, the evaluations of a step were used up */
   int way;
   double from, until;
   double *lo, *hi; /* [nx] where g may be 0, since `from` */
@@ -45,11 +45,17 @@ struct ambit_event_watch {
   bool full;
 };
 
+#define AMBIT_EVENT_NOWHERE 2 /* as a sign: g is not defined, for no solution */
+
+typedef struct ambit_event_values {
+  ambit_interval g;    /* of every solution, where it is defined; empty: nowhere */
+  ambit_interval rate; /* encloses g', which is continuous; entire where that is not known */
+  bool torn;           /* g is not known to be defined and continuous all over the piece */
+} ambit_event_values;
+
 /* -- event_value.c: over the piece (a, b) of the step */
 void ambit_event_watch_step(ambit_event_watch *w, const ambit_record *r); /* takes up the next step */
-/* Encloses g and g' of every solution; both entire where g is not smooth and defined. */
-void ambit_event_watch_value(
-    ambit_event_watch *w, const watched *e, double a, double b, ambit_interval *g, ambit_interval *rate);
+ambit_event_values ambit_event_watch_value(ambit_event_watch *w, const watched *e, double a, double b);
 /* w->lo, w->hi [nx] := where solutions can have g = 0; false: nowhere */
 bool ambit_event_watch_zeros(ambit_event_watch *w, const watched *e, double a, double b);
 
@@ -58,8 +64,8 @@ void ambit_event_watch_scan(ambit_event_watch *w, watched *e);
 
 /* -- event_decide.c */
 void ambit_event_watch_note_sign(ambit_event_watch *w, watched *e, int sign);
-/* g may be 0 in the piece; way: the one sign of its change there, or 0 */
-void ambit_event_watch_note_zero(ambit_event_watch *w, watched *e, double a, double b, int way);
+/* g may be 0 in the piece; way: the one sign of its change there, or 0; torn: see ambit_event_values */
+void ambit_event_watch_note_zero(ambit_event_watch *w, watched *e, double a, double b, int way, bool torn);
 /* The run goes no further: is what is open an event? */
 void ambit_event_watch_note_end(ambit_event_watch *w, watched *e);
 #endif

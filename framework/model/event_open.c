@@ -46,10 +46,8 @@ static ambit_status differentiate(const build *b) {
     if (status != AMBIT_OK) return status;
     ambit_failure why = { 0 };
     b->all[2 * k] = e->g;
-    b->all[2 * k + 1] = ambit_graph_time_derivative(b->graph, e->g, s->nx, s->state, s->rate, &why);
-    if (b->all[2 * k + 1] == AMBIT_NO_EXPR)
-      return ambit_fail(b->f, why.status == AMBIT_OK ? AMBIT_NOMEM : why.status, "event `%s`: g has no derivative: %s",
-          e->name, why.message[0] ? why.message : "out of memory");
+    b->all[2 * k + 1] = ambit_graph_rate_off_kinks(b->graph, e->g, s->nx, s->state, s->rate, &why);
+    if (b->all[2 * k + 1] == AMBIT_NO_EXPR) return no_memory(b);
   }
   memcpy(b->all + 2 * b->q->n, s->rate, s->nx * sizeof *b->all);
   return AMBIT_OK;
@@ -79,12 +77,6 @@ static ambit_status list_inputs(build *b) {
   return AMBIT_OK;
 }
 
-static bool can_jump(const ambit_tape *t) {
-  for (uint32_t i = 0; i < t->ninstr; i++)
-    if (t->op[i] == AMBIT_OP_ATAN2) return true;
-  return false;
-}
-
 static ambit_status seal(build *b) {
   ambit_event_watch *w = b->w;
   const ambit_system *s = b->q->system;
@@ -97,11 +89,14 @@ static ambit_status seal(build *b) {
     };
     if (!e->lo || !e->hi) return no_memory(b);
     e->event.name = NULL; /* the caller's */
-    status = ambit_tape_seal(b->graph, w->arena, 2, b->all + 2 * k, w->nin, b->input, w->nx, 0, &e->tape, b->f);
+    const ambit_expr *g = b->all + 2 * k;
+    status = ambit_tape_seal(b->graph, w->arena, 1, g, w->nin, b->input, w->nx, 0, &e->value, b->f);
+    if (status == AMBIT_OK)
+      status = ambit_tape_seal(b->graph, w->arena, 2, g, w->nin, b->input, w->nx, 0, &e->both, b->f);
     if (status != AMBIT_OK) return status;
-    if (ambit_contract_service_v1.open(&w->lease->host, e->tape, &e->contractor) != AMBIT_OK) return no_memory(b);
-    e->bends = can_jump(e->tape);
-    slots = e->tape->nslot > slots ? e->tape->nslot : slots;
+    if (ambit_contract_service_v1.open(&w->lease->host, e->value, &e->contractor) != AMBIT_OK) return no_memory(b);
+    slots = e->both->nslot > slots ? e->both->nslot : slots;
+    slots = e->value->nslot > slots ? e->value->nslot : slots;
   }
   status = ambit_tape_seal(b->graph, w->arena, s->nx, b->all + 2 * w->n, w->nin, b->input, w->nx, 0, &w->rate, b->f);
   if (status != AMBIT_OK) return status;

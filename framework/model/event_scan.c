@@ -15,14 +15,15 @@
 #define EDGE_SHARE 64 /* the edges of a zero's interval are located to this share of it */
 #define HALVINGS 64   /* at the most, of a double */
 
-static int sign_of(ambit_interval x) { return x.lo > 0 ? 1 : x.hi < 0 ? -1 : 0; }
+static int sign_of(ambit_interval x) {
+  if (ambit_interval_is_empty(x)) return AMBIT_EVENT_NOWHERE;
+  return x.lo > 0 ? 1 : x.hi < 0 ? -1 : 0;
+}
 
 static double middle(double a, double b) { return a + (b - a) / 2; }
 
 static int sign_at(ambit_event_watch *w, const watched *e, double t) {
-  ambit_interval g, rate;
-  ambit_event_watch_value(w, e, t, t, &g, &rate);
-  return sign_of(g);
+  return sign_of(ambit_event_watch_value(w, e, t, t).g);
 }
 
 /* At `sure` g has the sign; between `near` and `far` it may be 0: moves `sure` towards `near`, and `near` where g may
@@ -59,7 +60,7 @@ static void locate(ambit_event_watch *w, watched *e, double a, double b, int way
   if (sure_a && inside) p = find_edge(w, e, p, &first, last, -way);
   if (sure_b && inside) q = find_edge(w, e, q, &last, first, way);
   if (sure_a) ambit_event_watch_note_sign(w, e, -way);
-  ambit_event_watch_note_zero(w, e, p, q, way);
+  ambit_event_watch_note_zero(w, e, p, q, way, false);
   if (sure_b) ambit_event_watch_note_sign(w, e, way);
 }
 
@@ -71,26 +72,28 @@ static void settle_monotone(ambit_event_watch *w, watched *e, double a, double b
     locate(w, e, a, b, way, at_a == -way, at_b == way);
 }
 
+/* By the mean value form about the middle: the sign of g over (a, b), or 0. */
+static int sign_by_slope(ambit_event_watch *w, const watched *e, double a, double b, ambit_interval rate) {
+  double m = middle(a, b);
+  ambit_interval time = a < b ? (ambit_interval) { a, b } : (ambit_interval) { b, a };
+  ambit_interval centre = ambit_event_watch_value(w, e, m, m).g;
+  ambit_interval away = ambit_interval_mul(rate, ambit_interval_sub(time, (ambit_interval) { m, m }));
+  return sign_of(ambit_interval_add(centre, away));
+}
+
 /* false: halve it */
 static bool settle(ambit_event_watch *w, watched *e, double a, double b, bool last) {
-  ambit_interval g, rate, centre, unused;
-  ambit_event_watch_value(w, e, a, b, &g, &rate);
-  int sign = sign_of(g), way = sign_of(rate) * w->way;
+  ambit_event_values at = ambit_event_watch_value(w, e, a, b);
+  int sign = sign_of(at.g), way = sign_of(at.rate) * w->way;
   if (!sign && way) {
     settle_monotone(w, e, a, b, way);
     return true;
   }
-  if (!sign && ambit_interval_is_bounded(rate)) {
-    double m = middle(a, b);
-    ambit_interval time = a < b ? (ambit_interval) { a, b } : (ambit_interval) { b, a };
-    ambit_event_watch_value(w, e, m, m, &centre, &unused);
-    ambit_interval away = ambit_interval_mul(rate, ambit_interval_sub(time, (ambit_interval) { m, m }));
-    sign = sign_of(ambit_interval_add(centre, away));
-  }
+  if (!sign && ambit_interval_is_bounded(at.rate)) sign = sign_by_slope(w, e, a, b, at.rate);
   if (sign)
     ambit_event_watch_note_sign(w, e, sign);
   else if (last)
-    ambit_event_watch_note_zero(w, e, a, b, 0);
+    ambit_event_watch_note_zero(w, e, a, b, 0, at.torn);
   return sign || last;
 }
 

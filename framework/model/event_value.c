@@ -62,32 +62,29 @@ void ambit_event_watch_step(ambit_event_watch *w, const ambit_record *r) {
   w->has_speed = true;
 }
 
-/* Does g have a place in the box at which it is not continuously differentiable? */
-static bool is_torn(ambit_event_watch *w, const watched *e) {
-  for (uint32_t i = 0; i < w->nin; i++) {
-    w->lo[i] = w->in[i].lo;
-    w->hi[i] = w->in[i].hi;
-  }
-  return ambit_contract_service_v1.inspect(e->contractor, w->lo, w->hi) & AMBIT_F_KINK;
+static bool is_total(uint32_t flags) { return !(flags & (AMBIT_F_PARTIAL | AMBIT_F_EMPTY)); }
+
+/* g over the inputs in place, also where g' is not defined. */
+static ambit_event_values value_alone(ambit_event_watch *w, const watched *e) {
+  uint32_t flags = ambit_hull(e->value, w->in, w->slot);
+  bool torn = !is_total(flags) || ambit_hull_jumps(e->value, w->slot);
+  return (ambit_event_values) { w->slot[e->value->out[0]], AMBIT_ENTIRE, torn };
 }
 
-void ambit_event_watch_value(
-    ambit_event_watch *w, const watched *e, double a, double b, ambit_interval *g, ambit_interval *rate) {
+ambit_event_values ambit_event_watch_value(ambit_event_watch *w, const watched *e, double a, double b) {
   set_inputs(w, a, b);
   if (w->budget) w->budget--;
-  uint32_t flags = ambit_hull(e->tape, w->in, w->slot);
-  *g = w->slot[e->tape->out[0]];
-  *rate = w->slot[e->tape->out[1]];
-  if (!(flags & (AMBIT_F_PARTIAL | AMBIT_F_EMPTY)) && !(e->bends && is_torn(w, e))) return;
-  *g = *rate = AMBIT_ENTIRE;
+  uint32_t flags = ambit_hull(e->both, w->in, w->slot);
+  if (!is_total(flags) || ambit_hull_jumps(e->both, w->slot)) return value_alone(w, e);
+  return (ambit_event_values) { w->slot[e->both->out[0]], w->slot[e->both->out[1]], false };
 }
 
 bool ambit_event_watch_zeros(ambit_event_watch *w, const watched *e, double a, double b) {
-  static const double least[] = { 0, -INFINITY }, most[] = { 0, INFINITY };
+  static const double zero[] = { 0 };
   set_inputs(w, a, b);
   for (uint32_t i = 0; i < w->nin; i++) {
     w->lo[i] = w->in[i].lo;
     w->hi[i] = w->in[i].hi;
   }
-  return ambit_contract_service_v1.narrow(e->contractor, w->lo, w->hi, least, most) != AMBIT_DOMAIN;
+  return ambit_contract_service_v1.narrow(e->contractor, w->lo, w->hi, zero, zero) != AMBIT_DOMAIN;
 }

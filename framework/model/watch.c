@@ -38,16 +38,6 @@ static ambit_interval value_at(ambit_watch *w, const watched *c, const ambit_rec
   return ambit_watch_run(w, c->value);
 }
 
-/* In the run just made: may the argument of some atan2 cross its cut? */
-bool ambit_watch_jumps(const ambit_watch *w, const ambit_tape *t) {
-  for (uint32_t i = 0; i < t->ninstr; i++) {
-    if (t->op[i] != AMBIT_OP_ATAN2) continue;
-    ambit_interval y = w->slot[t->a[i]], x = w->slot[t->b[i]];
-    if (y.lo < 0 && y.hi >= 0 && x.lo < 0) return true;
-  }
-  return false;
-}
-
 typedef struct part {
   ambit_interval when, g;  /* g over all of it; empty: not known to be defined */
   double time[3];          /* both ends and the middle */
@@ -55,7 +45,7 @@ typedef struct part {
 } part;
 
 static void narrow_by_slope(ambit_watch *w, const watched *c, part *p) {
-  if (ambit_interval_is_empty(p->g) || !c->slope || ambit_watch_jumps(w, c->value)) return;
+  if (ambit_interval_is_empty(p->g) || !c->slope || ambit_hull_jumps(c->value, w->slot)) return;
   ambit_interval slope = ambit_watch_run(w, c->slope); /* the states are still those of the whole part */
   if (ambit_interval_is_empty(slope)) return;
   for (int k = 0; k < 3; k++) {

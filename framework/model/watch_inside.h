@@ -32,8 +32,6 @@ struct ambit_watch {
 void ambit_watch_place(ambit_watch *w, const watched *c, const ambit_record *r, ambit_interval when);
 /* AMBIT_EMPTY: not known to be defined */
 ambit_interval ambit_watch_run(ambit_watch *w, const ambit_tape *t);
-/* In the run just made: may the argument of some atan2 cross its cut? */
-bool ambit_watch_jumps(const ambit_watch *w, const ambit_tape *t);
 /* Of a step: adds to the bound of max |g| (AMBIT_WATCH_MOST). */
 void ambit_watch_scan_most(ambit_watch *w, watched *c, const ambit_record *r);
 #endif

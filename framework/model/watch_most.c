@@ -4,6 +4,7 @@
 ** A part of time is cut while its own bound is (by more than a hundredth) above the level, and above what is already
 ** known of other parts, which could not get better any more. Soundness: watch.c.
 */
+#include "graph/hull.h"
 #include "model/watch_inside.h"
 
 #define SLACK 0x1p-7
@@ -32,7 +33,7 @@ static ambit_interval by_slope(
   if (!c->slope || ambit_interval_is_empty(g)) return g;
   ambit_watch_place(w, c, r, p->when);
   ambit_watch_run(w, c->value);
-  if (ambit_watch_jumps(w, c->value)) return g;
+  if (ambit_hull_jumps(c->value, w->slot)) return g;
   ambit_interval slope = ambit_watch_run(w, c->slope);
   double time[3] = { p->when.lo, ambit_interval_mid(p->when), p->when.hi };
   ambit_interval value[3] = { p->end[0], middle, p->end[1] };

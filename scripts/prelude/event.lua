@@ -72,6 +72,7 @@ local reasons = {
   touches = "some solutions may graze g = 0, or cross it and come back",
   part = "some solutions may have crossed and others not when the run ended",
   starts = "the set touches g = 0 at the start: only a part of it may cross",
+  edge = "g may leave its domain or jump there; some solutions may have g = 0 first",
 }
 
 -- What was found of an event, as a user sees it.

@@ -390,7 +390,7 @@ function ambit.evaluate(t) end
 ---@alias ambit.condition ambit.datum|fun(s: table<string, ambit.expression>, p: table<string, ambit.expression>, t: ambit.expression): ambit.datum
 
 ---@class ambit.event
----@field g ambit.condition smooth
+---@field g ambit.condition
 ---@field direction? "rising"|"falling"|"both" of g as time grows
 ---@field name? string its number unless given
 ---@field stop? boolean ends the run behind it

@@ -130,6 +130,30 @@ static void kinks_are_refused_by_name(void **unused) {
   }
 }
 
+static ambit_interval at(ambit_expr e, double vx, double vy) {
+  ambit_failure f = { 0 };
+  ambit_expr from[] = { x, y }, to[] = { NUMBER(vx), NUMBER(vy) };
+  assert_int_equal(ambit_graph_substitute(g, 1, &e, 2, from, to, &f), AMBIT_OK);
+  return ambit_graph_node(g, e)->range;
+}
+
+/* With x' = 3 and y' = 5: that of the operand that is taken; no value where both are. */
+static void rates_off_kinks(void **unused) {
+  (void)unused;
+  ambit_failure f = { 0 };
+  ambit_expr leaf[] = { x, y }, rates[] = { NUMBER(3), NUMBER(5) };
+  ambit_expr e[] = { OP(ABS, x, 0), OP(MIN, x, y), OP(MAX, x, y) };
+  static const double value[][5] = { { -2, 7, -3, 3, 5 }, { 2, 1, 3, 5, 3 } }; /* x, y; the rates */
+  for (size_t i = 0; i < 3; i++) {
+    ambit_expr d = ambit_graph_rate_off_kinks(g, e[i], 2, leaf, rates, &f);
+    for (size_t k = 0; k < 2; k++) {
+      ambit_interval r = at(d, value[k][0], value[k][1]);
+      assert_true(r.lo == value[k][2 + i] && r.hi == r.lo);
+    }
+    assert_false(ambit_interval_is_bounded(at(d, 0, 0)) && !ambit_interval_is_empty(at(d, 0, 0)));
+  }
+}
+
 static void substitution(void **unused) {
   (void)unused;
   ambit_failure f = { 0 };
@@ -233,6 +257,7 @@ int main(void) {
     cmocka_unit_test(random_derivatives),
     cmocka_unit_test_setup_teardown(simple_derivatives, open_graph, close_graph),
     cmocka_unit_test_setup_teardown(kinks_are_refused_by_name, open_graph, close_graph),
+    cmocka_unit_test_setup_teardown(rates_off_kinks, open_graph, close_graph),
     cmocka_unit_test_setup_teardown(substitution, open_graph, close_graph),
     cmocka_unit_test_setup_teardown(additive_terms, open_graph, close_graph),
     cmocka_unit_test_setup_teardown(leaves_and_size, open_graph, close_graph),

@@ -118,6 +118,58 @@ describe("events", function()
     assert.is_truthy(stopped.reason:find "event `apex` in t = .*graze")
   end)
 
+  it("are not lost where g has no derivative", function()
+    local line = ambit.ode { states = { "x" }, equations = function() return { x = -1 } end }
+    for _, case in ipairs {
+      { "graze", function(s) return s.x ^ 2 end }, { "graze", function(s) return ambit.sqrt(s.x ^ 2) end },
+      { "graze", function(s) return ambit.abs(s.x) end }, { "leave its domain", function(s) return ambit.sqrt(s.x) end },
+      { "leave its domain", function(s) return s.x * ambit.sqrt(s.x) end },
+      { "more than once", function(s) return ambit.min(s.x, 2 * s.x) end },
+    } do
+      for _, solver in ipairs { "lohner", "taylor_model", "stiff", "valencia" } do
+        local q = { line, initial = { x = 1 }, t = { 0, 2 }, solver = solver, events = { { g = case[2], stop = true } } }
+        local run = ambit.simulate(q)
+        assert.equal("unable", run.status)
+        assert.is_truthy(run.reason:find(case[1], 1, true), run.reason)
+        assert.equal(1, #run.events)
+        assert.is_true(run.events[1].t:contains(1))
+        q.events[1].stop = false
+        assert.equal("complete", ambit.simulate(q).status)
+        assert.is_false(ambit.simulate(q).events[1].certain)
+      end
+    end
+  end)
+
+  it("see a tip that runs through a post", function()
+    local m = ambit.mechanism { "pendulum", gravity = { 0, "-9.81", 0 } }
+    local tip = m:rigid_link { from = m:revolute { from = m.world, axis = "z", name = "phi" }, offset = { 0, -1, 0 } }
+    local post = m:rigid_link { from = m.world, offset = { 0, -1, 0 } }
+    m:point_mass { at = tip, mass = 1 }
+    local run = ambit.simulate {
+      m:dynamics(), initial = { phi = 1, ["phi'"] = 0 }, t = { 0, 1 }, tolerance = 1e-12,
+      events = { { g = m:distance(tip, post), name = "hit", stop = true } },
+    }
+    local quarter = complete_elliptic(math.sin(0.5)) / math.sqrt(9.81)
+    assert.equal("unable", run.status)
+    assert.is_true(run.events[1].t.lo <= quarter and quarter <= run.events[1].t.hi)
+    local near = ambit.simulate {
+      m:dynamics(), initial = { phi = 1, ["phi'"] = 0 }, t = { 0, 1 }, tolerance = 1e-12,
+      events = { { g = m:distance(tip, post) - "0.1", name = "near", stop = true } },
+    }
+    assert.equal("near", near.ended_by)
+    assert.is_true(near.events[1].certain)
+  end)
+
+  it("may have kinks elsewhere", function()
+    local run = swing { { g = function(s) return ambit.abs(s.x) - 0.5 end } }
+    assert.equal(6, #run.events)
+    for i, e in ipairs(run.events) do
+      local third = (i % 2 == 1 and i // 2 + 1 / 3 or i // 2 - 1 / 3) * math.pi
+      assert.is_true(e.certain)
+      assert.is_true(e.t.lo <= third + 1e-14 and third - 1e-14 <= e.t.hi)
+    end
+  end)
+
   it("say so where only a part of the set crosses", function()
     local run = swing({ { g = x_is(0.9), stop = true } }, { initial = { x = ambit.between("0.8", 1), v = 0 } })
     assert.equal("unable", run.status)
@@ -176,7 +228,6 @@ describe("events", function()
     refused("events[1].stop: expected true or false", with { { g = x_is(0), stop = 1 } })
     refused("two are called `a`", with { { g = x_is(0), name = "a" }, { g = x_is(1), name = "a" } })
     refused("there is no `z`", with { { g = function(s) return s.z end } })
-    refused("event `1`: g has no derivative", with { { g = function(s) return ambit.abs(s.x) end } })
     local other = ambit.ode { states = { "q" }, equations = function(s) return { q = s.q } end }
     refused("g depends on `q`", with { { g = other.symbols[1] } })
   end)

@@ -49,6 +49,19 @@ local function refused(part, t)
 end
 
 describe("hybrid", function()
+  it("may have guards with kinks", function() -- in a box of 2 m: |y - 1| = 1
+    local run = ambit.hybrid { initial = { y = 1, v = 5 }, t = { 0, 0.9 }, modes = { fly = { ball, guards = { {
+      g = function(s) return ambit.abs(s.y - 1) - 1 end, direction = "rising", to = "fly",
+      reset = function(s) return { v = -s.v } end } } } } }
+    assert.equal("complete", run.status, run.reason)
+    local speed = math.sqrt(25 - 2 * G)
+    local up, down = (5 - speed) / G, (math.sqrt(speed ^ 2 + 4 * G) - speed) / G
+    assert.equal(2, #run.events)
+    for i, t in ipairs { up, up + down } do
+      assert.is_true(run.events[i].t.lo <= t + 1e-14 and t - 1e-14 <= run.events[i].t.hi)
+    end
+  end)
+
   it("follows a ball of uncertain restitution and height", function()
     local run = bouncing(ambit.around("0.8", "0.002"), ambit.around(1, "0.002"))
     assert.equal("complete", run.status)

@@ -61,3 +61,8 @@ ambit_scene(ur5 0 "taylor_model is at most [0-4]\\.[0-9] %")
 ambit_scene(bouncing_ball 0 "bounce in t = .*complete at t = 2 after 3 switches")
 ambit_scene(verify_arm 0 "tight_wall: refuted.*g in .0\\.00[0-9]+, 0\\.00.*torque_above: proved.*wall: proved.*goal: proved")
 ambit_scene(reduce_arm 0 "2 of 4 states are left")
+
+# Planted zeros of events. `ambit run tests/lua/event_zeros.lua 2000` is its full length; some of its runs are unable.
+add_test(NAME lua.event_zeros COMMAND ambit run --quiet tests/lua/event_zeros.lua 160 WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+set_tests_properties(lua.event_zeros PROPERTIES TIMEOUT 600 ENVIRONMENT "${lua_environment}"
+  PASS_REGULAR_EXPRESSION "160 systems, [0-9]+ zeros: [^\n]* 0 lost\n")

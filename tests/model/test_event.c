@@ -361,6 +361,73 @@ static void a_jump_is_no_crossing(void **state) {
     assert_true(found(l, i)->outcome != AMBIT_EVENT_CROSSED);
 }
 
+/* -- zeros at which g has no derivative */
+
+/* Only `outcome`, at x = 1, for a set of that radius. */
+static void assert_only_at_one(void **state, double radius, uint32_t outcome, ambit_expr (*formula)(line *)) {
+  for (int backwards = 0; backwards < 2; backwards++) {
+    tear_down(state);
+    set_up(state);
+    line *l = *state;
+    l->radius = radius;
+    add(l, formula(l), 0);
+    run(l, backwards ? 2.2 : 0, backwards ? 0 : 2.2, 0.3, 8);
+    assert_found(l, 1, outcome);
+    assert_true(found(l, 0)->t_lo <= 1 - radius && 1 + radius <= found(l, 0)->t_hi);
+    assert_true(found(l, 0)->t_hi - found(l, 0)->t_lo < 1e-7 + 3 * radius);
+  }
+}
+
+static ambit_expr distance_of(line *l) {
+  ambit_expr a = op(l, AMBIT_OP_SQR, minus(l, 1), 0), b = op(l, AMBIT_OP_SQR, op(l, AMBIT_OP_SIN, minus(l, 1), 0), 0);
+  return op(l, AMBIT_OP_SQRT, op(l, AMBIT_OP_ADD, a, b), 0);
+}
+
+static ambit_expr root_of(line *l) { return op(l, AMBIT_OP_SQRT, minus(l, 1), 0); }
+static ambit_expr magnitude_of(line *l) { return op(l, AMBIT_OP_ABS, minus(l, 1), 0); }
+static ambit_expr arc_of(line *l) {
+  return op(l, AMBIT_OP_ACOS, op(l, AMBIT_OP_SUB, number(l, 1), op(l, AMBIT_OP_SQR, minus(l, 1), 0)), 0);
+}
+static ambit_expr bend_of(line *l) {
+  return op(l, AMBIT_OP_MAX, minus(l, 1), op(l, AMBIT_OP_MUL, number(l, 2), minus(l, 1)));
+}
+/* defined at x = 1 and nowhere else */
+static ambit_expr instant_of(line *l) { return op(l, AMBIT_OP_SQRT, op(l, AMBIT_OP_NEG, magnitude_of(l), 0), 0); }
+
+static void zeros_without_a_derivative(void **state) {
+  for (double radius = 0; radius < 0.2; radius += 0.1) {
+    assert_only_at_one(state, radius, AMBIT_EVENT_TOUCHES, distance_of);
+    assert_only_at_one(state, radius, AMBIT_EVENT_TOUCHES, magnitude_of);
+    assert_only_at_one(state, radius, AMBIT_EVENT_EDGE, root_of);
+    assert_only_at_one(state, radius, AMBIT_EVENT_TOUCHES, arc_of);
+    assert_only_at_one(state, radius, AMBIT_EVENT_CROSSES, bend_of);
+    assert_only_at_one(state, radius, AMBIT_EVENT_EDGE, instant_of);
+  }
+}
+
+/* |x - 1| - 1/2 has kinks elsewhere: its zeros are ordinary ones. */
+static void zeros_beside_a_kink_are_certain(void **state) {
+  line *l = *state;
+  ambit_expr far = op(l, AMBIT_OP_SUB, magnitude_of(l), number(l, 0.5));
+  add(l, far, 0);
+  add(l, op(l, AMBIT_OP_MIN, minus(l, 0.25), far), 0);
+  run(l, 0, 2.2, 0.3, 8);
+  assert_int_equal(ambit_event_watch_count(l->watch), 5);
+  double root[] = { 0.25, 0.5, 0.5, 1.5, 1.5 };
+  int direction[] = { 1, -1, -1, 1, 1 };
+  for (size_t i = 0; i < 5; i++) assert_crossed(l, i, root[i], direction[i], 1e-9);
+}
+
+/* Where g leaves its domain without being 0 there is no event, and no sign is carried over. */
+static void edges_without_a_zero(void **state) {
+  line *l = *state;
+  add(l, op(l, AMBIT_OP_LOG, op(l, AMBIT_OP_DIV, minus(l, 1), number(l, 8)), 0), 0);
+  add(l, op(l, AMBIT_OP_DIV, number(l, 1), minus(l, 1)), 0);
+  add(l, op(l, AMBIT_OP_SQRT, op(l, AMBIT_OP_SUB, number(l, -3), op(l, AMBIT_OP_SQR, l->x, 0)), 0), 0);
+  run(l, 0, 2.2, 0.3, 8);
+  assert_found(l, 0, 0);
+}
+
 /* -- ends */
 
 static void stops_behind_the_first(void **state) {
@@ -434,12 +501,6 @@ static void assert_refused(line *l, const char *part) {
   if (!strstr(f.message, part)) fail_msg("\"%s\" expected, got: %s", part, f.message);
 }
 
-static void refuses_what_is_not_smooth(void **state) {
-  line *l = *state;
-  add(l, op(l, AMBIT_OP_ABS, l->x, 0), 0)->name = "kink";
-  assert_refused(l, "event `kink`: g has no derivative");
-}
-
 static void refuses_foreign_variables(void **state) {
   line *l = *state;
   add(l, ambit_graph_symbol(l->graph, "elbow", "rad"), 0)->name = "stop";
@@ -454,6 +515,7 @@ int main(void) {
     T(near_misses_are_decided), T(a_set_on_both_sides_at_the_start), T(a_start_on_the_surface_is_no_event),
     T(a_start_that_must_be_left), T(are_in_the_order_of_their_beginnings), T(a_run_that_ends_in_the_middle),
     T(a_jump_is_no_crossing), T(stops_behind_the_first), T(events_that_overlap), T(more_events_than_room),
-    T(says_whether_one_is_open), T(refuses_what_is_not_smooth), T(refuses_foreign_variables) };
+    T(says_whether_one_is_open), T(zeros_without_a_derivative), T(zeros_beside_a_kink_are_certain),
+    T(edges_without_a_zero), T(refuses_foreign_variables) };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,12 +11,8 @@ local surface = {}
 
 local CLOCK, DISTANCE = "(time)", "(distance)" -- no identifiers: they clash with no state
 
--- dg/dt along the solutions
-function surface.rate(g, system)
-  local rate = core.derivative(g, core.time())
-  for i, symbol in ipairs(system.symbols) do rate = rate + core.derivative(g, symbol) * system.rates[i] end
-  return rate
-end
+-- dg/dt along the solutions, undefined where g has a kink
+function surface.rate(g, system) return core.rate_off_kinks(g, system.symbols, system.rates) end
 
 -- { expression } with states and time replaced
 function surface.at(list, system, x, t)
