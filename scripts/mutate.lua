@@ -1,7 +1,7 @@
 -- mutate.lua -- are the tests worth their name? Makes single lines wrong on which proofs rest, one at a time, in a copy
 -- of the tree, and counts how many the tests notice.
 --
---   lua5.4 scripts/mutate.lua [--count N] [--seed N] [--area NAME] [--place DIR] [--results FILE] [--explain]
+--   lua5.4 scripts/mutate.lua [--count N] [--seed N] [--area NAME] [--place DIR] [--results FILE]
 --
 -- N mutations (300) are drawn from all that are possible, spread over the areas and the operators. What has been tried
 -- stands in FILE (build/mutate/results.txt) and is not tried again, so that a run can be interrupted and go on. A
@@ -156,7 +156,9 @@ local function main()
   read_arguments()
   os.execute(("mkdir -p %s"):format(settings.results:match "^(.*)/" or "."))
   local files, known, is_ready, rows, open = tracked(), results_before(), {}, {}, {}
-  if not io.open(settings.place .. "/build/build.ninja") then trial.prepare(settings.place) end
+  if settings.place:sub(1, 1) ~= "/" then settings.place = os.getenv "PWD" .. "/" .. settings.place end
+  io.stdout:setvbuf "line"
+  trial.prepare(settings.place)
   for k, area in ipairs(areas) do
     math.randomseed(settings.seed, k)
     if not settings.area or settings.area == area.name then

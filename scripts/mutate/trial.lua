@@ -27,12 +27,31 @@ local function write(file, text)
   assert(output:close())
 end
 
--- Copies the committed tree into `place` and configures it. Tests are not linked anew when only the library changes.
+local function output_of(command)
+  local pipe = assert(io.popen(command))
+  local text = pipe:read "a"
+  pipe:close()
+  return text
+end
+
+-- Makes `place` a built copy of the committed tree, or keeps the one that is there. Tests are not linked anew when only
+-- the library changes. A mutation that an interrupted run left behind is taken back.
 function trial.prepare(place)
+  local commit = output_of "git rev-parse HEAD"
+  local known = io.open(place .. "/commit")
+  if known and known:read "a" == commit then
+    local left = io.open(place .. "/mutated")
+    if left then
+      local file = left:read "l"
+      if file then write(place .. "/" .. file, output_of("git show HEAD:" .. file)) end
+    end
+    return
+  end
   local make = ([[set -e; rm -rf %s; mkdir -p %s; git archive HEAD | tar -x -C %s;
     cmake -S %s -B %s/build -G Ninja -DCMAKE_BUILD_TYPE=Release -DAMBIT_TESTS=ON -DCMAKE_LINK_DEPENDS_NO_SHARED=ON;
     cmake --build %s/build]]):gsub("%%s", place)
   assert(shell(make, "/dev/null") or nil, "the tree does not build: " .. place)
+  write(place .. "/commit", commit)
 end
 
 -- The commands that test an area, quick ones first: { name, command }.
@@ -44,8 +63,8 @@ local function stages(area, place)
   end
   for _, spec in ipairs(area.specs or {}) do
     local path = ("%s/build/tests/lua/plugins:%s/build/tests/plugins:%s/build/plugins"):gsub("%%s", place)
-    list[#list + 1] = { spec .. "_spec", ("%scd %s && AMBIT_PATH=%s AMBIT_COMMAND=%s/build/ambit NO_COLOR=1 timeout %d %s/build/ambit test tests/lua/%s_spec.lua")
-      :format(LIMITS, place, path, place, WALL, place, spec) }
+    local command = "%scd %s && AMBIT_PATH=%s AMBIT_COMMAND=%s/build/ambit NO_COLOR=1 timeout %d build/ambit test tests/lua/%s_spec.lua"
+    list[#list + 1] = { spec .. "_spec", command:format(LIMITS, place, path, place, WALL, spec) }
   end
   return list
 end
@@ -73,6 +92,7 @@ end
 function trial.run(area, mutation, place, log)
   local file = place .. "/" .. mutation.file
   local text = read(file)
+  write(place .. "/mutated", mutation.file)
   write(file, source.with(text, mutation))
   local outcome, by = "unbuilt", nil
   if build(area, place, log) then
@@ -80,6 +100,7 @@ function trial.run(area, mutation, place, log)
     outcome = by and "killed" or "survived"
   end
   write(file, text)
+  write(place .. "/mutated", "")
   build(area, place, log)
   return outcome, by
 end
