@@ -219,12 +219,25 @@ ambit_expr ambit_graph_decimal(ambit_graph *g, const char *text, ambit_failure *
   return negative && e != AMBIT_NO_EXPR ? ambit_graph_op(g, AMBIT_OP_NEG, e, e) : e;
 }
 
-ambit_expr ambit_graph_unknown(ambit_graph *g, const char *name, ambit_interval range) {
-  range = ambit_interval_of(range.lo, range.hi);
-  if (ambit_interval_is_empty(range)) return AMBIT_NO_EXPR;
-  ambit_node node = { .op = AMBIT_LEAF_UNKNOWN, .value = range, .range = range, .total = true };
+ambit_expr ambit_graph_datum(
+    ambit_graph *g, const char *name, const char *place, ambit_interval outer, ambit_interval inner) {
+  outer = ambit_interval_of(outer.lo, outer.hi);
+  if (ambit_interval_is_empty(outer)) return AMBIT_NO_EXPR;
+  inner = ambit_interval_intersect(ambit_interval_of(inner.lo, inner.hi), outer);
+  ambit_node node = { .op = AMBIT_LEAF_UNKNOWN, .value = outer, .inner = inner, .range = outer, .total = true };
   if (name && !(node.text = ambit_arena_text(g->arena, name))) return AMBIT_NO_EXPR;
+  if (place && !(node.unit = ambit_arena_text(g->arena, place))) return AMBIT_NO_EXPR;
   return append(g, &(ambit_stored) { .node = node });
+}
+
+ambit_expr ambit_graph_unknown(ambit_graph *g, const char *name, ambit_interval range) {
+  return ambit_graph_datum(g, name, NULL, range, range);
+}
+
+bool ambit_graph_name(ambit_graph *g, ambit_expr unknown, const char *name) {
+  ambit_node *node = &g->stored[unknown].node;
+  if (node->op != AMBIT_LEAF_UNKNOWN || node->text) return true;
+  return (node->text = ambit_arena_text(g->arena, name)) != NULL;
 }
 
 ambit_expr ambit_graph_symbol(ambit_graph *g, const char *name, const char *unit) {

@@ -29,11 +29,12 @@ typedef struct ambit_node {
   uint32_t op;          /* AMBIT_OP_* or AMBIT_LEAF_* */
   ambit_expr a, b;      /* operands; b == a when unary; POWN: b is the int32 exponent */
   ambit_interval value; /* leaf CONSTANT, UNKNOWN: its set */
+  ambit_interval inner; /* UNKNOWN: values that it surely takes, inside `value`; empty: none is known */
   ambit_interval range; /* bounds over all reals (UNKNOWN: over its set) */
   bool total;           /* defined for all real values of the leaves */
   bool constant;        /* no UNKNOWN, SYMBOL or TIME below */
   const char *text;     /* CONSTANT: literal or "pi"; SYMBOL, UNKNOWN: name or NULL */
-  const char *unit;     /* SYMBOL: SI unit */
+  const char *unit;     /* SYMBOL: SI unit; UNKNOWN: the line that made it, "scene.lua:12", or NULL */
 } ambit_node;
 
 ambit_graph *ambit_graph_open(void); /* NULL: out of memory; node 0 is the constant 0 */
@@ -49,8 +50,14 @@ ambit_expr ambit_graph_interval(ambit_graph *g, ambit_interval x);
 /* point literal, rational, "pi" */
 ambit_expr ambit_graph_decimal(ambit_graph *g, const char *text, ambit_failure *f);
 ambit_expr ambit_graph_pi(ambit_graph *g);
-/* fresh at each call; name may be NULL */
+/* fresh at each call; name may be NULL. Every value of `range` is allowed: its inner range is the same. */
 ambit_expr ambit_graph_unknown(ambit_graph *g, const char *name, ambit_interval range);
+/* An uncertain datum whose range is known from both sides only: allowed values lie in `outer`, all of `inner` are
+** allowed (cut to `outer`; reversed or empty: none is known to be). place, name: or NULL. */
+ambit_expr ambit_graph_datum(
+    ambit_graph *g, const char *name, const char *place, ambit_interval outer, ambit_interval inner);
+/* Calls an UNKNOWN that has no name so; false: out of memory. */
+bool ambit_graph_name(ambit_graph *g, ambit_expr unknown, const char *name);
 /* the same name is the same node */
 ambit_expr ambit_graph_symbol(ambit_graph *g, const char *name, const char *unit);
 ambit_expr ambit_graph_time(ambit_graph *g);

@@ -51,10 +51,13 @@ typedef struct ambit_lua_expression {
   int8_t dimension[7];
 } ambit_lua_expression;
 
-/* An enclosure; flags: AMBIT_F_PARTIAL if some operation on the way left its domain. */
+/* An enclosure; flags: AMBIT_F_PARTIAL if some operation on the way left its domain. One that a script wrote down,
+** `declared`, is a set of which all of `inner` is known to be meant; of what was computed no value is. */
 typedef struct ambit_lua_enclosure {
   ambit_interval x;
   uint32_t flags;
+  bool declared;
+  ambit_interval inner;
 } ambit_lua_enclosure;
 
 /* "scene.lua:12: ", pushed; empty if no line of a script is active. */
@@ -65,6 +68,8 @@ _Noreturn void ambit_lua_raise(lua_State *L, const ambit_failure *f);
 
 ambit_lua_expression *ambit_lua_push_expression(lua_State *L, ambit_expr e); /* NO_EXPR: raises */
 void ambit_lua_push_enclosure(lua_State *L, ambit_interval x, uint32_t flags);
+/* A fresh datum made by the running line of the script, NULL: no name yet; raises where there is no memory. */
+ambit_expr ambit_lua_datum(lua_State *L, const char *name, ambit_interval outer, ambit_interval inner);
 /* Pushes a new table {expression, ...}. */
 void ambit_lua_push_expressions(lua_State *L, size_t n, const ambit_expr *e);
 

@@ -1,11 +1,14 @@
 /* data.c -- uncertain data: around, between, interval.
 **
-** around(c, tol) for a numeric c is one fresh unknown over [c - tol, c + tol]; both ends are rounded outward from
-** enclosures of c and tol, so every value within the tolerance is inside. For a general expression c it is c + |c| tol
-** xi (absolute: c + tol xi) with a fresh xi in [-1, 1], which has the same image. between(lo, hi): one fresh unknown
-** over the hull of its ends.
+** around(c, tol) for a numeric c is one fresh unknown over [c - tol, c + tol]. c and tol are known from both sides
+** (model/tight.h). The outer range takes the bounds that make it larger, so every value within the tolerance is inside;
+** the inner range takes those that make it smaller, so every value inside is within the tolerance. What refutes, bounds
+** from below or is sampled uses the inner range alone. For a general expression c the datum is c + |c| tol xi
+** (absolute: c + tol xi) with a fresh xi in [-1, 1], which has the same image. between(lo, hi): one fresh unknown over
+** the hull of its ends.
 */
 #include "lua/core.h"
+#include "model/tight.h"
 #include "num/decimal.h"
 #include <ctype.h>
 #include <stdio.h>
@@ -44,19 +47,26 @@ static tolerance tolerance_of(lua_State *L, int idx) {
   return t;
 }
 
-static ambit_expr around_number(ambit_graph *g, ambit_interval c, tolerance t) {
-  ambit_interval radius = t.size;
-  if (t.relative)
-    radius = ambit_interval_mul(radius, (ambit_interval) { ambit_interval_mig(c), ambit_interval_mag(c) });
-  ambit_interval both = { -radius.hi, radius.hi };
-  return ambit_graph_unknown(g, NULL, ambit_interval_add(c, both));
+/* The numbers that are at least the number in lo and at most the one in hi, whatever these are: of the sum of an end
+** and a radius `inner` takes the bound that makes the range smaller. */
+static ambit_interval between_all(ambit_interval lo, ambit_interval hi) { return ambit_interval_of(lo.hi, hi.lo); }
+
+static ambit_expr around_number(lua_State *L, ambit_interval c, tolerance t, const char *name) {
+  ambit_interval r = t.size;
+  if (t.relative) r = ambit_interval_mul(r, (ambit_interval) { ambit_interval_mig(c), ambit_interval_mag(c) });
+  ambit_interval lo = ambit_interval_sub(c, r), hi = ambit_interval_add(c, r);
+  return ambit_lua_datum(L, name, (ambit_interval) { lo.lo, hi.hi }, between_all(lo, hi));
 }
 
-static ambit_expr around_general(ambit_graph *g, ambit_expr c, tolerance t) {
-  ambit_interval range = ambit_graph_node(g, c)->range;
-  ambit_expr xi = ambit_graph_unknown(g, NULL, (ambit_interval) { -1, 1 }), scale = ambit_graph_number(g, t.size.hi);
-  if (xi == AMBIT_NO_EXPR || scale == AMBIT_NO_EXPR) return AMBIT_NO_EXPR;
-  ambit_expr d = ambit_graph_op(g, AMBIT_OP_MUL, scale, xi);
+/* scale is the tolerance rounded up, so that not all of [-1, 1] is allowed where that was inexact. */
+static ambit_expr around_general(lua_State *L, ambit_expr c, tolerance t, const char *name) {
+  ambit_graph *g = AMBIT_LUA(L)->graph;
+  ambit_interval range = ambit_graph_node(g, c)->range, scale = { t.size.hi, t.size.hi };
+  double part = ambit_interval_div((ambit_interval) { t.size.lo, t.size.lo }, scale).lo;
+  ambit_expr xi = ambit_lua_datum(L, name, (ambit_interval) { -1, 1 }, (ambit_interval) { -part, part });
+  ambit_expr factor = ambit_graph_number(g, t.size.hi);
+  if (factor == AMBIT_NO_EXPR) return AMBIT_NO_EXPR;
+  ambit_expr d = ambit_graph_op(g, AMBIT_OP_MUL, factor, xi);
   if (t.relative && d != AMBIT_NO_EXPR) { /* |c| is c or -c where the sign is known: smooth */
     bool known = range.lo >= 0 || range.hi <= 0;
     ambit_expr size = known ? c : ambit_graph_op(g, AMBIT_OP_ABS, c, c); /* xi is symmetric: the sign does not matter */
@@ -65,37 +75,51 @@ static ambit_expr around_general(ambit_graph *g, ambit_expr c, tolerance t) {
   return d == AMBIT_NO_EXPR ? d : ambit_graph_op(g, AMBIT_OP_ADD, c, d);
 }
 
+/* The name at idx, or NULL */
+static const char *name_of(lua_State *L, int idx, const char *what) {
+  if (lua_isnoneornil(L, idx)) return NULL;
+  size_t length = 0;
+  const char *name = lua_type(L, idx) == LUA_TSTRING ? lua_tolstring(L, idx, &length) : NULL;
+  if (!length || strlen(name) != length)
+    ambit_lua_error(L, "%s: expected a name for the datum such as \"upper length\", got %s", what,
+        name ? "an empty text or a zero byte" : luaL_typename(L, idx));
+  return name;
+}
+
+/* around(c, tolerance [, name]) */
 static int around(lua_State *L) {
-  ambit_graph *g = AMBIT_LUA(L)->graph;
+  ambit_lua *core = AMBIT_LUA(L);
   ambit_lua_expression c = ambit_lua_to_expression(L, 1, NULL, "around");
   tolerance t = tolerance_of(L, 2);
+  const char *name = name_of(L, 3, "around");
   if (t.size.hi > 0) {
-    const ambit_node *node = ambit_graph_node(g, c.e);
-    if (node->constant && !ambit_interval_is_bounded(node->range))
-      ambit_lua_error(L, "around: the value is not bounded");
-    c.e = node->constant ? around_number(g, node->range, t) : around_general(g, c.e, t);
+    if (ambit_lua_is_constant(L, &c)) {
+      ambit_interval x = ambit_tight(core->graph, core->registry, c.e);
+      if (!ambit_interval_is_bounded(x)) ambit_lua_error(L, "around: the value is not bounded");
+      c.e = around_number(L, x, t, name);
+    } else {
+      c.e = around_general(L, c.e, t, name);
+    }
   }
   *ambit_lua_push_expression(L, c.e) = c;
   return 1;
 }
 
+/* between(lo, hi [, name]) */
 static int between(lua_State *L) {
   ambit_lua_expression lo = ambit_lua_to_expression(L, 1, NULL, "between"),
                        hi = ambit_lua_to_expression(L, 2, NULL, "between");
-  ambit_graph *g = AMBIT_LUA(L)->graph;
-  const ambit_node *node = ambit_graph_node(g, lo.e);
-  bool constant = node->constant;
-  ambit_interval a = node->range;
-  node = ambit_graph_node(g, hi.e);
-  if (!constant || !node->constant)
+  ambit_lua *core = AMBIT_LUA(L);
+  const char *name = name_of(L, 3, "between");
+  if (!ambit_lua_is_constant(L, &lo) || !ambit_lua_is_constant(L, &hi))
     ambit_lua_error(L, "between: the ends must be known numbers, not uncertain themselves");
   if (lo.known && hi.known && memcmp(lo.dimension, hi.dimension, sizeof lo.dimension) != 0)
     ambit_lua_error(L, "between: the ends have different dimensions");
-  ambit_interval b = node->range;
+  ambit_interval a = ambit_tight(core->graph, core->registry, lo.e), b = ambit_tight(core->graph, core->registry, hi.e);
   if (a.lo > b.hi) ambit_lua_error(L, "between: the interval is reversed: %g is greater than %g", a.lo, b.hi);
   ambit_interval range = { a.lo, b.hi };
   if (!ambit_interval_is_bounded(range)) ambit_lua_error(L, "between: the ends must be finite");
-  if (lo.e != hi.e) lo.e = ambit_graph_unknown(g, NULL, range);
+  if (lo.e != hi.e) lo.e = ambit_lua_datum(L, name, range, between_all(a, b));
   if (!lo.known) {
     hi.e = lo.e;
     lo = hi;
@@ -114,7 +138,7 @@ static int interval(lua_State *L) {
     double v = lua_type(L, i + 1) == LUA_TNUMBER ? lua_tonumber(L, i + 1) : 0;
     unbounded[i] = isinf(v);
     if (unbounded[i])
-      end[i] = (ambit_lua_enclosure) { { v, v }, 0 };
+      end[i] = (ambit_lua_enclosure) { .x = { v, v } };
     else if (i == 0 || !lua_isnoneornil(L, 2))
       end[i] = ambit_lua_to_enclosure(L, i + 1, "interval");
     else
@@ -130,7 +154,11 @@ static int interval(lua_State *L) {
   if (ambit_interval_is_empty(x.x) || ambit_interval_is_empty(y.x)) ambit_lua_error(L, "interval: a bound is empty");
   if (r.lo > r.hi) ambit_lua_error(L, "interval: the bounds are reversed: %g is greater than %g", r.lo, r.hi);
   if (r.lo == r.hi && isinf(r.lo)) ambit_lua_error(L, "interval: the interval is empty: it holds no real number");
+  bool whole = lua_isnoneornil(L, 2); /* a set itself, no two ends */
   ambit_lua_push_enclosure(L, r, x.flags | y.flags);
+  ambit_lua_enclosure *made = lua_touserdata(L, -1);
+  made->declared = !whole || x.declared;
+  made->inner = whole ? x.inner : between_all(x.x, y.x);
   return 1;
 }
 

@@ -174,7 +174,8 @@ static int set(lua_State *L) {
   if (w->set.set.nterm)
     ambit_held_set_express(&w->set, g, w->nx, x);
   else
-    for (size_t i = 0; i < w->nx; i++) x[i] = ambit_graph_unknown(g, NULL, (ambit_interval) { w->lo[i], w->hi[i] });
+    for (size_t i = 0; i < w->nx; i++)
+      x[i] = ambit_graph_datum(g, NULL, NULL, (ambit_interval) { w->lo[i], w->hi[i] }, AMBIT_EMPTY);
   ambit_lua_push_expressions(L, w->nx, x);
   lua_remove(L, -2);
   return 2;

@@ -104,7 +104,8 @@ static int is_constant(lua_State *L) {
   return 1;
 }
 
-/* leaves({e, ...}) -> {{expression, kind, name, unit, lo, hi, number}, ...}: what the expressions depend on */
+/* leaves({e, ...}) -> {{expression, kind, name, unit, lo, hi, inner_lo, inner_hi, number}, ...}: what the expressions
+** depend on. Data: inner_lo > inner_hi: no value is known to be allowed; unit: where it was made. */
 static int leaves(lua_State *L) {
   ambit_graph *g = AMBIT_LUA(L)->graph;
   size_t n = (size_t)luaL_len(L, 1);
@@ -117,7 +118,7 @@ static int leaves(lua_State *L) {
     const ambit_node *node = ambit_graph_node(g, leaf[i]);
     const char *kind = node->op == AMBIT_LEAF_UNKNOWN ? "unknown" : node->op == AMBIT_LEAF_TIME ? "time" : "symbol";
     ambit_interval range = node->op == AMBIT_LEAF_UNKNOWN ? node->value : node->range;
-    lua_createtable(L, 0, 7);
+    lua_createtable(L, 0, 9);
     lua_pushinteger(L, leaf[i]);
     lua_setfield(L, -2, "number");
     lua_pushstring(L, node->text);
@@ -130,6 +131,10 @@ static int leaves(lua_State *L) {
     lua_setfield(L, -2, "lo");
     lua_pushnumber(L, range.hi);
     lua_setfield(L, -2, "hi");
+    lua_pushnumber(L, node->inner.lo);
+    lua_setfield(L, -2, "inner_lo");
+    lua_pushnumber(L, node->inner.hi);
+    lua_setfield(L, -2, "inner_hi");
     ambit_lua_push_expression(L, leaf[i]);
     lua_setfield(L, -2, "expression");
     lua_rawseti(L, -2, (lua_Integer)i + 1);

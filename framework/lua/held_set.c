@@ -70,7 +70,8 @@ void ambit_held_set_express(const ambit_held_set *held, ambit_graph *g, size_t n
   const ambit_set *set = &held->set;
   for (size_t i = 0; i < nx; i++) {
     double rest = set->rest[i];
-    x[i] = rest > 0 ? ambit_graph_unknown(g, NULL, (ambit_interval) { -rest, rest }) : ambit_graph_number(g, 0);
+    x[i] = rest > 0 ? ambit_graph_datum(g, NULL, NULL, (ambit_interval) { -rest, rest }, AMBIT_EMPTY)
+                    : ambit_graph_number(g, 0);
     for (uint32_t t = 0; t < set->nterm; t++) {
       double coefficient = set->coefficient[i * set->nterm + t];
       if (coefficient != 0) x[i] = ambit_graph_op(g, AMBIT_OP_ADD, x[i], monomial(held, g, t, coefficient));

@@ -16,8 +16,7 @@ ambit_lua_expression *ambit_lua_push_expression(lua_State *L, ambit_expr e) {
 
 void ambit_lua_push_enclosure(lua_State *L, ambit_interval x, uint32_t flags) {
   ambit_lua_enclosure *y = lua_newuserdatauv(L, sizeof *y, 0);
-  y->x = x;
-  y->flags = flags & AMBIT_F_PARTIAL;
+  *y = (ambit_lua_enclosure) { .x = x, .flags = flags & AMBIT_F_PARTIAL };
   luaL_setmetatable(L, AMBIT_TYPE_ENCLOSURE);
 }
 
@@ -90,9 +89,21 @@ static bool text_is_set(const char *text, const char *rest) {
   return *text == '[' || (mark && mark < rest);
 }
 
+ambit_expr ambit_lua_datum(lua_State *L, const char *name, ambit_interval outer, ambit_interval inner) {
+  ambit_lua_where(L);
+  size_t length;
+  const char *where = lua_tolstring(L, -1, &length);
+  const char *place = length > 2 ? lua_pushlstring(L, where, length - 2) : NULL; /* without ": " */
+  ambit_expr e = ambit_graph_datum(AMBIT_LUA(L)->graph, name, place, outer, inner);
+  lua_pop(L, length > 2 ? 2 : 1);
+  if (e == AMBIT_NO_EXPR) ambit_lua_error(L, "out of memory while building an expression");
+  return e;
+}
+
 /* A set literal is an uncertain datum: a fresh unknown, times its unit. */
 static ambit_expr set_expression(
-    ambit_graph *g, ambit_interval x, const char *unit, const char *wanted, ambit_failure *f) {
+    lua_State *L, ambit_interval x, ambit_interval inner, const char *unit, const char *wanted, ambit_failure *f) {
+  ambit_graph *g = AMBIT_LUA(L)->graph;
   if (ambit_interval_is_empty(x)) {
     ambit_fail(f, AMBIT_INVALID, "the interval is empty");
     return AMBIT_NO_EXPR;
@@ -101,7 +112,7 @@ static ambit_expr set_expression(
     ambit_fail(f, AMBIT_INVALID, "the interval is not bounded");
     return AMBIT_NO_EXPR;
   }
-  ambit_expr e = ambit_interval_is_point(x) ? ambit_graph_number(g, x.lo) : ambit_graph_unknown(g, NULL, x), factor;
+  ambit_expr e = ambit_interval_is_point(x) ? ambit_graph_number(g, x.lo) : ambit_lua_datum(L, NULL, x, inner), factor;
   if (!*unit) return e;
   char one[128];
   snprintf(one, sizeof one, "1 %s", unit);
@@ -110,24 +121,24 @@ static ambit_expr set_expression(
 }
 
 static ambit_status text_expression(
-    ambit_graph *g, const char *text, const char *wanted, ambit_lua_expression *out, ambit_failure *f) {
-  ambit_interval x;
+    lua_State *L, const char *text, const char *wanted, ambit_lua_expression *out, ambit_failure *f) {
+  ambit_interval x, inner;
   const char *rest = "";
   ambit_unit unit = { 0 };
   char dimension[AMBIT_LUA_DIMENSION_MAX];
-  if (ambit_decimal_read(text, &x, &rest, f) != AMBIT_OK) return f->status;
+  if (ambit_decimal_read_set(text, &x, &inner, &rest, f) != AMBIT_OK) return f->status;
   while (isspace((unsigned char)*rest)) rest++;
   if (*rest && ambit_unit_read(rest, &unit, f) != AMBIT_OK) return f->status;
   if (!wanted) ambit_lua_dimension_text(unit.power, dimension);
   memcpy(out->dimension, unit.power, sizeof out->dimension);
   out->known = *rest != '\0';
   if (text_is_set(text, rest)) {
-    out->e = set_expression(g, x, rest, wanted ? wanted : dimension, f);
+    out->e = set_expression(L, x, inner, rest, wanted ? wanted : dimension, f);
     return out->e == AMBIT_NO_EXPR ? ambit_fail(f, AMBIT_NOMEM, "out of memory") : AMBIT_OK;
   }
   if (!ambit_interval_is_bounded(x) && isinf(x.lo) && isinf(x.hi))
     return ambit_fail(f, AMBIT_INVALID, "\"%s\" is not finite", text);
-  return ambit_unit_quantity(g, text, wanted ? wanted : dimension, &out->e, f);
+  return ambit_unit_quantity(AMBIT_LUA(L)->graph, text, wanted ? wanted : dimension, &out->e, f);
 }
 
 static void check_dimension(lua_State *L, const ambit_lua_expression *x, const char *wanted, const char *what) {
@@ -146,7 +157,8 @@ static ambit_expr enclosure_expression(lua_State *L, const ambit_lua_enclosure *
   ambit_graph *g = AMBIT_LUA(L)->graph;
   if (ambit_interval_is_empty(y->x)) wrong(L, what, "the enclosure is empty");
   if (!ambit_interval_is_bounded(y->x)) wrong(L, what, "the enclosure is not bounded");
-  return ambit_interval_is_point(y->x) ? ambit_graph_number(g, y->x.lo) : ambit_graph_unknown(g, NULL, y->x);
+  if (ambit_interval_is_point(y->x)) return ambit_graph_number(g, y->x.lo);
+  return ambit_lua_datum(L, NULL, y->x, y->declared ? y->inner : AMBIT_EMPTY);
 }
 
 /* C would end the text at a zero byte, and read what is in front of it. */
@@ -165,8 +177,7 @@ ambit_lua_expression ambit_lua_to_expression(lua_State *L, int idx, const char *
   switch (lua_type(L, idx)) {
   case LUA_TNUMBER: out.e = number_expression(L, idx, what); return out;
   case LUA_TSTRING:
-    if (text_expression(AMBIT_LUA(L)->graph, whole_text(L, idx, what), wanted, &out, &f) != AMBIT_OK)
-      wrong(L, what, f.message);
+    if (text_expression(L, whole_text(L, idx, what), wanted, &out, &f) != AMBIT_OK) wrong(L, what, f.message);
     return out;
   case LUA_TUSERDATA:
     if ((user = luaL_testudata(L, idx, AMBIT_TYPE_EXPRESSION)) != NULL) {
@@ -192,25 +203,39 @@ static ambit_interval unit_factor(lua_State *L, const char *unit, const char *wh
   ambit_failure f = { 0 };
   char text[128];
   snprintf(text, sizeof text, "1 %s", unit);
-  if (text_expression(AMBIT_LUA(L)->graph, text, NULL, &one, &f) != AMBIT_OK) wrong(L, what, f.message);
+  if (text_expression(L, text, NULL, &one, &f) != AMBIT_OK) wrong(L, what, f.message);
   return ambit_graph_node(AMBIT_LUA(L)->graph, one.e)->range;
+}
+
+/* What is surely in the set times the factor, which is positive and lies in `factor`. */
+static ambit_interval scaled_inner(ambit_interval inner, ambit_interval factor) {
+  if (ambit_interval_is_empty(inner)) return inner;
+  ambit_interval lo = { inner.lo, inner.lo }, hi = { inner.hi, inner.hi };
+  double least = isinf(inner.lo) ? inner.lo : ambit_interval_mul(lo, factor).hi;
+  double most = isinf(inner.hi) ? inner.hi : ambit_interval_mul(hi, factor).lo;
+  return ambit_interval_of(least, most);
 }
 
 ambit_lua_enclosure ambit_lua_to_enclosure(lua_State *L, int idx, const char *what) {
   const void *user = luaL_testudata(L, idx, AMBIT_TYPE_ENCLOSURE);
   if (user) return *(const ambit_lua_enclosure *)user;
   if (lua_type(L, idx) == LUA_TSTRING) { /* sets and infinite bounds are welcome here */
-    ambit_interval x;
+    ambit_interval x, inner;
     ambit_failure f = { 0 };
     const char *rest;
-    if (ambit_decimal_read(whole_text(L, idx, what), &x, &rest, &f) != AMBIT_OK) wrong(L, what, f.message);
+    if (ambit_decimal_read_set(whole_text(L, idx, what), &x, &inner, &rest, &f) != AMBIT_OK) wrong(L, what, f.message);
     while (isspace((unsigned char)*rest)) rest++;
-    return (ambit_lua_enclosure) { *rest ? ambit_interval_mul(x, unit_factor(L, rest, what)) : x, 0 };
+    if (*rest) {
+      ambit_interval factor = unit_factor(L, rest, what);
+      x = ambit_interval_mul(x, factor);
+      inner = scaled_inner(inner, factor);
+    }
+    return (ambit_lua_enclosure) { .x = x, .declared = true, .inner = inner };
   }
   if (lua_type(L, idx) == LUA_TNUMBER && isnan(lua_tonumber(L, idx))) wrong(L, what, "the number is NaN");
   ambit_lua_expression e = ambit_lua_to_expression(L, idx, NULL, what);
   const ambit_node *node = ambit_graph_node(AMBIT_LUA(L)->graph, e.e);
   if (!node->constant)
     wrong(L, what, "this expression holds unknowns or variables; ask ambit.evaluate for its enclosure");
-  return (ambit_lua_enclosure) { node->range, node->total ? 0 : AMBIT_F_PARTIAL };
+  return (ambit_lua_enclosure) { .x = node->range, .flags = node->total ? 0 : AMBIT_F_PARTIAL };
 }

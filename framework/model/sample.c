@@ -51,7 +51,7 @@ static ambit_status find_ranges(job *j, ambit_failure *f) {
   if (!j->range) return no_memory(f);
   for (size_t i = 0; i < j->bound.nunknown; i++) {
     const ambit_node *node = ambit_graph_node(j->q->graph, j->bound.unknown[i]);
-    j->range[i] = node->value;
+    j->range[i] = ambit_sample_range(node);
     ambit_status status = ambit_sample_check_range(node->value, node->text, f);
     if (status != AMBIT_OK) return status;
   }
@@ -178,7 +178,11 @@ static ambit_status polish(job *j, ambit_sample_result *result, ambit_failure *f
 
 /* How far a value that was seen can be off: the kernel's intervals at its point enclose the true one. */
 static double error_of(const job *j, const ambit_extreme *x, size_t e, ambit_interval *in, ambit_interval *slot) {
-  for (size_t i = 0; i < j->bound.nunknown; i++) in[i] = (ambit_interval) { x->point[i], x->point[i] };
+  for (size_t i = 0; i < j->bound.nunknown; i++) {
+    const ambit_node *datum = ambit_graph_node(j->q->graph, j->bound.unknown[i]);
+    bool allowed = !ambit_interval_is_empty(datum->inner);
+    in[i] = allowed ? (ambit_interval) { x->point[i], x->point[i] } : datum->value;
+  }
   ambit_hull(j->tape, in, slot);
   ambit_interval true_value = slot[j->tape->out[e]];
   if (ambit_interval_is_empty(true_value)) return INFINITY;

@@ -32,6 +32,7 @@ struct ambit_flow {
   ambit_problem problem;
   const ambit_expr *unknown; /* [nu] */
   ambit_interval *range;     /* [nu] */
+  bool vague;                /* of some datum no value is known to be allowed */
   double relative, absolute;
   double longest; /* step; 0: any */
   uint32_t threads, ndrawer;
@@ -53,10 +54,11 @@ static ambit_status find_ranges(ambit_flow *flow, ambit_failure *f) {
   flow->range = room(flow, p->nu, sizeof *flow->range);
   if (!flow->range) return no_memory(f);
   for (uint32_t i = 0; i < p->nu; i++) {
-    flow->range[i] = (ambit_interval) { p->u_lo[i], p->u_hi[i] };
-    const char *name = ambit_graph_node(flow->q->system->graph, flow->unknown[i])->text;
-    ambit_status status = ambit_sample_check_range(flow->range[i], name, f);
+    const ambit_node *datum = ambit_graph_node(flow->q->system->graph, flow->unknown[i]);
+    ambit_status status = ambit_sample_check_range(datum->value, datum->text, f);
     if (status != AMBIT_OK) return status;
+    flow->range[i] = ambit_sample_range(datum);
+    flow->vague = flow->vague || ambit_interval_is_empty(datum->inner);
   }
   return AMBIT_OK;
 }
@@ -166,6 +168,7 @@ ambit_work ambit_flow_work(const ambit_flow *flow) {
 
 const ambit_problem *ambit_flow_problem(const ambit_flow *flow) { return &flow->problem; }
 const ambit_interval *ambit_flow_range(const ambit_flow *flow) { return flow->range; }
+bool ambit_flow_is_vague(const ambit_flow *flow) { return flow->vague; }
 const char *ambit_flow_arithmetic(const ambit_flow *flow) { return flow->arithmetic; }
 uint32_t ambit_flow_threads(const ambit_flow *flow) { return flow->threads; }
 bool ambit_flow_is_one_by_one(const ambit_flow *flow) { return flow->one_by_one; }

@@ -17,6 +17,7 @@ ambit_status ambit_flow_open(
 void ambit_flow_close(ambit_flow *flow); /* NULL is allowed */
 const ambit_problem *ambit_flow_problem(const ambit_flow *flow);
 const ambit_interval *ambit_flow_range(const ambit_flow *flow); /* [nu] bounded */
+bool ambit_flow_is_vague(const ambit_flow *flow); /* draws may be off what is allowed (ambit_sample_range) */
 const char *ambit_flow_arithmetic(const ambit_flow *flow);
 ambit_work ambit_flow_work(const ambit_flow *flow); /* counted until now; nobody works meanwhile */
 uint32_t ambit_flow_threads(const ambit_flow *flow);

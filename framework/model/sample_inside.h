@@ -20,6 +20,14 @@ static inline ambit_status ambit_sample_check_range(ambit_interval x, const char
   return AMBIT_OK;
 }
 
+/* Draws are made from what the tolerances surely allow. Where no value is known to be allowed, draws have one of the
+** middle, which may not be allowed: the result is then off by what the whole of the range can change. */
+static inline ambit_interval ambit_sample_range(const ambit_node *datum) {
+  if (!ambit_interval_is_empty(datum->inner)) return datum->inner;
+  double middle = ambit_interval_mid(datum->value);
+  return (ambit_interval) { middle, middle };
+}
+
 static inline ambit_status ambit_sample_open_points(ambit_registry *registry, const ambit_sample_plan *plan, size_t n,
     const ambit_interval *range, ambit_sample_points **points, ambit_failure *f) {
   const ambit_sample_points_request q = { plan->draws, plan->seed, plan->points, plan->no_corners, n, range };

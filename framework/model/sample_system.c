@@ -65,7 +65,7 @@ static ambit_status prepare(ambit_sample_job *j, ambit_failure *f) {
 static ambit_status estimate_error(ambit_sample_job *j, const ambit_interval *hull, double *error, ambit_failure *f) {
   const ambit_problem *p = j->problem;
   for (size_t i = 0; i < (size_t)p->ntime * p->nx; i++) error[i] = NAN;
-  if (j->result->status != AMBIT_OK) return AMBIT_OK;
+  if (j->result->status != AMBIT_OK || ambit_flow_is_vague(j->flow)) return AMBIT_OK;
   const ambit_sample_error q = {
     .flow = j->flow, .draws = j->plan.draws, .extremes = &j->drawer[0].extremes, .hull = hull
   };

@@ -18,6 +18,7 @@ typedef struct reader {
   const char *text;
   ambit_failure *failure;
   ambit_status status;
+  ambit_interval inner; /* of a set */
 } reader;
 
 /* returns NULL, the end of nothing */
@@ -207,6 +208,7 @@ static const char *read_bounds(reader *r, const char *s, ambit_interval *x) {
   }
   if (*skip_blank(s) != ']') return no_number(r);
   if (lo.lo > hi.lo || lo.hi > hi.hi) return refused(r, AMBIT_INVALID, ": the lower bound is above the upper one");
+  r->inner = ambit_interval_of(lo.hi, hi.lo);
   *x = ambit_interval_of(lo.lo, hi.hi);
   return ambit_interval_is_empty(*x) ? refused(r, AMBIT_INVALID, " holds no real number") : s;
 }
@@ -221,7 +223,7 @@ static const char *read_brackets(reader *r, const char *s, ambit_interval *x) {
     *x = AMBIT_EMPTY;
     s += *s == ']' ? 0 : strlen("empty");
   } else if (starts_with_word(s, "entire")) {
-    *x = AMBIT_ENTIRE;
+    *x = r->inner = AMBIT_ENTIRE;
     s += strlen("entire");
   } else if (!(s = read_bounds(r, s, x))) {
     return NULL;
@@ -303,12 +305,16 @@ static const char *read_uncertain(reader *r, const char *s, ambit_interval *x) {
   if (done && !u.infinite) done = (!u.down || shifted(r, &u, true, &lo)) && (!u.up || shifted(r, &u, false, &hi));
   free(u.middle.d), free(u.radius.d);
   if (!done) return NULL;
-  *x = (ambit_interval) { u.infinite && u.down ? -INFINITY : lo.lo, u.infinite && u.up ? INFINITY : hi.hi };
+  if (u.infinite && u.down) lo = (ambit_interval) { -INFINITY, -INFINITY };
+  if (u.infinite && u.up) hi = (ambit_interval) { INFINITY, INFINITY };
+  r->inner = ambit_interval_of(lo.hi, hi.lo);
+  *x = (ambit_interval) { lo.lo, hi.hi };
   return end;
 }
 
-ambit_status ambit_decimal_read(const char *text, ambit_interval *x, const char **rest, ambit_failure *failure) {
-  reader r = { text, failure, AMBIT_OK };
+ambit_status ambit_decimal_read_set(
+    const char *text, ambit_interval *x, ambit_interval *inner, const char **rest, ambit_failure *failure) {
+  reader r = { text, failure, AMBIT_OK, AMBIT_EMPTY };
   const char *s = skip_blank(text);
   const char *end = *s == '['         ? read_brackets(&r, s + 1, x)
                     : is_uncertain(s) ? read_uncertain(&r, s, x)
@@ -320,7 +326,13 @@ ambit_status ambit_decimal_read(const char *text, ambit_interval *x, const char 
     *rest = end;
   else if (*end)
     no_number(&r);
+  *inner = r.status == AMBIT_OK && ambit_interval_is_point(*x) ? *x : r.inner;
   return r.status;
+}
+
+ambit_status ambit_decimal_read(const char *text, ambit_interval *x, const char **rest, ambit_failure *failure) {
+  ambit_interval inner;
+  return ambit_decimal_read_set(text, x, &inner, rest, failure);
 }
 
 ambit_status ambit_decimal_tolerance(

@@ -16,6 +16,10 @@
 ** literal or reversed. The literal may be followed by white space and a rest (a unit): if rest is not NULL it is set
 ** there, otherwise a rest is an error. */
 ambit_status ambit_decimal_read(const char *text, ambit_interval *x, const char **rest, ambit_failure *failure);
+/* The same, and doubles `inner` between which every number belongs to the set that the text says: for ends that are no
+** doubles the set is known from both sides only. Empty where no double is known to belong to it. */
+ambit_status ambit_decimal_read_set(
+    const char *text, ambit_interval *x, ambit_interval *inner, const char **rest, ambit_failure *failure);
 /* A tolerance >= 0: "0.1%" (*relative, x encloses 0.001) or absolute, "1e-3"; a rest (a unit) as above. */
 ambit_status ambit_decimal_tolerance(
     const char *text, ambit_interval *x, bool *relative, const char **rest, ambit_failure *failure);

@@ -33,7 +33,7 @@ local function read_budget(value)
   return { runs = runs }
 end
 
--- The uncertain data of everything that takes part: { expression }, { lo }, { hi }.
+-- The uncertain data of everything that takes part, as uncertain.data gives them.
 local function uncertain_data(q, list)
   local all = table.move(q.initial, 1, #q.initial, 1, {})
   table.move(q.system.rates, 1, #q.system.rates, #all + 1, all)
@@ -74,8 +74,8 @@ function verb.verify(t)
     check.fail("verify: solver `%s` proves nothing", q.solver)
   end
   local list = conditions.read(t, q.system)
-  local unknowns, lo, hi = uncertain_data(q, list)
-  local job = { asked = q, request = q, conditions = list, unknowns = unknowns, lo = lo, hi = hi,
+  local unknowns, lo, hi, inner = uncertain_data(q, list)
+  local job = { asked = q, request = q, conditions = list, unknowns = unknowns, lo = lo, hi = hi, inner = inner,
     sound_points = are_points_starts(q), budget = read_budget(t.budget), tolerance = tolerance_of(q) }
   search.run(job)
   local result = report.of(job)

@@ -3,7 +3,6 @@
 --
 -- sup Y is known from above by an enclosure over all data, and from below by what the output surely is for single
 -- choices of the data; so are inf Y and those of the reduced model. The bound holds for the true ranges.
-local box = require "ambit.verify.box"
 local core = require "ambit.core"
 local couple = require "ambit.certify.couple"
 local run = require "ambit.certify.run"
@@ -14,11 +13,11 @@ local bounds = {}
 local MOST_CORNERS = 4 -- uncertain data of which all corners are tried; otherwise each by itself
 
 -- Choices of the data, within the tolerances: the middle, and corners.
-local function choices(lo, hi)
-  local least, most = box.inner(lo, hi)
-  local middle, list = {}, {}
+local function choices(lo, hi, inner)
+  local middle, list, least, most = {}, {}, {}, {}
   for j in ipairs(lo) do
-    middle[j] = math.min(math.max(0.5 * lo[j] + 0.5 * hi[j], lo[j]), hi[j])
+    least[j], most[j] = inner.lo[j], inner.hi[j]
+    middle[j] = math.min(math.max(0.5 * least[j] + 0.5 * most[j], least[j]), most[j])
     if not (least[j] <= most[j]) then -- which of these numbers are allowed is not known: all of them
       middle[j] = core.interval(lo[j], hi[j])
       least[j], most[j] = middle[j], middle[j]
@@ -42,9 +41,9 @@ end
 
 -- Rigorous runs at single choices: at each instant what the supremum is at least, and the infimum at most.
 local function inner(q, how, instants, total)
-  local unknowns, lo, hi = run.data(q)
+  local unknowns, lo, hi, inside = run.data(q)
   local least, most = {}, {}
-  for _, at in ipairs(choices(lo, hi)) do
+  for _, at in ipairs(choices(lo, hi, inside)) do
     local data = {}
     for j, x in ipairs(at) do data[j] = core.expression(x) end
     local part = values.one(values.at_data(q, unknowns, data), how, instants)

@@ -16,7 +16,7 @@ local NO_RIVALS = 2 ^ 31 -- only somebody's rival
 
 -- -- boxes of the data
 
--- The uncertain data of a request: { expression }, { lo }, { hi }.
+-- The uncertain data of a request, as uncertain.data gives them.
 function run.data(q)
   local all = table.move(q.initial, 1, #q.initial, 1, {})
   table.move(q.system.rates, 1, #q.system.rates, #all + 1, all)

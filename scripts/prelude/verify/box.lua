@@ -3,7 +3,7 @@
 --
 -- A box is { lo, hi } (a number for each uncertain datum); a run adds a finding for each condition [1], [2], ... and
 -- the outcome of the run. job: request (as simulate's), times, conditions { name, kind, g }, outputs { [k] = state that
--- carries condition k }, unknowns { expression }, lo, hi, inner_lo, inner_hi (box.inner), budget
+-- carries condition k }, unknowns { expression }, lo, hi, inner { lo, hi } (uncertain.lua), budget
 -- { runs = number } or { seconds = number }, runs, start.
 local core = require "ambit.core"
 
@@ -65,34 +65,21 @@ function box.run(job, b)
   return b
 end
 
--- The ends of data are rounded outward: "0.3" ends at the double above. What is closer to an end than
--- a few roundings of it may not be among the values that the tolerances allow, so it cannot refute.
-local ROUNDING = 0x1p-48 -- of the greater end: 32 roundings, more than a literal, its unit and its tolerance take
-
-function box.inner(lo, hi)
-  local inner_lo, inner_hi = {}, {}
-  for j in ipairs(lo) do
-    local margin = ROUNDING * math.max(math.abs(lo[j]), math.abs(hi[j]), 0x1p-1000)
-    inner_lo[j], inner_hi[j] = lo[j] + margin, hi[j] - margin
-  end
-  return inner_lo, inner_hi
-end
-
 -- Does the box surely hold values that the tolerances allow? (One that reaches over the whole of a range does.)
 local function is_allowed(job, b)
   for j, lo in ipairs(b.lo) do
-    local hi, least, most = b.hi[j], job.inner_lo[j], job.inner_hi[j]
+    local hi, least, most = b.hi[j], job.inner.lo[j], job.inner.hi[j]
     local whole, inside = lo <= job.lo[j] and hi >= job.hi[j], least <= most and lo <= most and hi >= least
     if not whole and not inside then return false end
   end
   return true
 end
 
--- A number for each datum, moved to where the tolerances surely allow it.
+-- A number for each datum, moved to where the tolerances surely allow it, if they surely allow any.
 function box.allowed(job, at)
   local moved = {}
   for j, x in ipairs(at) do
-    local least, most = job.inner_lo[j], job.inner_hi[j]
+    local least, most = job.inner.lo[j], job.inner.hi[j]
     moved[j] = least <= most and math.min(math.max(x, least), most) or x
   end
   return moved

@@ -47,7 +47,10 @@ local function choice(job, part)
     local hi = part.hi[j]
     middle[j] = math.min(math.max(0.5 * lo + 0.5 * hi, lo), hi)
   end
-  for j, x in ipairs(box.allowed(job, middle)) do self.values[j] = core.expression(x) end
+  for j, x in ipairs(box.allowed(job, middle)) do
+    local known = job.inner.lo[j] <= job.inner.hi[j]
+    self.values[j] = core.expression(known and x or core.interval(job.lo[j], job.hi[j]))
+  end
   for i, name in ipairs(q.system.states) do self.initial[name] = self:value(q.initial[i]) end
   for _, name in ipairs(check.sorted(q.system.parameters)) do
     local parameter = q.system.parameters[name]

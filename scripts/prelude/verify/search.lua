@@ -239,7 +239,6 @@ local function refine(job, root)
 end
 
 function search.run(job)
-  job.inner_lo, job.inner_hi = box.inner(job.lo, job.hi)
   job.runs, job.done, job.start, job.times, job.outputs = 0, {}, core.cpu(), job.request.times, {}
   for _, condition in ipairs(job.conditions) do condition.lo = -math.huge end
   local root = box.run(job, { lo = job.lo, hi = job.hi })
