@@ -182,13 +182,6 @@ static uint32_t run_all(ambit_batch *batch, size_t lanes) {
   return flags;
 }
 
-static void report(double *lo, double *hi, size_t n) {
-  for (size_t i = 0; i < n; i++) {
-    ambit_interval x = ambit_bounds_reported(lo[i], hi[i]);
-    lo[i] = x.lo, hi[i] = x.hi;
-  }
-}
-
 uint32_t ambit_batch_run(ambit_batch *batch, size_t lanes, const double *lo, const double *hi, const int32_t *var,
     double *rlo, double *rhi) {
   const ambit_tape *t = batch->tape;
@@ -205,7 +198,7 @@ uint32_t ambit_batch_run(ambit_batch *batch, size_t lanes, const double *lo, con
     for (uint32_t o = 0; o < t->nout; o++) {
       size_t at = o * lanes + done;
       full->bounds(batch->ctx, element(batch, t->out[o]), n, rlo + at, rhi + at);
-      report(rlo + at, rhi + at, n);
+      for (size_t i = at; i < at + n; i++) ambit_bounds_check(full, &rlo[i], &rhi[i]);
     }
   }
   return flags;

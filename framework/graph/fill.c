@@ -23,7 +23,10 @@ static char *element(const call *c, uint32_t slot, size_t lane) {
 static void read_bounds(const call *c, uint32_t slot, size_t lane, size_t n, ambit_interval *x) {
   double lo[CHUNK], hi[CHUNK];
   c->self->bounds(c->ctx, element(c, slot, lane), n, lo, hi);
-  for (size_t i = 0; i < n; i++) x[i] = ambit_bounds_reported(lo[i], hi[i]);
+  for (size_t i = 0; i < n; i++) {
+    ambit_bounds_check(c->self, &lo[i], &hi[i]);
+    x[i] = (ambit_interval) { lo[i], hi[i] };
+  }
 }
 
 static void write_bounds(const call *c, uint32_t slot, size_t lane, size_t n, const ambit_interval *x) {
@@ -81,6 +84,7 @@ ambit_status ambit_arithmetic_complete(const ambit_arithmetic *plugin, ambit_ari
   size_t size = plugin->size < sizeof *full ? plugin->size : sizeof *full;
   memcpy(full, plugin, size);
   full->size = sizeof *full;
+  full->fault = NULL; /* whoever owns `full` may give it one */
   const char *missing = !full->elem ? "elem" : !full->set ? "set" : !full->bounds ? "bounds" : NULL;
   if (missing)
     return ambit_fail(

@@ -116,7 +116,8 @@ uint32_t ambit_block_run(ambit_block *block) {
 ambit_interval ambit_block_get(const ambit_block *block, uint32_t out, size_t lane) {
   ambit_interval x;
   block->arithmetic->bounds(block->ctx, element(block, block->tape->out[out], lane), 1, &x.lo, &x.hi);
-  return ambit_bounds_reported(x.lo, x.hi);
+  ambit_bounds_check(block->arithmetic, &x.lo, &x.hi);
+  return x;
 }
 
 void *ambit_block_base(ambit_block *block, size_t *pitch) {

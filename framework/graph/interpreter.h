@@ -9,12 +9,6 @@
 ** if a required function is missing. */
 ambit_status ambit_arithmetic_complete(const ambit_arithmetic *plugin, ambit_arithmetic *full, ambit_failure *f);
 
-/* Bounds as an arithmetic reports them, whatever it does: NaN and points at infinity bound nothing. */
-static inline ambit_interval ambit_bounds_reported(double lo, double hi) {
-  bool senseless = isnan(lo) || isnan(hi) || (lo == hi && isinf(lo));
-  return senseless ? AMBIT_ENTIRE : (ambit_interval) { lo, hi };
-}
-
 typedef struct ambit_block ambit_block; /* slots x lanes of elements for one tape and one context */
 ambit_status ambit_block_open(
     const ambit_tape *t, const ambit_arithmetic *full, void *ctx, size_t lanes, ambit_block **block, ambit_failure *f);
@@ -22,6 +16,7 @@ void ambit_block_close(ambit_block *block);
 /* input number `in`, lane `lane`; var >= 0: an independent variable */
 void ambit_block_set(ambit_block *block, uint32_t in, size_t lane, ambit_interval x, int32_t var);
 uint32_t ambit_block_run(ambit_block *block); /* no allocation; AMBIT_F_* over all lanes */
+/* Bounds that mean something; what is no enclosure is noted (ambit_bounds_check) and becomes the entire line. */
 ambit_interval ambit_block_get(const ambit_block *block, uint32_t out, size_t lane);
 void *ambit_block_base(ambit_block *block, size_t *pitch);
 #endif

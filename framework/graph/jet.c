@@ -173,6 +173,9 @@ static uint32_t advance(ambit_jet *jet, uint32_t k) {
 
 static void get(const ambit_jet *jet, uint32_t slot, uint32_t k, double *mid, double *rad, double *dmid, double *drad) {
   jet->jets.get(jet->self, slot, k, mid, rad, dmid, drad);
+  if (*rad < 0) ambit_fault_note(jet->source.arithmetic, AMBIT_FAULT_SERIES, *mid, *rad);
+  for (uint32_t d = 0; drad && d < jet->ndir; d++)
+    if (drad[d] < 0) ambit_fault_note(jet->source.arithmetic, AMBIT_FAULT_SERIES, dmid ? dmid[d] : 0, drad[d]);
 }
 
 /* (mid +- rad) / n in upward mode: the quotient's rounding goes into the radius */

@@ -186,6 +186,9 @@ static ambit_status make_arithmetic(ambit_registry *r, entry *e, ambit_failure *
   if (!full) return no_memory(f);
   status = ambit_arithmetic_complete(a, full, f);
   if (status != AMBIT_OK) return status;
+  full->fault = ambit_arena_alloc(r->arena, sizeof *full->fault);
+  if (!full->fault) return no_memory(f);
+  *full->fault = (ambit_fault) { 0 };
   const ambit_arithmetic *lent =
       ambit_meter_is_on() ? ambit_metered_arithmetic(r->arena, full, e->name ? e->name : e->loaded.plugin.id) : full;
   if (!lent) return no_memory(f);

@@ -45,11 +45,27 @@ static void note_failure(const ambit_failure *f) {
   if (owner) ambit_registry_note(owner, line);
 }
 
+static ambit_fault fault;
+
+/* What the plugin gives, if it is an enclosure. */
+static void checked(uint32_t op, double x, double y, double *lo, double *hi) {
+  loaded_point(op, x, y, lo, hi);
+  if (*lo <= *hi) return;
+  if (!__atomic_exchange_n(&fault.seen, 1, __ATOMIC_RELAXED)) fault.lo = *lo, fault.hi = *hi;
+  ambit_elementary_coarse(op, x, y, lo, hi);
+}
+
+ambit_status ambit_slow_sound(ambit_failure *f) {
+  if (!fault.seen) return AMBIT_OK;
+  return ambit_fail(
+      f, AMBIT_BROKEN, "service `elementary` is broken: it gave the bounds [%.17g, %.17g]", fault.lo, fault.hi);
+}
+
 static void first_call(uint32_t op, double x, double y, double *lo, double *hi) {
   ambit_failure f = { 0 };
   pthread_mutex_lock(&lock);
   if (!loaded_point) loaded_point = load(&f);
-  ambit_elementary_point point = loaded_point ? loaded_point : ambit_elementary_coarse;
+  ambit_elementary_point point = loaded_point ? checked : ambit_elementary_coarse;
   ambit_elementary_set_slow(point); /* before the note, whose receiver may compute */
   if (!loaded_point) note_failure(&f);
   pthread_mutex_unlock(&lock);

@@ -9,4 +9,7 @@
 ** thread may be inside it. */
 void ambit_slow_offer(ambit_registry *r, const char *path);
 void ambit_slow_withdraw(ambit_registry *r); /* the registry is about to close */
+/* BROKEN if the plugin ever gave NaN or reversed bounds; what was computed is sound nevertheless: such bounds are
+** replaced by the function's whole range. */
+ambit_status ambit_slow_sound(ambit_failure *f);
 #endif

@@ -2,6 +2,7 @@
 #include "model/context.h"
 #include "base/clock.h"
 #include "base/meter.h"
+#include "host/slow.h"
 #include "num/environment.h"
 #include "num/outward.h"
 #include <stdio.h>
@@ -115,6 +116,16 @@ void ambit_context_close(ambit_context *c) {
   if (c->ctx && c->arithmetic->close) c->arithmetic->close(c->ctx);
   ambit_lease_close(c->lease);
   *c = (ambit_context) { 0 };
+}
+
+ambit_status ambit_context_sound(const ambit_context *c, ambit_failure *f) {
+  const ambit_fault *fault = c->arithmetic ? c->arithmetic->fault : NULL;
+  if (!fault || !fault->seen) return ambit_slow_sound(f);
+  static const char *const what[] = { "the bounds", "an empty set of what is defined everywhere,",
+    "a derivative within", "a coefficient of a series with the midpoint and radius" };
+  return ambit_fail(f, AMBIT_BROKEN,
+      "arithmetic `%s` is broken: it says that it is rigorous, and gave %s [%.17g, %.17g]", c->name,
+      what[fault->what >= 0 && fault->what <= AMBIT_FAULT_SERIES ? fault->what : 0], fault->lo, fault->hi);
 }
 
 double ambit_context_seconds(void) { return ambit_clock_cpu(); }

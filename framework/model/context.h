@@ -21,6 +21,9 @@ ambit_status ambit_context_open(ambit_registry *r, const char *name, size_t nopt
 /* Opens it afresh, without traces of what was computed before; on failure it is as it was. Its own thread may do this. */
 ambit_status ambit_context_renew(ambit_registry *r, ambit_context *c, ambit_failure *f);
 void ambit_context_close(ambit_context *c); /* a zeroed one is allowed */
+/* BROKEN if a rigorous arithmetic ever gave what is no enclosure; asked when the work is done, before its results are
+** believed. A zeroed context is sound. */
+ambit_status ambit_context_sound(const ambit_context *c, ambit_failure *f);
 
 /* A lease whose notes go to the registry. */
 ambit_status ambit_context_lease(ambit_registry *r, ambit_lease **lease, ambit_failure *f);

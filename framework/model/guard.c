@@ -12,6 +12,43 @@ static bool bounds_make_sense(uint32_t n, const double *lo, const double *hi) {
   return true;
 }
 
+/* Radii are not negative, and nothing is NaN; infinite is allowed: it claims nothing. */
+static bool balls_make_sense(size_t n, const double *mid, const double *rad) {
+  for (size_t i = 0; i < n; i++)
+    if (isnan(mid[i]) || !(rad[i] >= 0)) return false;
+  return true;
+}
+
+static bool numbers_make_sense(size_t n, const double *x) {
+  for (size_t i = 0; i < n; i++)
+    if (isnan(x[i])) return false;
+  return true;
+}
+
+static bool dense_makes_sense(const ambit_record *r) {
+  if (!r->dense_mid || !r->dense_rad) return true;
+  size_t columns = r->dense_column ? (size_t)r->nx * r->ncolumn * r->ncoef_column : 0;
+  return balls_make_sense((size_t)r->nx * r->ndense, r->dense_mid, r->dense_rad) &&
+         (!columns || numbers_make_sense(columns, r->dense_column));
+}
+
+static bool set_makes_sense(const ambit_record *r) {
+  const ambit_set *s = r->set;
+  if (!s) return true;
+  for (uint32_t i = 0; i < r->nx; i++)
+    if (!(s->rest[i] >= 0)) return false;
+  for (uint32_t j = 0; j < s->nu; j++)
+    if (isnan(s->about[j]) || !(s->scale[j] > 0)) return false;
+  return numbers_make_sense((size_t)r->nx * s->nterm, s->coefficient);
+}
+
+/* The states at the end of a step are among those of the whole step. */
+static bool end_meets_tube(const ambit_record *r) {
+  for (uint32_t i = 0; i < r->nx; i++)
+    if (r->lo[i] > r->tube_hi[i] || r->hi[i] < r->tube_lo[i]) return false;
+  return true;
+}
+
 /* NULL: the step is sound in form */
 static const char *find_fault(const ambit_guard *g, const ambit_record *r) {
   if (r->size < offsetof(ambit_record, ndense)) return "a record of the wrong size";
@@ -20,6 +57,9 @@ static const char *find_fault(const ambit_guard *g, const ambit_record *r) {
   if (!bounds_make_sense(r->nx, r->lo, r->hi)) return "a step with an empty or NaN enclosure";
   if (r->tube_lo && r->tube_hi && !bounds_make_sense(r->nx, r->tube_lo, r->tube_hi))
     return "a step with an empty or NaN tube";
+  if (r->tube_lo && r->tube_hi && !end_meets_tube(r)) return "a step whose end lies outside its own tube";
+  if (!dense_makes_sense(r)) return "a dense enclosure with a NaN or a negative radius";
+  if (!set_makes_sense(r)) return "a set with a NaN or a negative radius";
   if (!(g->direction * (r->t_from - g->reached) <= 0)) return "a step that leaves a gap in time";
   if (!(g->direction * (r->t_to - g->reached) >= 0) || !isfinite(r->t_to))
     return "a step against the direction of time";

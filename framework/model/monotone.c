@@ -37,7 +37,13 @@ static bool run(search *s, ambit_interval *x) {
   s->m->work->gradients++;
   *x = ambit_block_get(s->block, 0, 0);
   const char *out = (const char *)ambit_block_base(s->block, &pitch) + s->tape->out[0] * elem;
-  return full->gradient(s->m->context->ctx, out, s->lo, s->hi) != 0;
+  if (full->gradient(s->m->context->ctx, out, s->lo, s->hi) == 0) return false;
+  for (size_t j = 0; j < s->m->nunknown; j++)
+    if (!(s->lo[j] <= s->hi[j])) {
+      ambit_fault_note(full, AMBIT_FAULT_DERIVATIVE, s->lo[j], s->hi[j]);
+      return false;
+    }
+  return true;
 }
 
 /* Unknowns with a derivative of one sign go to the end where f is least (or greatest); is there a new one? */

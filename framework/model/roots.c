@@ -247,6 +247,12 @@ static int32_t progress(ambit_sink *s, double done, const char *message) {
 static void judge(const job *j, const guard *g, ambit_status said, ambit_roots_result *result) {
   const char *own = j->lease->failure.message;
   const char *fault = g->broken;
+  ambit_failure f = { 0 };
+  if (ambit_context_sound(&j->context, &f) != AMBIT_OK) {
+    result->status = f.status;
+    snprintf(result->reason, sizeof result->reason, "%s", f.message);
+    return;
+  }
   if (!fault && said == AMBIT_OK && result->undecided) fault = "undecided boxes and says that all is decided";
   if (fault) {
     result->status = AMBIT_BROKEN;

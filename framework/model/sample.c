@@ -224,7 +224,10 @@ static void fill_report(const job *j, double built, ambit_sample_result *result,
 static ambit_status draw(job *j, ambit_sample_result *result, ambit_failure *f) {
   ambit_status status = run_draws(j, result, f);
   for (uint32_t k = 1; k < j->ndrawer; k++) ambit_extremes_merge(&j->drawer[0].extremes, &j->drawer[k].extremes);
-  return status == AMBIT_OK ? polish(j, result, f) : status;
+  if (status == AMBIT_OK) status = polish(j, result, f);
+  for (uint32_t k = 0; k < j->ndrawer && status == AMBIT_OK; k++)
+    status = ambit_context_sound(&j->drawer[k].context, f);
+  return status;
 }
 
 static void close_job(job *j) {

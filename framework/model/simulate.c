@@ -126,11 +126,21 @@ static double wall_seconds(void) {
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+/* Whatever the solver made of it: what a broken arithmetic gave is not believed. */
+static void check_arithmetic(const job *j, ambit_simulate_result *result) {
+  ambit_failure f = { 0 };
+  for (uint32_t i = 0; i < j->ncontext && f.status == AMBIT_OK; i++) ambit_context_sound(&j->context[i], &f);
+  if (f.status == AMBIT_OK) return;
+  result->status = f.status;
+  snprintf(result->reason, sizeof result->reason, "%s", f.message);
+}
+
 static void finish(
     const job *j, const ambit_guard *g, ambit_status said, const char *own, ambit_simulate_result *result) {
   result->t_reached = g->reached;
   result->steps = g->steps;
   result->status = ambit_guard_judge(g, said, j->q->solver, own, result->reason);
+  check_arithmetic(j, result);
 }
 
 static ambit_status run_pieces(job *j, ambit_guard *g, ambit_simulate_result *result, ambit_failure *f) {
@@ -168,6 +178,7 @@ static ambit_status run_whole(job *j, ambit_guard *g, ambit_simulate_result *res
   if (status == AMBIT_UNABLE || status == AMBIT_DOMAIN) {
     result->status = ambit_guard_explain(
         status, j->q->solver, j->lease->failure.message, "could not start and gave no reason", result->reason);
+    check_arithmetic(j, result);
     return AMBIT_OK;
   }
   if (status != AMBIT_OK) {

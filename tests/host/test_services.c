@@ -83,7 +83,7 @@ static void does_without_the_slow_path(void **state) {
   ambit_interval s, huge = { 1e300, 1e300 };
   int notes = 0;
   (void)state;
-  ambit_registry *r = ambit_registry_open(AMBIT_BROKEN_DIR);
+  ambit_registry *r = ambit_registry_open(AMBIT_SHADOW_DIR);
   assert_non_null(r);
   ambit_registry_set_note(r, count_note, &notes);
   for (int i = 0; i < 3; i++) {

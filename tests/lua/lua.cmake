@@ -10,7 +10,7 @@ target_link_libraries(test_hostile PRIVATE ambit_flags)
 set_target_properties(test_hostile PROPERTIES PREFIX "" OUTPUT_NAME hostile LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests/lua)
 
 set(lua_environment "AMBIT_PATH=${PROJECT_BINARY_DIR}/tests/lua/plugins:${PROJECT_BINARY_DIR}/tests/plugins:${PROJECT_BINARY_DIR}/plugins"
-  "LUA_CPATH=${PROJECT_BINARY_DIR}/lua/?.so\\;${PROJECT_BINARY_DIR}/tests/lua/?.so\\;\\;" "AMBIT_COMMAND=$<TARGET_FILE:ambit>" "NO_COLOR=1")
+  "LUA_CPATH=${PROJECT_BINARY_DIR}/${AMBIT_LUA_DIR}/?.so\\;${PROJECT_BINARY_DIR}/tests/lua/?.so\\;\\;" "AMBIT_COMMAND=$<TARGET_FILE:ambit>" "NO_COLOR=1")
 
 # Two halves, so that two processors share them.
 file(GLOB specs CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/*_spec.lua)

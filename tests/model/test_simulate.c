@@ -113,6 +113,10 @@ static void tells_why_it_stopped(void **state) {
     { "gap", AMBIT_BROKEN, 0, "a gap in time" },
     { "turn_back", AMBIT_BROKEN, 0, "against the direction of time" },
     { "wrong_count", AMBIT_BROKEN, 0, "without an enclosure of every state" },
+    { "dense_nan", AMBIT_BROKEN, 0, "a dense enclosure with a NaN or a negative radius" },
+    { "dense_negative", AMBIT_BROKEN, 0, "a dense enclosure with a NaN or a negative radius" },
+    { "set_negative", AMBIT_BROKEN, 0, "a set with a NaN or a negative radius" },
+    { "outside_tube", AMBIT_BROKEN, 0, "outside its own tube" },
   };
   scene *s = *state;
   make_resting(s);

@@ -49,6 +49,17 @@ typedef struct ambit_jets {
   void (*integrate)(void *self, uint32_t in, uint32_t slot, uint32_t k);
 } ambit_jets;
 
+/* What a rigorous arithmetic gave that no enclosure can be; the first of all that was. */
+typedef struct ambit_fault {
+  int32_t seen; /* 0: nothing */
+  int32_t what; /* AMBIT_FAULT_* */
+  double lo, hi;
+} ambit_fault;
+#define AMBIT_FAULT_BOUNDS 0     /* NaN, or lo > hi and not empty */
+#define AMBIT_FAULT_EMPTY 1      /* empty, although nothing left its domain */
+#define AMBIT_FAULT_DERIVATIVE 2 /* as BOUNDS, of gradient() */
+#define AMBIT_FAULT_SERIES 3     /* a coefficient with a negative radius: lo +- hi */
+
 struct ambit_arithmetic {
   uint32_t size;
   uint32_t rigorous;        /* 1: every result encloses the exact image */
@@ -81,5 +92,23 @@ struct ambit_arithmetic {
   ** one where the function has a kink, so that a mean value theorem holds); returns 0 if it knows none: then a path to
   ** *src left the domain or is not continuous */
   int32_t (*gradient)(void *ctx, const void *src, double *lo, double *hi);
+  /* the kernel's: where it notes what a rigorous arithmetic gave that is no enclosure; a plugin leaves it NULL */
+  ambit_fault *fault;
 };
+
+/* [any] Notes a fault of a rigorous arithmetic; nothing that was computed with it is believed then. */
+static inline void ambit_fault_note(const ambit_arithmetic *a, int32_t what, double lo, double hi) {
+  if (!a->rigorous || !a->fault || __atomic_exchange_n(&a->fault->seen, 1, __ATOMIC_RELAXED)) return;
+  a->fault->what = what, a->fault->lo = lo, a->fault->hi = hi;
+}
+
+/* [any] Bounds as an arithmetic gave them -> bounds that mean something: NaN, reversed ones and points at infinity
+** bound nothing. NaN and reversed ones of a rigorous arithmetic are a fault; the empty set is +inf, -inf. */
+static inline void ambit_bounds_check(const ambit_arithmetic *a, double *lo, double *hi) {
+  const double infinity = __builtin_inf();
+  if (*lo <= *hi && *lo<infinity && * hi> - infinity) return;
+  if (*lo == infinity && *hi == -infinity) return;
+  if (!(*lo <= *hi)) ambit_fault_note(a, AMBIT_FAULT_BOUNDS, *lo, *hi);
+  *lo = -infinity, *hi = infinity;
+}
 #endif

@@ -67,5 +67,6 @@ static inline uint32_t ambit_lane_run(ambit_lane *lane) {
 /* [ctx] bounds of output number `out` */
 static inline void ambit_lane_get(const ambit_lane *lane, uint32_t out, double *lo, double *hi) {
   lane->arithmetic->bounds(lane->ctx, ambit_lane_at(lane, lane->tape->out[out]), 1, lo, hi);
+  ambit_bounds_check(lane->arithmetic, lo, hi);
 }
 #endif

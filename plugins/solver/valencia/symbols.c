@@ -26,6 +26,7 @@ static uint32_t apply(const valencia *s, uint32_t op, uint32_t dst, uint32_t a, 
 static interval bounds(const valencia *s, uint32_t slot) {
   interval r;
   s->symbols.lane.arithmetic->bounds(s->symbols.lane.ctx, element(s, slot), 1, &r.lo, &r.hi);
+  ambit_bounds_check(s->symbols.lane.arithmetic, &r.lo, &r.hi);
   return r;
 }
 

@@ -18,14 +18,20 @@ enum {
   IGNORE_STOP,
   ALLOCATE,
   ODD_STATUS,
-  WRONG_COUNT
+  WRONG_COUNT,
+  DENSE_NAN,
+  DENSE_NEGATIVE,
+  SET_NEGATIVE,
+  OUTSIDE_TUBE
 };
 
 typedef struct mock {
   const ambit_host *host;
   const ambit_problem *p;
   int mischief;
-  double *lo; /* [nx] spoiled bounds */
+  double *lo;    /* [nx] spoiled bounds */
+  double *wrong; /* [nx] spoiled coefficients and radii */
+  ambit_set set;
 } mock;
 
 static ambit_status start(const ambit_host *h, const ambit_problem *p, const double *option, void **self) {
@@ -33,8 +39,11 @@ static ambit_status start(const ambit_host *h, const ambit_problem *p, const dou
   if (option[0] == UNABLE_AT_ONCE) return h->fail(h, AMBIT_UNABLE, "no first step; raise `order`");
   mock *m = h->alloc(h, sizeof *m);
   double *lo = h->alloc(h, (p->nx + 1) * sizeof *lo);
-  if (!m || !lo) return AMBIT_NOMEM;
-  *m = (mock) { h, p, (int)option[0], lo };
+  double *wrong = h->alloc(h, (p->nx + p->nu + 1) * sizeof *wrong);
+  if (!m || !lo || !wrong) return AMBIT_NOMEM;
+  *m = (mock) { h, p, (int)option[0], lo, wrong, { .size = sizeof m->set } };
+  for (uint32_t i = 0; i < p->nx; i++) wrong[i] = m->mischief == DENSE_NAN ? NAN : -1;
+  m->set.rest = wrong;
   for (uint32_t i = 0; i < p->nx; i++)
     lo[i] = m->mischief == GIVE_NAN ? NAN : m->mischief == GIVE_REVERSED ? p->x0_hi[i] + 1 : p->x0_lo[i];
   h->note(h, "mock solver with %u states", (unsigned)p->nx);
@@ -57,6 +66,10 @@ static ambit_record make_step(const mock *m, uint32_t k) {
   if (m->mischief == LEAVE_GAP) r.t_from += 0.25 * (r.t_to - r.t_from);
   if (m->mischief == TURN_BACK) r.t_to = r.t_from - (r.t_to - r.t_from);
   if (m->mischief == WRONG_COUNT) r.nx++;
+  if (m->mischief == DENSE_NAN || m->mischief == DENSE_NEGATIVE)
+    r.ndense = 1, r.dense_mid = p->x0_hi, r.dense_rad = m->wrong;
+  if (m->mischief == SET_NEGATIVE) r.set = &m->set;
+  if (m->mischief == OUTSIDE_TUBE) r.tube_lo = r.tube_hi = m->wrong;
   return r;
 }
 
@@ -85,7 +98,7 @@ static void finish(void *self) { (void)self; }
 static const ambit_param option[] = {
   { "does", "1",
       "nothing|fail|fail_silently|nan|reversed|stop_early|gap|turn_back|refuse|unable|ignore_stop|allocate|odd_status|"
-      "wrong_count",
+      "wrong_count|dense_nan|dense_negative|set_negative|outside_tube",
       "nothing", "What to do wrong." },
   { NULL, NULL, NULL, NULL, NULL },
 };
