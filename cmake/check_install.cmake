@@ -1,4 +1,4 @@
-# cmake -DBUILD=<build tree> -DSOURCE=<tests/install> -DWORK=<scratch> -DC_COMPILER=... -DLUA=<lua5.4 or empty> -P check_install.cmake
+# cmake -DBUILD=<build tree> -DSOURCE=<tests/install> -DTREE=<source tree> -DWORK=<scratch> -DC_COMPILER=... -DLUA=<lua5.4 or empty> -P check_install.cmake
 # Installs to a fresh prefix, builds host and plugin against it twice (find_package, pkg-config), runs them, the installed command and module;
 # then builds and checks what `ambit new` writes.
 file(REMOVE_RECURSE ${WORK})
@@ -13,9 +13,36 @@ function(run)
   set(output "${output}" PARENT_SCOPE)
 endfunction()
 
+include(${CMAKE_CURRENT_LIST_DIR}/check_objects.cmake)
 unset(ENV{AMBIT_PATH})
 unset(ENV{LUA_CPATH})
-run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/first)
+check_runpaths(${BUILD}/bin FALSE)
+check_runpaths(${BUILD}/lib FALSE)
+check_runpaths(${BUILD}/plugins FALSE)
+check_runpaths(${BUILD}/tests FALSE)
+check_runpaths(${WORK}/first TRUE)
+if(NOT C_FLAGS) # sanitizers write down where each source file is
+  check_names(${WORK}/first ${BUILD} ${TREE})
+endif()
+
+# Moved, it still finds its own plugins, and none of the build tree's.
+file(RENAME ${WORK}/first ${prefix})
+file(WRITE ${WORK}/where.lua "for _, entry in ipairs(require 'ambit.core'.list()) do print(entry.file) end\n")
+foreach(root ${prefix} ${BUILD})
+  run(${root}/bin/ambit run ${WORK}/where.lua)
+  string(REGEX MATCHALL "[^\n]+" files "${output}")
+  list(LENGTH files count)
+  if(count LESS 40)
+    message(FATAL_ERROR "${root}/bin/ambit finds ${count} plugins")
+  endif()
+  foreach(file ${files})
+    string(FIND "${file}" "${root}/" at)
+    if(NOT at EQUAL 0)
+      message(FATAL_ERROR "${root}/bin/ambit finds ${file}")
+    endif()
+  endforeach()
+endforeach()
 run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_C_COMPILER=${C_COMPILER} "-DCMAKE_C_FLAGS=${C_FLAGS}")
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 file(GLOB libs ${prefix}/lib*/libambit.so ${prefix}/lib/*/libambit.so)

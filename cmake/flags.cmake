@@ -5,6 +5,9 @@ target_compile_definitions(ambit_flags INTERFACE _GNU_SOURCE)
 target_compile_options(ambit_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wno-unknown-pragmas -frounding-math -ffp-contract=off -fno-math-errno
   $<$<COMPILE_LANGUAGE:C>:-Wconversion -Wstrict-prototypes -Wmissing-prototypes>)
+# No object holds the name of the folder it was built in: not in debug information, not in __FILE__.
+target_compile_options(ambit_flags INTERFACE
+  -ffile-prefix-map=${PROJECT_SOURCE_DIR}/= -ffile-prefix-map=${PROJECT_BINARY_DIR}/=)
 if(AMBIT_WERROR)
   target_compile_options(ambit_flags INTERFACE -Werror)
 endif()

@@ -3,14 +3,8 @@
 include(CMakePackageConfigHelpers)
 include(cmake/kit.cmake)
 
-set(AMBIT_LUA_DIR ${CMAKE_INSTALL_LIBDIR}/lua/5.4 CACHE STRING "where the Lua module goes, below the prefix")
 set(AMBIT_SCENE_DIR ${CMAKE_INSTALL_DATADIR}/ambit)
 
-# Found from where they are, so that an installed tree can be moved.
-file(RELATIVE_PATH command_to_lib /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR})
-file(RELATIVE_PATH module_to_lib /${AMBIT_LUA_DIR} /${CMAKE_INSTALL_LIBDIR})
-set_target_properties(ambit PROPERTIES INSTALL_RPATH "$ORIGIN/${command_to_lib}")
-set_target_properties(ambit_module PROPERTIES INSTALL_RPATH "$ORIGIN/${module_to_lib}")
 set_target_properties(libambit PROPERTIES EXPORT_NAME kernel)
 
 install(TARGETS libambit EXPORT AmbitTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})

@@ -10,8 +10,7 @@ set_target_properties(libambit PROPERTIES OUTPUT_NAME ambit SOVERSION 0 VERSION 
 target_include_directories(libambit PUBLIC
   $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/framework/abi> $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/framework>
   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/ambit-kernel>)
-target_compile_definitions(libambit PRIVATE
-  AMBIT_PLUGIN_DIR="${CMAKE_INSTALL_FULL_LIBDIR}/ambit" AMBIT_BUILD_PLUGIN_DIR="${PROJECT_BINARY_DIR}/plugins")
+set_target_properties(libambit PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${AMBIT_BUILD_LIBDIR})
 target_link_libraries(libambit PRIVATE $<BUILD_INTERFACE:ambit_flags> PkgConfig::YAJL ${CMAKE_DL_LIBS} m)
 include(cmake/elementary.cmake)
 include(cmake/product.cmake)

@@ -1,7 +1,7 @@
 # tests/<layer>/test_*.c -> one executable and one ctest each (cmocka). tests/<layer>/<name>.cmake may add more.
 pkg_check_modules(CMOCKA REQUIRED IMPORTED_TARGET cmocka)
 pkg_check_modules(MPFR REQUIRED IMPORTED_TARGET mpfr)
-set(AMBIT_TEST_ENVIRONMENT "AMBIT_PATH=${PROJECT_BINARY_DIR}/plugins;LUA_CPATH=${PROJECT_BINARY_DIR}/lua/?.so\\;\\;")
+set(AMBIT_TEST_ENVIRONMENT "AMBIT_PATH=${PROJECT_BINARY_DIR}/plugins;LUA_CPATH=${PROJECT_BINARY_DIR}/${AMBIT_LUA_DIR}/?.so\\;\\;")
 file(GLOB_RECURSE test_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/test_*.c)
 foreach(source ${test_sources})
   file(RELATIVE_PATH relative ${PROJECT_SOURCE_DIR}/tests ${source})

@@ -37,15 +37,25 @@ static void append_list(ambit_path *path, char *list) {
   }
 }
 
-/* "<where libambit is>/ambit": finds the plugins of an installation that was moved. */
-static char *beside_library(ambit_arena *arena) {
+/* The real name of the folder that holds libambit, in the arena. */
+static char *folder_of_kernel(ambit_arena *arena) {
   Dl_info about;
   if (!dladdr((void *)&ambit_plugin_kind, &about) || !about.dli_fname) return NULL;
-  const char *slash = strrchr(about.dli_fname, '/');
-  if (!slash) return NULL;
-  size_t bytes = (size_t)(slash - about.dli_fname) + sizeof "/ambit";
+  char *real = realpath(about.dli_fname, NULL);
+  char *text = real ? ambit_arena_text(arena, real) : NULL;
+  free(real);
+  char *slash = text ? strrchr(text, '/') : NULL;
+  if (slash) *slash = '\0';
+  return slash ? text : NULL;
+}
+
+/* "<where libambit is>/ambit" */
+static char *beside_kernel(ambit_arena *arena) {
+  const char *folder = folder_of_kernel(arena);
+  if (!folder) return NULL;
+  size_t bytes = strlen(folder) + sizeof "/ambit";
   char *text = ambit_arena_alloc(arena, bytes);
-  if (text) snprintf(text, bytes, "%.*s/ambit", (int)(slash - about.dli_fname), about.dli_fname);
+  if (text) snprintf(text, bytes, "%s/ambit", folder);
   return text;
 }
 
@@ -57,10 +67,8 @@ ambit_status ambit_path_open(ambit_arena *arena, const char *given, ambit_path *
   path->directory = ambit_arena_alloc(arena, (count_parts(given) + 3) * sizeof *path->directory);
   if (!list || !path->directory) return AMBIT_NOMEM;
   append_list(path, list);
-  if (is_directory(AMBIT_BUILD_PLUGIN_DIR)) append(path, AMBIT_BUILD_PLUGIN_DIR);
-  const char *beside = beside_library(arena);
-  if (beside && is_directory(beside)) append(path, beside);
-  append(path, AMBIT_PLUGIN_DIR);
+  const char *own = beside_kernel(arena);
+  if (own && is_directory(own)) append(path, own);
   return AMBIT_OK;
 }
 

@@ -10,7 +10,7 @@
 typedef struct ambit_registry ambit_registry;
 
 /* path: colon-separated directories, each with arithmetic/ element/ solver/ service/ below; NULL: $AMBIT_PATH. Behind
-** it the build's and the installed plugin directory are searched. All calls: [main]. NULL: out of memory. */
+** it the directory `ambit` beside libambit is searched. All calls: [main]. NULL: out of memory. */
 ambit_registry *ambit_registry_open(const char *path);
 void ambit_registry_close(ambit_registry *r);
 

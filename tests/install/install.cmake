@@ -6,7 +6,7 @@ if(AMBIT_SANITIZE) # a stock interpreter cannot load a sanitized module without 
   set(install_lua "")
 endif()
 add_test(NAME install COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR}
-  -DSOURCE=${PROJECT_SOURCE_DIR}/tests/install
+  -DSOURCE=${PROJECT_SOURCE_DIR}/tests/install -DTREE=${PROJECT_SOURCE_DIR}
   -DWORK=${PROJECT_BINARY_DIR}/tests/install -DC_COMPILER=${CMAKE_C_COMPILER} "-DC_FLAGS=${install_flags}" -DLUA=${install_lua}
   -P ${PROJECT_SOURCE_DIR}/cmake/check_install.cmake)
 set_tests_properties(install PROPERTIES TIMEOUT 120)
