@@ -101,6 +101,7 @@ int luaopen_ambit_core(lua_State *L) {
   ambit_lua_open_process(L, core);
   ambit_lua_open_child(L, core);
   ambit_lua_open_profile(L, core);
+  ambit_lua_open_text(L, core);
   ambit_lua_open_foreign(L, core);
   return 1;
 }

@@ -29,6 +29,7 @@ typedef struct ambit_lua {
   struct ambit_profile *profile; /* of `ambit profile`, or NULL */
   bool framed;                   /* the function that is called next has its frame in the profile */
   double deadline;               /* when runs are stopped, s of CPU time of this process; 0: never */
+  char text_rounded[80];         /* "scene.lua:12: " where Lua's arithmetic rounded a text (text.c), or "" */
 } ambit_lua;
 
 /* The functions of the core run in the standard floating-point environment, whatever the host program set. Pushes f
@@ -115,6 +116,7 @@ void ambit_lua_open_records(lua_State *L, ambit_lua *core);    /* records.c: JSO
 void ambit_lua_open_process(lua_State *L, ambit_lua *core);    /* process.c: libraries, clocks, terminals */
 void ambit_lua_open_child(lua_State *L, ambit_lua *core);      /* child.c: functions in processes of their own */
 void ambit_lua_open_profile(lua_State *L, ambit_lua *core);    /* profile.c: where the time goes, counted work */
+void ambit_lua_open_text(lua_State *L, ambit_lua *core);       /* text.c: arithmetic on texts */
 void ambit_lua_open_foreign(lua_State *L, ambit_lua *core);    /* foreign.c: plugin exports by libffi */
 
 /* A metatable for the named type with the given functions, all with the state as upvalue; left on the stack. */

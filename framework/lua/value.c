@@ -51,6 +51,18 @@ static const char *type_name(lua_State *L, int idx) {
   return luaL_getmetafield(L, idx, "__name") == LUA_TSTRING ? lua_tostring(L, -1) : luaL_typename(L, idx);
 }
 
+/* In a host's Lua state, once Lua has rounded a text, any number with a point may be what came of it (text.c). */
+static void check_origin(lua_State *L, const char *what) {
+  const char *where = AMBIT_LUA(L)->text_rounded;
+  if (!where[0]) return;
+  char message[AMBIT_MESSAGE_MAX];
+  snprintf(message, sizeof message,
+      "%sLua calculated with a text there and rounded it, so that this number may not be what the scene says. "
+      "Call ambit.text_arithmetic(true) before: texts then mean what they say; (false): rounding them is meant",
+      where);
+  wrong(L, what, message);
+}
+
 /* An integer beyond 2^53 is a decimal too: no digit of it is lost. */
 static ambit_expr number_expression(lua_State *L, int idx, const char *what) {
   ambit_graph *g = AMBIT_LUA(L)->graph;
@@ -63,6 +75,7 @@ static ambit_expr number_expression(lua_State *L, int idx, const char *what) {
       return ambit_graph_decimal(g, text, NULL);
     }
   }
+  if (!lua_isinteger(L, idx)) check_origin(L, what);
   if (!isfinite(x)) wrong(L, what, isnan(x) ? "the number is NaN" : "the number is infinite");
   return ambit_graph_number(g, x);
 }

@@ -53,6 +53,17 @@ function ambit.number(value, unit)
   return core.expression(value, unit, "number")
 end
 
+-- Whose is arithmetic on texts, "1" / "3"? true: Ambit's, as in the command; false: Lua's, which rounds. Until the host
+-- has said, Lua's, but numbers that it may have rounded are refused.
+function ambit.text_arithmetic(is_exact)
+  if type(is_exact) ~= "boolean" then
+    check.fail("text_arithmetic: expected true or false, got %s", check.kind(is_exact))
+  end
+  core.text_arithmetic(core, is_exact and "ambit" or "lua")
+end
+
+core.text_arithmetic(core, "watched")
+
 local degree = ambit.pi / 180
 function ambit.degrees(x) return core.mul(x, degree) end
 
