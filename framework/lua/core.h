@@ -29,6 +29,7 @@ typedef struct ambit_lua {
   struct ambit_profile *profile; /* of `ambit profile`, or NULL */
   bool framed;                   /* the function that is called next has its frame in the profile */
   double deadline;               /* when runs are stopped, s of CPU time of this process; 0: never */
+  const char *text_mode;         /* "ambit", "watched", "lua": whose is arithmetic on texts (text.c); NULL: Lua's */
   char text_rounded[80];         /* "scene.lua:12: " where Lua's arithmetic rounded a text (text.c), or "" */
 } ambit_lua;
 

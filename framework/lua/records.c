@@ -70,8 +70,16 @@ static int recording(lua_State *L) {
   return 1;
 }
 
+/* record_shift(enclosure): of the times of the runs that follow */
+static int record_shift(lua_State *L) {
+  ambit_lua *core = AMBIT_LUA(L);
+  if (core->records) ambit_records_shift(core->records, ambit_lua_to_enclosure(L, 1, "record_shift").x);
+  return 0;
+}
+
 void ambit_lua_open_records(lua_State *L, ambit_lua *core) {
   static const luaL_Reg functions[] = { { "records_open", open_records }, { "records_close", close_records },
-    { "record", record }, { "recording", recording }, { NULL, NULL } };
+    { "record", record }, { "recording", recording },
+    { "record_shift", record_shift }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
 }

@@ -15,11 +15,11 @@
 static const char originals_key = 0; /* its address is the key of Lua's own metamethods in the Lua registry */
 
 static const struct {
-  const char *event, *name; /* Lua's, and the operator of the core; NULL: there is none */
+  const char *event;
   int lua_op, arity;
-} operators[] = { { "__add", "add", LUA_OPADD, 2 }, { "__sub", "sub", LUA_OPSUB, 2 },
-  { "__mul", "mul", LUA_OPMUL, 2 }, { "__div", "div", LUA_OPDIV, 2 }, { "__pow", "pow", LUA_OPPOW, 2 },
-  { "__unm", "neg", LUA_OPUNM, 1 }, { "__mod", NULL, LUA_OPMOD, 2 }, { "__idiv", NULL, LUA_OPIDIV, 2 } };
+} operators[] = { { "__add", LUA_OPADD, 2 }, { "__sub", LUA_OPSUB, 2 }, { "__mul", LUA_OPMUL, 2 },
+  { "__div", LUA_OPDIV, 2 }, { "__pow", LUA_OPPOW, 2 }, { "__unm", LUA_OPUNM, 1 }, { "__mod", LUA_OPMOD, 2 },
+  { "__idiv", LUA_OPIDIV, 2 } };
 #define OPERATORS (int)(sizeof operators / sizeof *operators)
 
 static bool is_plain(lua_State *L, int idx) {
@@ -38,12 +38,12 @@ static int by_the_other(lua_State *L, const char *event) {
 
 /* -- Ambit's */
 
-/* Number k of the operators; upvalue 2: the function of the core. Lua calls __unm with its operand twice. */
+/* Number k of the operators; upvalue 2: that of expressions, or nil. Lua calls __unm with its operand twice. */
 static int operate(lua_State *L) {
   int k = (int)lua_tointeger(L, AMBIT_LUA_OWN(1));
   lua_settop(L, 2);
   if (!is_plain(L, 1) || !is_plain(L, 2)) return by_the_other(L, operators[k].event);
-  if (!operators[k].name)
+  if (lua_isnil(L, AMBIT_LUA_OWN(2)))
     ambit_lua_error(L, "texts have no `%s`: it would be calculated with rounded numbers; say so by tonumber(...)",
         operators[k].lua_op == LUA_OPMOD ? "%" : "//");
   lua_settop(L, operators[k].arity);
@@ -126,28 +126,29 @@ static void push_originals(lua_State *L, int metatable) {
   lua_rawsetp(L, LUA_REGISTRYINDEX, &originals_key);
 }
 
-/* text_arithmetic(core's table, "ambit", "watched" or "lua") */
+/* text_arithmetic("ambit", "watched" or "lua") -> what it was */
 static int text_arithmetic(lua_State *L) {
   static const char *const modes[] = { "ambit", "watched", "lua", NULL };
   ambit_lua *core = AMBIT_LUA(L);
-  int mode = luaL_checkoption(L, 2, NULL, modes);
-  lua_settop(L, 2);
+  const char *before = core->text_mode;
+  int mode = luaL_checkoption(L, 1, NULL, modes);
+  lua_settop(L, 0);
   if (!push_string_metatable(L)) return 0;
-  push_originals(L, 3);
+  push_originals(L, 1);
+  luaL_getmetatable(L, AMBIT_TYPE_EXPRESSION);
   for (int k = 0; k < OPERATORS; k++) {
     lua_pushinteger(L, k);
-    if (mode == 0 && operators[k].name)
-      lua_getfield(L, 1, operators[k].name);
-    else
-      lua_getfield(L, 4, operators[k].event);
+    lua_getfield(L, mode == 0 ? 3 : 2, operators[k].event);
     if (mode == 2 || (mode == 1 && lua_isnil(L, -1)))
       lua_remove(L, -2);
     else
       ambit_lua_push_function(L, core, mode == 0 ? operate : observe, 2);
-    lua_setfield(L, 3, operators[k].event);
+    lua_setfield(L, 1, operators[k].event);
   }
   core->text_rounded[0] = '\0';
-  return 0;
+  core->text_mode = modes[mode];
+  lua_pushstring(L, before ? before : "lua");
+  return 1;
 }
 
 void ambit_lua_open_text(lua_State *L, ambit_lua *core) {

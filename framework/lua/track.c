@@ -123,13 +123,14 @@ static int value(lua_State *L) {
   return 1;
 }
 
-/* track_dense(track, i, state, t) -> enclosure at a time within the step; nil if it has no dense enclosure */
+/* track_dense(track, i, state, t [, till]) -> enclosure at a time, or all times up to `till`, within the step; nil if
+** it has no dense enclosure */
 static int dense(lua_State *L) {
   size_t i;
   const ambit_track *track = self(L);
   const ambit_track_step *s = step_at(L, track, &i);
   size_t state = (size_t)luaL_checkinteger(L, 3) - 1, nx = track->nx, n = nx * s->ndense;
-  double t = luaL_checknumber(L, 4);
+  double t = luaL_checknumber(L, 4), till = luaL_optnumber(L, 5, t);
   if (state >= nx || !s->ndense) return 0;
   const double *v = track->value + i * 4 * nx;
   const ambit_record r = { .t_from = s->t_from,
@@ -141,7 +142,7 @@ static int dense(lua_State *L) {
     .dense_mid = track->dense + s->dense,
     .dense_rad = track->dense + s->dense + n,
     .dense_column = track->dense + s->dense + 2 * n };
-  ambit_lua_push_enclosure(L, ambit_dense_state(&r, (uint32_t)state, (ambit_interval) { t, t }), s->flags);
+  ambit_lua_push_enclosure(L, ambit_dense_state(&r, (uint32_t)state, (ambit_interval) { t, till }), s->flags);
   return 1;
 }
 

@@ -77,15 +77,18 @@ static void push_outcome(
   set_flag(L, "impossible", result->status == AMBIT_DOMAIN);
 }
 
-/* watch(as simulate, {g}, {name}, {kind}, {unknown}, {lo}, {hi}, cuts [, {limit}, {rivals} [, threads]]) -> {finding},
+/* watch(as simulate, {g}, {name}, {kind}, {unknown}, {lo}, {hi}, cuts [, {limit}, {rivals} [, threads [, last]]]) ->
+** {finding},
 ** {status, reason, t_reached, rigorous, impossible: no solution meets the constraints, gave_up: a limit is exceeded},
 ** report */
 static int watch(lua_State *L) {
-  lua_settop(L, 17);
+  lua_settop(L, 18);
   ambit_simulate_request q = ambit_lua_simulate_request(L);
   ambit_watch_request request = { .system = q.system, .cuts = (uint32_t)luaL_checkinteger(L, 14) };
   request.initial = q.initial;
   if (q.ntime) request.start = q.time[0];
+  double last = luaL_optnumber(L, 18, 0);
+  if (!lua_isnoneornil(L, 18)) request.last = &last;
   request.condition = conditions(L, &request.ncondition);
   read_box(L, &request, &q);
   ambit_receiver to = ambit_receiver_silent();

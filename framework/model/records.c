@@ -20,6 +20,7 @@ struct ambit_records {
   yajl_gen generator;
   char *path;
   bool failed; /* a write failed and was reported */
+  ambit_interval shift;
 };
 
 static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
@@ -200,6 +201,8 @@ ambit_status ambit_records_close(ambit_records *r, ambit_failure *f) {
 
 /* -- a solver's record */
 
+void ambit_records_shift(ambit_records *r, ambit_interval shift) { r->shift = shift; }
+
 static void put_states(ambit_records *r, const char *key, const ambit_record *step, const double *lo, const double *hi,
     const char *const *name) {
   ambit_records_open_object(r, key);
@@ -207,8 +210,9 @@ static void put_states(ambit_records *r, const char *key, const ambit_record *st
   ambit_records_close_object(r);
 }
 
-static ambit_interval ordered(double a, double b) {
-  return a <= b ? (ambit_interval) { a, b } : (ambit_interval) { b, a };
+/* From one time of the clock to another. */
+static ambit_interval between(const ambit_records *r, double a, double b) {
+  return ambit_interval_add(a <= b ? (ambit_interval) { a, b } : (ambit_interval) { b, a }, r->shift);
 }
 
 /* step: "t" is the instant of "x", "span" the time of "tube"; event: "t" encloses its instant. */
@@ -226,11 +230,11 @@ ambit_status ambit_records_solver(
   bool event = step->kind == AMBIT_REC_EVENT;
   ambit_records_begin(r, event ? "event" : "step");
   if (event) {
-    ambit_records_interval(r, "t", ordered(step->t_from, step->t_to));
+    ambit_records_interval(r, "t", between(r, step->t_from, step->t_to));
     ambit_records_number(r, "event", step->event);
   } else {
-    ambit_records_interval(r, "t", (ambit_interval) { step->t_to, step->t_to });
-    ambit_records_interval(r, "span", ordered(step->t_from, step->t_to));
+    ambit_records_interval(r, "t", between(r, step->t_to, step->t_to));
+    ambit_records_interval(r, "span", between(r, step->t_from, step->t_to));
   }
   if (step->lo && step->hi) put_states(r, "x", step, step->lo, step->hi, name);
   if (step->tube_lo && step->tube_hi) put_states(r, "tube", step, step->tube_lo, step->tube_hi, name);

@@ -26,6 +26,8 @@ void ambit_records_interval(ambit_records *r, const char *key, ambit_interval va
 void ambit_records_open_object(ambit_records *r, const char *key);
 void ambit_records_close_object(ambit_records *r);
 ambit_status ambit_records_end(ambit_records *r, ambit_failure *f);
+/* The times of solvers' records are those of a clock: `shift` is added to them. */
+void ambit_records_shift(ambit_records *r, ambit_interval shift);
 /* what a solver emits: a step, an event or a root; name [nx] */
 ambit_status ambit_records_solver(
     ambit_records *r, const ambit_record *record, const char *const *name, ambit_failure *f);

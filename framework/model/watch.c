@@ -82,9 +82,9 @@ static bool decides(const watched *c, ambit_interval g) {
 }
 
 /* Every solution has g in `g` at all times of `when`. */
-static void witness(watched *c, ambit_interval when, ambit_interval g) {
+static void witness(const ambit_watch *w, watched *c, ambit_interval when, ambit_interval g) {
   ambit_watch_finding *to = &c->finding;
-  if (ambit_interval_is_empty(g)) return;
+  if (ambit_interval_is_empty(g) || w->is_ending) return;
   bool once = c->condition->kind == AMBIT_WATCH_ONCE;
   if (once)
     to->bound.hi = g.hi < to->bound.hi ? g.hi : to->bound.hi;
@@ -128,8 +128,8 @@ static void scan(ambit_watch *w, watched *c, const ambit_record *r) {
   stack[depth++] = (ambit_interval) { backwards ? r->t_to : r->t_from, backwards ? r->t_from : r->t_to };
   while (depth) {
     part p = look(w, c, r, stack[--depth]);
-    witness(c, p.when, p.g);
-    for (int k = 0; k < 3; k++) witness(c, (ambit_interval) { p.time[k], p.time[k] }, p.value[k]);
+    witness(w, c, p.when, p.g);
+    for (int k = 0; k < 3; k++) witness(w, c, (ambit_interval) { p.time[k], p.time[k] }, p.value[k]);
     if (settles(c, p.g) || !left || depth + 2 > STACK || !is_worth_cutting(&p)) {
       conclude(c, &p);
       continue;
@@ -138,6 +138,20 @@ static void scan(ambit_watch *w, watched *c, const ambit_record *r) {
     stack[depth++] = (ambit_interval) { p.time[1], p.time[2] };
     stack[depth++] = (ambit_interval) { p.time[0], p.time[1] };
   }
+}
+
+/* The end is somewhere in this step. */
+static void look_at_an_end(ambit_watch *w, watched *c, const ambit_record *r) {
+  bool backwards = r->t_to < r->t_from;
+  ambit_interval when = { backwards ? r->t_to : r->t_from, backwards ? r->t_from : r->t_to };
+  part p = look(w, c, r, when);
+  c->end_undefined = c->end_undefined || ambit_interval_is_empty(p.g);
+  c->end = ambit_interval_hull(c->end, p.g);
+}
+
+static bool is_ending(const ambit_watch *w, const ambit_record *r) {
+  if (!w->q->last) return false;
+  return r->t_to < r->t_from ? r->t_from <= *w->q->last : r->t_from >= *w->q->last;
 }
 
 /* -- the sink */
@@ -157,12 +171,15 @@ bool ambit_watch_gave_up(const ambit_watch *w) { return w->gave_up; }
 static int32_t emit(ambit_sink *s, const ambit_record *r) {
   ambit_watch *w = (ambit_watch *)(void *)s;
   if (r->kind != AMBIT_REC_STEP) return 0;
+  w->is_ending = is_ending(w, r);
   for (size_t k = 0; k < w->n; k++) {
     uint32_t kind = w->watched[k].condition->kind;
     if (kind == AMBIT_WATCH_MOST)
       ambit_watch_scan_most(w, &w->watched[k], r);
     else if (kind != AMBIT_WATCH_END)
       scan(w, &w->watched[k], r);
+    else if (w->is_ending)
+      look_at_an_end(w, &w->watched[k], r);
   }
   for (size_t i = 0; i < w->nx; i++) w->before[i] = (ambit_interval) { r->lo[i], r->hi[i] };
   w->reached = r->t_to;
@@ -185,7 +202,13 @@ static void look_at_the_end(ambit_watch *w, watched *c) {
   for (size_t i = 0; i < w->nx; i++) w->in[i] = w->before[i];
   w->in[w->nin - 1] = (ambit_interval) { w->reached, w->reached };
   part p = { .when = w->in[w->nin - 1], .g = ambit_watch_run(w, c->value) };
-  witness(c, p.when, p.g);
+  if (w->q->last) {
+    double a = *w->q->last, b = w->reached;
+    p.when = a < b ? (ambit_interval) { a, b } : (ambit_interval) { b, a };
+    p.g = c->end_undefined ? AMBIT_EMPTY : c->end;
+  }
+  w->is_ending = false;
+  witness(w, c, p.when, p.g);
   conclude(c, &p);
 }
 
@@ -306,7 +329,7 @@ static ambit_status open_conditions(ambit_watch *w, ambit_arena *arena, ambit_fa
     c->condition = &w->q->condition[k];
     c->finding.bound = c->condition->kind == AMBIT_WATCH_ONCE ? (ambit_interval) { INFINITY, INFINITY }
                                                               : (ambit_interval) { -INFINITY, -INFINITY };
-    c->finding.when = c->finding.value = c->finding.worst = AMBIT_EMPTY;
+    c->finding.when = c->finding.value = c->finding.worst = c->end = AMBIT_EMPTY;
     if (c->condition->kind == AMBIT_WATCH_MOST) c->finding.bound = (ambit_interval) { 0, 0 };
     status = check(w, c, arena, f);
   }

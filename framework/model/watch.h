@@ -34,6 +34,8 @@ typedef struct ambit_watch_request {
   const ambit_watch_condition *condition;
   const ambit_expr *initial; /* [nx] over unknowns, or NULL: then the start is known from the first record only */
   double start;              /* its time, s */
+  /* unless NULL: the end is some instant between this time and that of the last record, s; `last` is an end of a step */
+  const double *last;
   uint32_t cuts;             /* in time, for each condition in each step */
   size_t nnarrow;            /* unknowns with a narrower range than their own: those of the run */
   const ambit_expr *narrow;

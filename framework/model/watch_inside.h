@@ -13,6 +13,8 @@ struct watched {
   bool open;                       /* some part of time was not settled */
   double level;                    /* MOST: |g| is that large somewhere, as g at single times is enclosed */
   bool *wanted;                    /* [nx] states that the tapes read */
+  ambit_interval end;              /* g while the run may end (request.last) */
+  bool end_undefined;
   ambit_watch_finding finding;
 };
 
@@ -26,6 +28,7 @@ struct ambit_watch {
   ambit_interval *before; /* [nx] the box at the end of the last step */
   double reached;
   bool started, gave_up;
+  bool is_ending; /* the step at hand may be beyond the end: what is seen in it need not happen */
 };
 
 /* The states that c depends on while t is in `when`, as inputs of its tapes. */

@@ -46,12 +46,12 @@ static ambit_interval by_slope(
   return g;
 }
 
-static void conclude(watched *c, ambit_interval when, ambit_interval g) {
+static void conclude(const ambit_watch *w, watched *c, ambit_interval when, ambit_interval g) {
   ambit_watch_finding *to = &c->finding;
   bool known = !ambit_interval_is_empty(g);
   double most = known ? ambit_interval_mag(g) : INFINITY, least = known ? ambit_interval_mig(g) : 0;
   to->undefined = to->undefined || !known;
-  if (least > to->bound.lo) to->bound.lo = least;
+  if (least > to->bound.lo && !w->is_ending) to->bound.lo = least;
   c->open = c->open || most > 0;
   if (most < to->bound.hi || (most == to->bound.hi && !ambit_interval_is_empty(to->worst))) return;
   to->worst = when;
@@ -77,7 +77,7 @@ void ambit_watch_scan_most(ambit_watch *w, watched *c, const ambit_record *r) {
     }
     bool divisible = p.when.lo < mid && mid < p.when.hi;
     if (whole || is_below(c, g) || !left || depth + 2 > STACK || !divisible) {
-      conclude(c, p.when, g);
+      conclude(w, c, p.when, g);
       continue;
     }
     left--;

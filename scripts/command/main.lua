@@ -42,7 +42,7 @@ local function unknown(name)
 end
 
 return function(argv)
-  core.text_arithmetic(core, "ambit")
+  core.text_arithmetic("ambit")
   local name = argv[1]
   if name == nil then return usage_error("expected a command", overview()) end
   if name == "--help" or name == "-h" or name == "help" then return print(overview()) or 0 end

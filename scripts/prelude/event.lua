@@ -2,6 +2,7 @@
 -- what is looked for along a run, and what was found. Proofs: docs/numerics/events.md.
 local check = require "ambit.check"
 local core = require "ambit.core"
+local instant = require "ambit.instant"
 local ode = require "ambit.ode"
 
 local event = {}
@@ -10,11 +11,11 @@ local ROOM = 10000 -- events of one run; more end it
 local directions = { rising = 1, falling = -1, both = 0 }
 local names_of_direction = { [1] = "rising", [-1] = "falling" }
 
--- A formula over the states, data and time of a system, or a function(s, p, t) that returns one.
+-- A formula over the states, data and time of a system, or a function(s, p, t) that returns one; by the system's clock.
 function event.formula(value, system, what)
   if type(value) == "function" then value = value(ode.arguments(system)) end
   if value == nil then check.fail("%s: expected a formula, or a function(s, p, t) that returns one", what) end
-  return core.expression(value, nil, what)
+  return instant.formulas({ core.expression(value, nil, what) }, system.shift)[1]
 end
 
 function event.direction(value, what)
@@ -76,19 +77,20 @@ local reasons = {
 }
 
 -- What was found of an event, as a user sees it.
-local function result_of(found, list, states)
+local function result_of(found, list, states, shift)
   local x = {}
   for i, name in ipairs(states) do x[name] = found.x[i] end
   local reason = reasons[found.outcome] or not found.rigorous and "the solver proves nothing" or nil
-  return { index = found.event, name = list[found.event].name, t = found.t, x = x, certain = reason == nil,
+  return { index = found.event, name = list[found.event].name,
+    t = instant.of_clock(found.t, shift), x = x, certain = reason == nil,
     reason = reason, direction = names_of_direction[found.direction] }
 end
 
 -- The found events, the one that ended the run (or nil), and whether there were too many.
-function event.read(watch, list, states)
+function event.read(watch, list, states, shift)
   local found, by, is_full = core.events_found(watch)
   local results = {}
-  for i, f in ipairs(found) do results[i] = result_of(f, list, states) end
+  for i, f in ipairs(found) do results[i] = result_of(f, list, states, shift) end
   return results, by and results[by], is_full and ROOM
 end
 
@@ -103,7 +105,7 @@ end
 
 function event.finish(q, facts)
   if not q.events then return end
-  local results, last, most = event.read(q.watch, q.events, q.system.states)
+  local results, last, most = event.read(q.watch, q.events, q.system.states, q.times.shift)
   facts.events = results
   if most then
     facts.status, facts.reason = "unable", ("there are more than %d events"):format(most)

@@ -54,15 +54,15 @@ function ambit.number(value, unit)
 end
 
 -- Whose is arithmetic on texts, "1" / "3"? true: Ambit's, as in the command; false: Lua's, which rounds. Until the host
--- has said, Lua's, but numbers that it may have rounded are refused.
+-- has said, Lua's, but numbers that it may have rounded are refused. Returns whose it was: "ambit", "lua" or "watched".
 function ambit.text_arithmetic(is_exact)
   if type(is_exact) ~= "boolean" then
     check.fail("text_arithmetic: expected true or false, got %s", check.kind(is_exact))
   end
-  core.text_arithmetic(core, is_exact and "ambit" or "lua")
+  return core.text_arithmetic(is_exact and "ambit" or "lua")
 end
 
-core.text_arithmetic(core, "watched")
+core.text_arithmetic("watched")
 
 local degree = ambit.pi / 180
 function ambit.degrees(x) return core.mul(x, degree) end

@@ -1,47 +1,143 @@
--- instant.lua -- times: doubles, in seconds. Text ("0.1", "5 ms") is taken as the nearest double: a step ends exactly
--- there.
+-- instant.lua -- times, in seconds. A number is the double that it is; text is the time that it says ("0.1", "5 ms"),
+-- and where that is no double, an instant is known by the doubles around it, its bracket.
+--
+-- A run's own clock shows doubles. It starts at a double next to the true start, and its `shift` is the rest, a
+-- constant: clock + shift is the time (docs/numerics/instants.md). Instants are brackets on the clock.
 local check = require "ambit.check"
 local core = require "ambit.core"
 
 local instant = {}
 
-function instant.of(value, what)
-  local t
-  if type(value) == "number" then
-    t = value + 0.0
-  else
-    t = type(value) == "string" and tonumber(value)
-    if not t then
-      local e = core.expression(value, "s", what)
-      if not core.is_constant(e) then check.fail("%s: a time cannot be uncertain", what) end
-      t = core.interval(e):mid()
-    end
+-- { lo, hi, e }: a bracket, and the expression that is in it; e nil: the double lo = hi
+function instant.read(value, what)
+  if type(value) ~= "number" then
+    local e = core.expression(value, "s", what)
+    if not core.is_constant(e) then check.fail("%s: a time cannot be uncertain", what) end
+    local x = core.interval(e)
+    if not x:is_bounded() then check.fail("%s: the time must be finite, got %s", what, tostring(value)) end
+    if x.lo < x.hi then return { lo = x.lo, hi = x.hi, e = e } end
+    value = x.lo
   end
-  if t ~= t or t == math.huge or t == -math.huge then
+  if value ~= value or value == math.huge or value == -math.huge then
     check.fail("%s: the time must be finite, got %s", what, value ~= value and "NaN" or tostring(value))
   end
-  return t
+  return { lo = value + 0.0, hi = value + 0.0 }
 end
 
--- t = { t0, ..., t1 }, ascending or descending; t = 10 means { 0, 10 }
+function instant.text(t)
+  return t.lo == t.hi and core.literal(t.lo) or core.interval(t.lo, t.hi):text(17)
+end
+
+-- On the clock of what was started with this shift.
+function instant.on_clock(t, shift)
+  if not shift then return t end
+  local x = core.interval((t.e or core.expression(t.lo)) - shift)
+  return { lo = x.lo, hi = x.hi, e = t.e }
+end
+
+-- The time, an enclosure, at which the clock shows t, an enclosure or a number; as it is without a shift.
+function instant.of_clock(t, shift)
+  if not shift then return t end
+  return (type(t) == "number" and core.interval(t) or t) + core.interval(shift)
+end
+
+-- Is a surely in front of b, in the direction?
+local function is_before(a, b, forward)
+  if forward then return a.lo < b.hi end
+  return a.hi > b.lo
+end
+
+local function is_same(a, b) return a.e and b.e and a.e == b.e or a.lo == a.hi and b.lo == b.hi and a.lo == b.lo end
+
+local function read_all(t, what)
+  local list = {}
+  for i, value in ipairs(t) do list[i] = instant.read(value, ("%s[%d]"):format(what, i)) end
+  check.keys(t, {}, what, #list)
+  if #list < 2 then
+    check.fail("%s: expected { start, ..., end }, got %d time%s", what, #list, #list == 1 and "" or "s")
+  end
+  return list
+end
+
+local function check_order(list, what)
+  local first, last = list[1], list[#list]
+  local forward = last.lo > first.hi
+  if not forward and not (last.hi < first.lo) then
+    check.fail("%s: the horizon is zero%s: start and end are both %s", what,
+      is_same(first, last) and "" or ", or less than the spacing of doubles", instant.text(last))
+  end
+  for i = 2, #list do
+    if is_same(list[i - 1], list[i]) or not is_before(list[i - 1], list[i], forward) then
+      check.fail("%s: the times must go one way, but %s follows %s", what, instant.text(list[i]),
+        instant.text(list[i - 1]))
+    end
+  end
+  return forward
+end
+
+-- t = { t0, ..., t1 }, ascending or descending; t = 10 means { 0, 10 } -> the doubles that a solver steps on. Of an
+-- instant that is no double it is the nearer end of the bracket, of the last one both ends. Besides (nil where all is
+-- double): .shift, as above; .last, the nearer end of the last bracket; .brackets, on the clock, in order.
 function instant.list(t, what)
   if t == nil then check.fail("%s is missing: { start, ..., end } in seconds", what) end
-  if type(t) ~= "table" then t = { 0, t } end
-  local times = {}
-  for i, value in ipairs(t) do times[i] = instant.of(value, ("%s[%d]"):format(what, i)) end
-  check.keys(t, {}, what, #times)
-  if #times < 2 then
-    check.fail("%s: expected { start, ..., end }, got %d time%s", what, #times, #times == 1 and "" or "s")
+  local list = read_all(type(t) == "table" and t or { 0, t }, what)
+  local forward, start = check_order(list, what), list[1]
+  local times = { start.lo }
+  if start.e then
+    times[1] = forward and start.lo or start.hi
+    times.shift, times.start = start.e - core.expression(times[1]), start
   end
-  local forward = times[#times] > times[1]
-  if times[#times] == times[1] then check.fail("%s: the horizon is zero: start and end are both %s", what, core.literal(times[1])) end
-  for i = 2, #times do
-    if times[i] == times[i - 1] or (times[i] > times[i - 1]) ~= forward then
-      check.fail("%s: the times must go one way, but %s follows %s", what, core.literal(times[i]),
-        core.literal(times[i - 1]))
+  local function add(double)
+    if (double > times[#times]) == forward and double ~= times[#times] then times[#times + 1] = double end
+  end
+  local near, far = forward and "lo" or "hi", forward and "hi" or "lo"
+  for i = 2, #list do
+    local x = instant.on_clock(list[i], times.shift)
+    add(x[near])
+    if x.lo < x.hi then
+      times.brackets = times.brackets or {}
+      times.brackets[#times.brackets + 1] = x
+      if i == #list then
+        times.last = times[#times]
+        add(x[far])
+      end
     end
   end
   return times
+end
+
+-- The start and the end, for records: a number, or an enclosure.
+function instant.first(times) return times.start and core.interval(times.start.lo, times.start.hi) or times[1] end
+
+function instant.final(times)
+  local last = times.last and core.interval(times.last):hull(times[#times]) or times[#times]
+  return instant.of_clock(last, times.shift)
+end
+
+-- { start, end }: doubles, all of t between them.
+function instant.span(t, what)
+  local times = instant.list(t, what)
+  local first, last = core.interval(instant.first(times)), core.interval(instant.final(times))
+  if last.lo > first.lo then return { first.lo, last.hi } end
+  return { first.hi, last.lo }
+end
+
+-- Formulas of the time, as they read on a clock that was started with this shift.
+function instant.formulas(list, shift)
+  return shift and core.substitute(list, { core.time() }, { core.time() + shift }) or list
+end
+
+-- The true start, an expression.
+function instant.start(times) return times.start and times.start.e or core.expression(times[1]) end
+
+-- A time that is a double: for what looks at a single moment without a proof about its neighbours.
+function instant.double(value, what)
+  local t = instant.read(value, what)
+  if t.e then
+    check.fail("%s: expected a time that is a double, got `%s`: its neighbours are %s and %s", what, tostring(value),
+      core.literal(t.lo), core.literal(t.hi))
+  end
+  return t.lo
 end
 
 return instant

@@ -132,7 +132,7 @@ local function before_end(run)
   local good, x = pcall(run.at, run, run.t_reached - length / 100)
   if good then return x end
   for step in run:steps() do
-    if (run.t_reached - step.t) / length < 0.01 then break end
+    if (run.t_reached - step.clock) / length < 0.01 then break end
     found = step
   end
   return found and found.x

@@ -2,6 +2,7 @@
 -- = 20, returns = 2 }: the set in which the solutions return to a section, and when.
 local check = require "ambit.check"
 local core = require "ambit.core"
+local instant = require "ambit.instant"
 local event = require "ambit.event"
 local leg = require "ambit.event.leg"
 local orbit = require "ambit.poincare_orbit"
@@ -39,10 +40,12 @@ local function request(t)
   if t.t_max == nil then check.fail "poincare: t_max is missing: the time by which the returns have happened, s" end
   local copy = {}
   for key, value in pairs(t) do copy[key] = value end
-  copy.t = { t.t_start or 0, t.t_max }
+  local start, latest = instant.read(t.t_start or 0, "poincare: t_start"), instant.read(t.t_max, "poincare: t_max")
+  copy.t = { start.hi, latest.lo } -- the legs have clocks of their own, and take the start as it is
   if t.t ~= nil then check.fail("poincare: unknown key `t`; did you mean `t_max`?") end
   local q = simulate.request(copy, "poincare", "lohner", own_keys)
   if q.times[2] < q.times[1] then check.fail "poincare: t_max must be later than the start" end
+  q.start = start.e or core.expression(start.lo)
   leg.prepare(q, t)
   q.returns = t.returns == nil and 1 or check.count(t.returns, "poincare: returns")
   q.g = event.formula(t.section, q.system, "poincare: section")
@@ -94,7 +97,7 @@ end
 
 function verb.poincare(t)
   local q = request(t)
-  local system, g, x, now, latest = q.system, q.g, q.initial, core.expression(q.times[1]), q.times[2]
+  local system, g, x, now, latest = q.system, q.g, q.initial, q.start, q.times[2]
   if depends_on_time(q) then
     local clock
     system, clock = surface.with_clock(system)

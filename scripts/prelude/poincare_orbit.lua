@@ -84,7 +84,7 @@ function orbit.prove(map)
     local why = i ~= fixed and objection(map, i, last.x[name])
     if why then return why end
   end
-  return { proved = true, period = last.t - q.times[1], x = last.x }
+  return { proved = true, period = last.t - core.interval(q.start), x = last.x }
 end
 
 return orbit

@@ -1,4 +1,7 @@
 -- run.lua -- what a simulation gives back: status, steps, enclosures at any time.
+--
+-- Inside, times are those of the run's clock, doubles (instant.lua); what a user sees is the time.
+local bracket = require "ambit.bracket"
 local check = require "ambit.check"
 local core = require "ambit.core"
 local instant = require "ambit.instant"
@@ -25,7 +28,8 @@ local function enclosures(self, i, tube)
   return strict(values, self.states)
 end
 
--- step.x and step.tube are made when they are asked for
+-- step.x and step.tube are made when they are asked for; step.t and step.t_from are numbers, and enclosures in a run
+-- that starts at a time that is no double.
 function Step.__index(self, key)
   if key ~= "x" and key ~= "tube" then return nil end
   local value = enclosures(self.run, self.number, key == "tube")
@@ -37,7 +41,8 @@ function Step.__tostring(self) return ("step to t = %s"):format(tostring(self.t)
 
 local function step_of(self, i)
   local from, to, kind, _, order, has_tube = core.track_step(self.track, i)
-  return setmetatable({ run = self, number = i, t_from = from, t = to, kind = kind, order = order,
+  return setmetatable({ run = self, number = i, clock_from = from, clock = to, kind = kind, order = order,
+    t_from = instant.of_clock(from, self.times.shift), t = instant.of_clock(to, self.times.shift),
     has_tube = has_tube }, Step)
 end
 
@@ -66,22 +71,56 @@ local function within(self, i, t)
   return strict(values, self.states)
 end
 
+local function not_within(self, t)
+  check.fail("at: t = %s is not within the run, which goes from %s to %s", instant.text(t),
+    core.literal(self.t_start), core.literal(self.t_reached))
+end
+
+local function by_name(self, list)
+  local values = {}
+  for k, name in ipairs(self.states) do values[name] = list[k] end
+  return strict(values, self.states)
+end
+
+-- At an instant with a bracket on the clock.
+local function at_bracket(self, t)
+  local first, last = self.times[1], self.t_reached
+  local forward = last >= first
+  if t.lo < math.min(first, last) or t.hi > math.max(first, last) then not_within(self, t) end
+  local list = bracket.values(self, forward and t.lo or t.hi, forward and t.hi or t.lo)
+  return list and by_name(self, list)
+end
+
+local function at_double(self, t)
+  if t.lo == self.times[1] then return strict(self.initial(), self.states) end
+  local i, is_end = core.track_find(self.track, t.lo)
+  if not i then not_within(self, t) end
+  if is_end then return enclosures(self, i, false) end
+  return within(self, i, t.lo)
+end
+
 -- The enclosure at a time: tight at the ends of steps and, if the run was made with dense = true, everywhere.
 function methods:at(t)
-  t = instant.of(t, "at: t")
-  if t == self.t_start then return strict(self.initial(), self.states) end
-  local i, is_end = core.track_find(self.track, t)
-  if not i then
-    check.fail("at: t = %s is not within the run, which goes from %s to %s", core.literal(t),
-      core.literal(self.t_start),
-      core.literal(self.t_reached))
-  end
+  local given, start = instant.read(t, "at: t"), self.times.start
+  if start and given.e and given.e == start.e then return strict(self.initial(), self.states) end
+  local own = instant.on_clock(given, self.times.shift)
   local values
-  if is_end then values = enclosures(self, i, false) else values = within(self, i, t) end
+  if own.lo == own.hi then values = at_double(self, own) else values = at_bracket(self, own) end
   if not values then
     check.fail('at: solver `%s` says nothing between its steps; put t into the list of times', self.solver)
   end
   return values
+end
+
+-- Did the run reach its end, of which only a bracket is known?
+local function ends_in_bracket(self) return self.times.last and self.t_reached == self.times[#self.times] end
+
+-- The states at the end as expressions: there the clock is past the true end, by up to the width of the bracket.
+local function set_back(self, list)
+  local way = bracket.moved(self, self.times[#self.times], self.times.last)
+  for k, x in ipairs(list) do
+    list[k] = way and x + core.expression(way[k]) or core.expression(self.x[self.states[k]])
+  end
 end
 
 -- The set at the end, to go on from: an initial value for each state, as an expression of the same uncertain data that
@@ -89,6 +128,7 @@ end
 -- way. Solvers that do not know the set as a function of the data give a box.
 function methods:set()
   local list, values = core.track_set(self.track), {}
+  if list and ends_in_bracket(self) then set_back(self, list) end
   for i, name in ipairs(self.states) do
     values[name] = list and list[i] or core.expression(self.x[name])
   end
@@ -112,8 +152,9 @@ end
 function Run.__index(self, key)
   if methods[key] then return methods[key] end
   if key ~= "x" then return nil end
-  local n = last_step(self.track)
-  local value = n > 0 and enclosures(self, n, false) or strict(self.initial(), self.states)
+  local n, value = last_step(self.track), nil
+  if ends_in_bracket(self) then value = at_bracket(self, self.times.brackets[#self.times.brackets]) end
+  value = value or n > 0 and enclosures(self, n, false) or strict(self.initial(), self.states)
   rawset(self, "x", value)
   return value
 end
@@ -123,7 +164,8 @@ function Run.__tostring(self)
   return self.status == "complete" and text or text .. ": " .. self.reason
 end
 
--- facts: status, reason, t_reached, cpu_seconds, step_count, rigorous; initial(): enclosures at the start by name
+-- facts: status, reason, t_reached, cpu_seconds, step_count, rigorous; initial(): enclosures at the start by name;
+-- times: as instant.list makes them; system: for the flow over a bracket
 function run.new(facts)
   return setmetatable(facts, Run)
 end

@@ -94,9 +94,9 @@ Sample.__index = Sample
 
 -- Which of the listed times t is.
 local function number_of(self, t)
-  t = instant.of(t, "at: t")
-  for k, time in ipairs(self.t) do if time == t then return k end end
-  check.fail("at: t = %s is not one of the listed times", core.literal(t))
+  t = instant.read(t, "at: t")
+  for k, time in ipairs(self.t) do if t.lo <= time and time <= t.hi then return k end end
+  check.fail("at: t = %s is not one of the listed times", instant.text(t))
 end
 
 local function named(self, k, list)
@@ -145,6 +145,7 @@ local function of_system(t)
   if plan.relative == 0 and (plan.absolute or 0) == 0 then
     check.fail("sample: one of relative and absolute must be greater than 0")
   end
+  if q.times.last and q.times.last ~= q.times[1] then q.times[#q.times] = nil end -- a double next to the end will do
   local result, report = solve(q, draws, seed, plan)
   local k = #q.times
   result.x, result.error = named(result, k, result.values), named(result, k, result.errors)

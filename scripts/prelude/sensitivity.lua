@@ -3,6 +3,7 @@
 -- The variational equations are joined to the system, and any solver runs on them; docs/numerics/sensitivity.md.
 local check = require "ambit.check"
 local core = require "ambit.core"
+local instant = require "ambit.instant"
 local ode = require "ambit.ode"
 local session = require "ambit.session"
 local simulate = require "ambit.simulate"
@@ -166,8 +167,8 @@ function verb.sensitivity(t)
   q.initial = initial
   local run = simulate.solve(q)
   session.finish("sensitivity", run, run.report,
-    { "solver", q.solver, "arithmetic", run.arithmetic, "options", q.settings, "t_start", q.times[1], "t_end",
-      q.times[#q.times] })
+    { "solver", q.solver, "arithmetic", run.arithmetic, "options", q.settings, "t_start", instant.first(q.times),
+      "t_end", instant.final(q.times) })
   return setmetatable({ run = run, of = of, wrt = names, quantities = list, place = place, units = q.system.units },
     Sensitivity)
 end

@@ -66,6 +66,15 @@ local function check_options(t, q, known, what)
   q.options, q.settings = option.collect(t, declaration)
 end
 
+-- The system by a clock with this shift (instant.lua); `shift` tells those who write formulas for it.
+function verb.on_clock(system, shift)
+  if not shift then return system end
+  local rates = instant.formulas(system.rates, shift)
+  local invariants, names = core.system_invariants(system.system)
+  return setmetatable({ rates = rates, shift = shift, system = core.system(system.states, system.units, system.symbols,
+    rates, instant.formulas(invariants, shift), names) }, { __index = system })
+end
+
 -- Everything that simulate and the sampling of a system share. default_solver nil: the one that suits; false: none.
 function verb.request(t, what, default_solver, own_keys)
   check.table(t, what)
@@ -85,6 +94,7 @@ function verb.request(t, what, default_solver, own_keys)
     fitting = suggest.candidates(other_keys(t, known), known, q.arithmetic, what)
   end
   q.initial, q.times = verb.initial(t.initial, q.system, what), instant.list(t.t, what .. ": t")
+  q.system = verb.on_clock(q.system, q.times.shift)
   if fitting then
     q.suggestion = suggest.solver(q, fitting)
     q.solver = q.suggestion.solver
@@ -146,12 +156,14 @@ end
 -- A request -> its run.
 function verb.solve(q)
   check_loops(q)
+  core.record_shift(q.times.shift and core.interval(q.times.shift) or 0)
   local track, facts, report = core.simulate(q.system.system, q.solver, q.arithmetic, q.options, q.arithmetic_options,
     q.initial,
     q.times, q.watch, q.run_options)
   facts.track, facts.states, facts.report = track, q.system.states, report
   facts.solver, facts.arithmetic, facts.t_start, facts.initial = q.solver, report.arithmetic, q.times[1],
     initial_enclosures(q)
+  facts.times, facts.system = q.times, q.system
   facts.solver_reason = q.suggestion and q.suggestion.reason or "named in the scene"
   event.finish(q, facts)
   local result = run.new(facts)
@@ -168,8 +180,8 @@ function verb.simulate(t)
   session.ask_simulation(q)
   local result = verb.solve(q)
   session.finish("simulate", result, result.report,
-    { "solver", q.solver, "arithmetic", result.arithmetic, "options", q.settings, "t_start", q.times[1], "t_end",
-      q.times[#q.times] })
+    { "solver", q.solver, "arithmetic", result.arithmetic, "options", q.settings, "t_start", instant.first(q.times),
+      "t_end", instant.final(q.times) })
   session.remember(result, q)
   return result
 end

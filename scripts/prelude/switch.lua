@@ -5,6 +5,7 @@ local check = require "ambit.check"
 local condense = require "ambit.event.condense"
 local core = require "ambit.core"
 local event = require "ambit.event"
+local instant = require "ambit.instant"
 local leg = require "ambit.event.leg"
 local ode = require "ambit.ode"
 local session = require "ambit.session"
@@ -40,7 +41,7 @@ local function read_reset(guard, place, source, target)
     end
     list[i] = core.expression(value, target.units[i], ("%s.reset: %s"):format(place, name))
   end
-  return list
+  return instant.formulas(list, source.shift)
 end
 
 local function read_guards(mode, modes, names)
@@ -57,7 +58,7 @@ local function read_guards(mode, modes, names)
   end
 end
 
-local function read_modes(t)
+local function read_modes(t, shift)
   if t == nil then check.fail "hybrid: modes are missing: { name = { ode, guards = { ... } }, ... }" end
   check.table(t, "hybrid: modes")
   local modes, names = {}, check.sorted(t)
@@ -66,7 +67,7 @@ local function read_modes(t)
     check.text(name, "hybrid: name of a mode")
     check.table(t[name], place)
     check.keys(t[name], { "guards" }, place, 1)
-    modes[name] = { name = name, given = t[name], system = simulate.system(t[name], place) }
+    modes[name] = { name = name, given = t[name], system = simulate.on_clock(simulate.system(t[name], place), shift) }
   end
   if #names == 0 then check.fail "hybrid: modes: expected at least one" end
   for _, name in ipairs(names) do read_guards(modes[name], modes, names) end
@@ -88,13 +89,13 @@ end
 
 local function request(t)
   check.table(t, "hybrid")
-  local modes, names = read_modes(t.modes)
+  local modes, names = read_modes(t.modes, instant.list(t.t, "hybrid: t").shift)
   local first = t.mode
   if first == nil and #names == 1 then first = names[1] end
   if first == nil then check.fail("hybrid: mode is missing: the one to start in (%s)", table.concat(names, ", ")) end
   local mode = modes[check.text(first, "hybrid: mode")]
   if not mode then check.fail("hybrid: there is no mode `%s`%s", first, check.suggest(first, names)) end
-  local copy = { mode.system }
+  local copy = { mode.given[1] }
   for key, value in pairs(t) do copy[key] = value end
   local q = simulate.request(copy, "hybrid", "lohner", { "modes", "mode", "switches_max" })
   if q.times[#q.times] < q.times[1] then check.fail "hybrid: t must ascend: a switch cannot be undone" end
@@ -156,8 +157,8 @@ end
 local function meeting_time(q, crossing, began)
   local t, latest = crossing, q.times[#q.times]
   local T = t.hi + math.max(t:width(), SHARE * math.max(t.lo - began, 0))
-  for _, instant in ipairs(q.times) do
-    if instant > t.hi then T = math.min(T, instant) end -- asked for: must be met exactly
+  for _, other in ipairs(q.times) do
+    if other > t.hi then T = math.min(T, other) end -- asked for: must be met exactly
   end
   return t.hi < T and T <= latest and T or nil
 end
@@ -224,8 +225,8 @@ function verb.hybrid(t)
   local result = switch_run.new(q)
   result.status, result.reason = run_modes(q, result, mode)
   switch_run.finish(result, q)
-  session.finish("hybrid", result, q.report, { "solver", q.solver, "options", q.settings, "t_start", q.times[1], "t_end",
-    q.times[#q.times] })
+  session.finish("hybrid", result, q.report, { "solver", q.solver, "options", q.settings, "t_start",
+    instant.first(q.times), "t_end", instant.final(q.times) })
   return result
 end
 

@@ -4,6 +4,7 @@
 local check = require "ambit.check"
 local conditions = require "ambit.verify.condition"
 local core = require "ambit.core"
+local instant = require "ambit.instant"
 local option = require "ambit.option"
 local report = require "ambit.verify.report"
 local search = require "ambit.verify.search"
@@ -81,7 +82,8 @@ function verb.verify(t)
   local result = report.of(job)
   if result.status == "undecided" then session.unable = true end
   session.finish("verify", result, result.report,
-    { "solver", q.solver, "options", q.settings, "t_start", q.times[1], "t_end", q.times[#q.times], "refinements",
+    { "solver", q.solver, "options", q.settings, "t_start", instant.first(q.times), "t_end",
+      instant.final(q.times), "refinements",
       result.refinements, "conditions", report.fields(result) })
   return result
 end

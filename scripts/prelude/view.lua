@@ -60,7 +60,7 @@ function verb.view(t)
     place = core.where() }
   request.points = t.points ~= nil and points(m, t.points) or nil
   request.at = t.at ~= nil and configuration(m, t.at) or {}
-  request.times = t.t ~= nil and instant.list(t.t, "view: t") or nil
+  request.times = t.t ~= nil and instant.span(t.t, "view: t") or nil
   if t.arithmetic ~= nil then
     request.arithmetic, request.options = option.arithmetic(t.arithmetic, "view: arithmetic")
   end

@@ -109,7 +109,7 @@ local function options_of(how) return how.options or {} end
 local function watch(q, w, how, unknowns, box)
   local findings, outcome, report = core.watch(q.system.system, how.solver or "lohner", how.arithmetic, options_of(how),
     how.arithmetic_options or {}, q.initial, q.times, w.g, w.name, w.kind, unknowns, box.lo, box.hi, CUTS, w.limit,
-    w.rivals, how.run_options and how.run_options.threads)
+    w.rivals, how.run_options and how.run_options.threads, q.times.last)
   if how.report then work.add(how.report, report) end
   return findings, outcome, report
 end

@@ -109,7 +109,7 @@ local function initial_of(value, m, s, what)
     value = value(strict(p, what .. ": initial"))
   end
   local list = simulate.initial(value, m.start, what)
-  list = core.substitute(list, { core.time() }, { core.expression(s.times[1]) })
+  list = core.substitute(list, { core.time() }, { instant.start(s.times) })
   local named = {}
   for i, name in ipairs(m.start.states) do
     named[name] = list[i]
@@ -180,7 +180,7 @@ function scenario.list(t, model, what, reduced)
   return list
 end
 
--- Expressions of a model, with the values that a scenario gives.
-function scenario.apply(s, list) return core.substitute(list, s.leaves, s.values) end
+-- Expressions of a model, with the values that a scenario gives, by the clock of its runs.
+function scenario.apply(s, list) return instant.formulas(core.substitute(list, s.leaves, s.values), s.times.shift) end
 
 return scenario

@@ -1,5 +1,6 @@
 -- certify/values.lua -- the outputs of a run at given instants, enclosed for all data at once: each as an expression of
 -- the states there and, where it is smooth, as a state of its own (certify/run.lua); the intersection of both.
+local bracket = require "ambit.bracket"
 local core = require "ambit.core"
 local run = require "ambit.certify.run"
 local work = require "ambit.work"
@@ -8,7 +9,7 @@ local values = {}
 
 -- n equal parts of the time of a scenario, and what the solver has to step on anyway.
 function values.instants(times, n)
-  local list, first, last = {}, times[1], times[#times]
+  local list, first, last = { shift = times.shift, last = times.last }, times[1], times[#times]
   local direction, i = last > first and 1 or -1, 1
   for k = 0, n do
     local t = k == 0 and first or k == n and last or first + (last - first) * (k / n)
@@ -36,8 +37,26 @@ function values.at_data(q, unknowns, data)
       system.symbols, rates, table.move(all, m + 1, #all, 1, {}), names) }, { __index = system }) }
 end
 
+-- The times that an instant stands for: the last one for its bracket.
+local function when(q, t)
+  local last = t == q.times[#q.times] and q.times.last
+  return last and core.interval(last):hull(t) or core.interval(t)
+end
+
+-- Over the bracket of the end.
+local function states_at_end(q, track, t)
+  local function initial()
+    local named = {}
+    for k, x in ipairs(core.evaluate("interval", {}, q.initial, {}, {})) do named[q.system.states[k]] = x end
+    return named
+  end
+  return bracket.values({ track = track, states = q.system.states, system = q.system, times = q.times, rigorous = true,
+    initial = initial }, q.times.last, t)
+end
+
 -- The enclosures of all states at an instant; nil: the run did not get there.
 local function states_at(q, track, t)
+  if q.times.last and t == q.times[#q.times] then return states_at_end(q, track, t) end
   if t == q.times[1] then return core.evaluate("interval", {}, q.initial, {}, {}) end
   local i, is_end = core.track_find(track, t)
   if not i then return nil end
@@ -56,7 +75,7 @@ local function enclosure(x, carried)
 end
 
 local function outputs_at(q, states, x, t)
-  local data = { core.expression(t) }
+  local data = { core.expression(when(q, t)) }
   for k, value in ipairs(x) do data[k + 1] = core.expression(value) end
   local leaves = table.move(q.system.symbols, 1, #q.system.symbols, 2, { core.time() })
   local list = core.evaluate("interval", {}, q.outputs, leaves, data)

@@ -31,6 +31,15 @@ function course.at(run, instants)
   return list
 end
 
+-- The same over a bracket (instant.lua).
+function course.over(run, t)
+  local good, x = pcall(run.at, run, t.e)
+  if not good then return nil end
+  local lo, hi = {}, {}
+  for k, name in ipairs(run.states) do lo[k], hi[k] = x[name].lo, x[name].hi end
+  return { lo = lo, hi = hi }
+end
+
 local function ends_of(run)
   local list = {}
   for step in run:steps() do list[#list + 1] = step.number end

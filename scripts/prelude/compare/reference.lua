@@ -16,8 +16,9 @@ function reference.read(value)
   check.table(value, what)
   check.keys(value, { "t", "x", "source" }, what)
   check.table(value.x, what .. ".x")
-  local read = { t = instant.of(value.t == nil and check.fail("%s.t is missing: a time in seconds", what) or value.t,
-    what .. ".t"), x = {}, source = value.source ~= nil and check.text(value.source, what .. ".source") or
+  local t = instant.read(value.t == nil and check.fail("%s.t is missing: a time in seconds", what) or value.t,
+    what .. ".t")
+  local read = { t = t.lo, bracket = t.lo < t.hi and t or nil, x = {}, source = value.source ~= nil and check.text(value.source, what .. ".source") or
     "given by the scene" }
   for _, name in ipairs(check.sorted(value.x)) do
     check.text(name, what .. ".x: name of a state")
@@ -47,8 +48,10 @@ local function fits(given, comparison)
   return true
 end
 
-local function place_of(comparison, t)
-  for k, other in ipairs(comparison.instants) do if other == t then return k end end
+-- The instant t, or one of its bracket.
+local function place_of(comparison, t, bracket)
+  local lo, hi = bracket and bracket.lo or t, bracket and bracket.hi or t
+  for k, other in ipairs(comparison.instants) do if lo <= other and other <= hi then return k end end
 end
 
 -- x by name of bounds at an instant
@@ -58,8 +61,9 @@ local function named(comparison, at)
   return x
 end
 
-local function new(comparison, t, sets, names, source)
-  local found = { t = t, x = {}, lo = {}, hi = {}, names = names, source = source, place = place_of(comparison, t) }
+local function new(comparison, t, sets, names, source, bracket)
+  local found = { t = t, x = {}, lo = {}, hi = {}, names = names, source = source, bracket = bracket,
+    place = place_of(comparison, t, bracket) }
   for _, name in ipairs(names) do
     found.x[name], found.lo[name], found.hi[name] = sets[name]:mid(), sets[name].lo, sets[name].hi
   end
@@ -97,7 +101,7 @@ end
 function reference.find(comparison, given, run)
   if given then
     local good, problem = fits(given, comparison)
-    if good then return new(comparison, given.t, given.x, given.names, given.source) end
+    if good then return new(comparison, given.t, given.x, given.names, given.source, given.bracket) end
     comparison.reference_problem = "the scene's reference is not for this simulation: " .. problem
   end
   if comparison.unknowns == 0 then return of_points(comparison, run) end
@@ -129,6 +133,7 @@ function reference.hold_against(comparison)
   for k, name in ipairs(comparison.names) do index[name] = k end
   for _, row in ipairs(comparison.rows) do
     local x = row.at and row.at[found.place]
+    if x and found.bracket and row.rigorous then x = row.at_reference end
     if x then
       row.error = error_of(row, x, found, index)
       local name = row.rigorous and misses(x, found, index)

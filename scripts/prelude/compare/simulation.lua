@@ -76,6 +76,8 @@ local function measure(q, c, settings, instants)
   take(row, run)
   row.seconds_run, row.seconds_build, row.repeats = run.report.seconds_run, run.report.seconds_build, 1
   row.at = course.at(run, instants)
+  local bracket = settings.reference and settings.reference.bracket
+  row.at_reference = bracket and course.over(run, bracket)
   row.track, row.width_max = course.track(run)
   if run.status == "stopped" then
     row.reason = core.interrupted() and "interrupted" or

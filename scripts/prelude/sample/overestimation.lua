@@ -33,7 +33,7 @@ end
 
 -- The tight enclosures of a run at t by state name; nil: there are only those of whole steps, or none.
 local function of_run(run, t)
-  if t == run.t_start then return run:at(t) end
+  if t == run.t_start then return run.initial() end
   local i, is_end = core.track_find(run.track, t)
   if not i or not (is_end or core.track_dense(run.track, i, 1, t)) then return nil end
   return run:at(t)

@@ -46,7 +46,8 @@ function box.run(job, b)
   job.runs = job.runs + 1
   local g, names, kinds, of = watched(job)
   local findings, outcome, report = core.watch(q.system.system, q.solver, q.arithmetic, q.options,
-    q.arithmetic_options, q.initial, job.times, g, names, kinds, job.unknowns, b.lo, b.hi, CUTS)
+    q.arithmetic_options, q.initial, job.times, g, names, kinds, job.unknowns, b.lo, b.hi, CUTS, nil,
+    nil, nil, job.asked.times.last)
   job.report = job.report or report
   job.stopped = outcome.status == "stopped"
   b.outcome = outcome

@@ -3,6 +3,7 @@
 local box = require "ambit.verify.box"
 local check = require "ambit.check"
 local core = require "ambit.core"
+local instant = require "ambit.instant"
 
 local report = {}
 
@@ -101,14 +102,14 @@ local function reason_of(job, condition, k)
   elseif worst[k].undefined then
     why[#why + 1] = "the condition is not known to be defined along the whole run"
   elseif worst[k].worst then
-    why[#why + 1] = "the worst bound is at t in " .. tostring(worst[k].worst)
+    why[#why + 1] = "the worst bound is at t in " .. tostring(instant.of_clock(worst[k].worst, job.asked.times.shift))
   end
   return table.concat(why, "; ")
 end
 
 local function counterexample(job, condition)
   local c, times = choice(job, condition.box), job.asked.times
-  c.t = condition.finding.when or core.interval(times[1]):hull(times[#times])
+  c.t = instant.of_clock(condition.finding.when or core.interval(times[1]):hull(times[#times]), times.shift)
   c.g = condition.finding.value or core.interval(condition.finding.lo, condition.finding.hi)
   return c
 end

@@ -70,12 +70,12 @@ end
 local function collect(run, count)
   local steps, t_start = steps_of(run), run.t_start
   local self = { t = { t_start }, at = { run.initial() }, over = {} }
-  local tubes, length = {}, #steps > 0 and (steps[#steps].t - t_start) / count or 0
+  local tubes, length = {}, #steps > 0 and (steps[#steps].clock - t_start) / count or 0
   for i, step in ipairs(steps) do
-    if step.has_tube then tubes[#tubes + 1] = { t = span(step.t_from, step.t), values = step.tube } end
-    if i == #steps or #steps <= count or (step.t - t_start) / length >= #self.t then
+    if step.has_tube then tubes[#tubes + 1] = { t = span(step.clock_from, step.clock), values = step.tube } end
+    if i == #steps or #steps <= count or (step.clock - t_start) / length >= #self.t then
       self.over[#self.t] = step.has_tube and condensed(tubes) or false
-      self.t[#self.t + 1], self.at[#self.at + 1] = step.t, step.x
+      self.t[#self.t + 1], self.at[#self.at + 1] = step.clock, step.x
       tubes = {}
     end
   end
