@@ -79,7 +79,6 @@ static int record_shift(lua_State *L) {
 
 void ambit_lua_open_records(lua_State *L, ambit_lua *core) {
   static const luaL_Reg functions[] = { { "records_open", open_records }, { "records_close", close_records },
-    { "record", record }, { "recording", recording },
-    { "record_shift", record_shift }, { NULL, NULL } };
+    { "record", record }, { "recording", recording }, { "record_shift", record_shift }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
 }

@@ -36,8 +36,8 @@ typedef struct ambit_watch_request {
   double start;              /* its time, s */
   /* unless NULL: the end is some instant between this time and that of the last record, s; `last` is an end of a step */
   const double *last;
-  uint32_t cuts;             /* in time, for each condition in each step */
-  size_t nnarrow;            /* unknowns with a narrower range than their own: those of the run */
+  uint32_t cuts;  /* in time, for each condition in each step */
+  size_t nnarrow; /* unknowns with a narrower range than their own: those of the run */
   const ambit_expr *narrow;
   const ambit_interval *range;
   ambit_sink *outer; /* its `progress` is passed on; or NULL */

@@ -1,7 +1,8 @@
 -- bracket.lua -- where the states of a run are at an instant of which only a bracket is known: at all times of it.
 --
--- What a solver says of the steps that the bracket meets is one enclosure X. If the bracket starts at the end of a step
--- (or of the run), where the states are in x, they are also in x + [0, its length] f(X): the flow over the last ulp.
+-- What a solver says of the steps that the bracket meets is one enclosure. If one of them ends within the bracket, at m
+-- with the states in x, they are also in x + (bracket - m) f(X), the flow over the last ulp, where X holds the states for
+-- all of it. Proof: docs/numerics/instants.md.
 local core = require "ambit.core"
 
 local bracket = {}
@@ -35,27 +36,49 @@ local function hull(run, first, from, to)
   end
 end
 
--- How far the states, which are in `list` all the time, move from `from` to any time up to `to`; nil: not known.
-local function moved(run, list, from, to)
+-- The rates while the states are in `list`, at any of the times; nil: not known, or without a bound.
+local function rates_over(run, list, times)
   local system = run.system
-  local leaves, values = { core.time() }, { core.expression(core.interval(math.min(from, to), math.max(from, to))) }
+  local leaves, values = { core.time() }, { core.expression(times) }
   for k, x in ipairs(list) do
     if not x:is_bounded() then return nil end
     leaves[k + 1], values[k + 1] = system.symbols[k], core.expression(x)
   end
   local rates = core.evaluate("interval", {}, system.rates, leaves, values)
-  local span, result = (core.interval(to) - core.interval(from)):hull(0), {}
-  for k, rate in ipairs(rates) do
-    if rate.partial then return nil end
-    result[k] = span * rate
+  for _, rate in ipairs(rates) do
+    if rate.partial or not rate:is_bounded() then return nil end
   end
-  return result
+  return rates
 end
 
-local function narrowed(run, list, start, from, to)
-  local way = moved(run, list, from, to)
-  for k, x in ipairs(way and list or {}) do list[k] = x:intersect(start[k] + way[k]) end
-  return list
+local function times_span(rates, span)
+  local way = {}
+  for k, rate in ipairs(rates or {}) do way[k] = span * rate end
+  return rates and way
+end
+
+-- A box about `start` that the solutions do not leave in this short a time, as the way from `start` stays inside it:
+-- Picard's argument; nil: this one does not show it.
+local function way_by_box(run, start, times, span)
+  local guess, box = times_span(rates_over(run, start, times), span), {}
+  for k, x in ipairs(guess and start or {}) do
+    local r = 2 * guess[k]:mag() + 0x1p-54 * x:mag() + 0x1p-1000
+    box[k] = x + core.interval(-r, r)
+  end
+  local way = guess and times_span(rates_over(run, box, times), span)
+  for k, x in ipairs(way and start or {}) do
+    local reached = x + way[k]
+    if not (reached.lo > box[k].lo and reached.hi < box[k].hi) then return nil end
+  end
+  return way
+end
+
+-- How far the states, which are in `start` at m, move from there to any time from `from` to `to`; nil: not known. list:
+-- where they are all the time, as far as the solver says.
+local function moved(run, start, list, from, to, m)
+  local times = core.interval(math.min(from, to), math.max(from, to))
+  local span = times - core.interval(m)
+  return way_by_box(run, start, times, span) or list and times_span(rates_over(run, list, times), span)
 end
 
 local function ends_of(run, i)
@@ -70,24 +93,45 @@ local function start_of(run)
   return list
 end
 
--- { enclosure of each state }, or nil; from, to: on the clock, within the run, in its direction.
-function bracket.values(run, from, to)
-  local i, is_end = core.track_find(run.track, from)
-  if not i then return nil end
-  local start = is_end and ends_of(run, i) or from == run.times[1] and start_of(run) or nil
-  if not run.rigorous and start then return start end
-  local first = is_end and number_of_step(run.track, i + 1) or not is_end and i
-  local list = first and hull(run, first, from, to)
-  if not list or not start then return list end
-  return narrowed(run, list, start, from, to)
+-- The states at m, if that is the end of a step or the start of the run.
+local function known_at(run, m)
+  if m == run.times[1] then return start_of(run) end
+  local i, is_end = core.track_find(run.track, m)
+  return is_end and ends_of(run, i) or nil
 end
 
--- How far the states may move from the end of the run, `from`, back to a time of its last step; nil: not known.
+-- The step in which the bracket begins.
+local function first_step(run, from)
+  local i, is_end = core.track_find(run.track, from)
+  return i and number_of_step(run.track, is_end and i + 1 or i)
+end
+
+-- { enclosure of each state }, or nil; from, to: on the clock, within the run, in its direction; m: in between, where
+-- the solver was asked to end a step.
+function bracket.values(run, from, to, m)
+  local start
+  for _, t in ipairs { m, from, to } do
+    start = known_at(run, t)
+    m = t
+    if start then break end
+  end
+  if not run.rigorous and start then return start end
+  local first = first_step(run, from)
+  local list = first and hull(run, first, from, to)
+  local way = start and moved(run, start, list, from, to, m)
+  if not way then return list end
+  for k, x in ipairs(start) do
+    local reached = x + way[k]
+    start[k] = list and list[k]:intersect(reached) or reached
+  end
+  return start
+end
+
+-- How far the states may move from the end of the run, `to`, back to a time of the bracket; nil: not known.
 function bracket.moved(run, from, to)
-  local i = core.track_find(run.track, to)
-  local first = i and number_of_step(run.track, i)
-  local list = run.rigorous and first and hull(run, first, to, from)
-  return list and moved(run, list, from, to)
+  local start = run.rigorous and known_at(run, to)
+  local first = start and first_step(run, from)
+  return start and moved(run, start, first and hull(run, first, from, to), from, to, to)
 end
 
 return bracket

@@ -10,6 +10,9 @@ around(c, tolerance): a datum within a tolerance, one fresh unknown: around(2, 0
   interval = [[
 interval(lo, hi), interval "[0.1, 0.2]": an enclosure to calculate with. It has lo, hi, partial, width(), mid(), rad(),
 mag(), mig(), contains(x), hull(x), intersect(x), text(digits), is_empty(), is_bounded().]],
+  text_arithmetic = [[
+text_arithmetic(true): "1" / "3" means a third, as it always does in the command; text_arithmetic(false): it is Lua's,
+which rounds. For scripts that a stock lua5.4 runs; returns what it was: "ambit", "lua" or "watched".]],
   degrees = "degrees(x): x pi/180, exact.",
   pi = "pi: the constant itself, enclosed by each arithmetic.",
   time = "time: the time t of a simulation, for given motions and forces.",

@@ -8,20 +8,25 @@ local core = require "ambit.core"
 
 local instant = {}
 
--- { lo, hi, e }: a bracket, and the expression that is in it; e nil: the double lo = hi
+-- { lo, hi, near, e }: a bracket, the double in it that a solver steps on, and the expression of the instant; e nil: the
+-- double lo = hi = near
 function instant.read(value, what)
   if type(value) ~= "number" then
     local e = core.expression(value, "s", what)
     if not core.is_constant(e) then check.fail("%s: a time cannot be uncertain", what) end
     local x = core.interval(e)
     if not x:is_bounded() then check.fail("%s: the time must be finite, got %s", what, tostring(value)) end
-    if x.lo < x.hi then return { lo = x.lo, hi = x.hi, e = e } end
+    if x.lo < x.hi then
+      local nearest = type(value) == "string" and tonumber(value) or x:mid()
+      return { lo = x.lo, hi = x.hi, near = math.min(math.max(nearest, x.lo), x.hi), e = e }
+    end
     value = x.lo
   end
   if value ~= value or value == math.huge or value == -math.huge then
     check.fail("%s: the time must be finite, got %s", what, value ~= value and "NaN" or tostring(value))
   end
-  return { lo = value + 0.0, hi = value + 0.0 }
+  value = value + 0.0
+  return { lo = value, hi = value, near = value }
 end
 
 function instant.text(t)
@@ -32,7 +37,7 @@ end
 function instant.on_clock(t, shift)
   if not shift then return t end
   local x = core.interval((t.e or core.expression(t.lo)) - shift)
-  return { lo = x.lo, hi = x.hi, e = t.e }
+  return { lo = x.lo, hi = x.hi, near = x:mid(), e = t.e }
 end
 
 -- The time, an enclosure, at which the clock shows t, an enclosure or a number; as it is without a shift.
@@ -76,8 +81,8 @@ local function check_order(list, what)
 end
 
 -- t = { t0, ..., t1 }, ascending or descending; t = 10 means { 0, 10 } -> the doubles that a solver steps on. Of an
--- instant that is no double it is the nearer end of the bracket, of the last one both ends. Besides (nil where all is
--- double): .shift, as above; .last, the nearer end of the last bracket; .brackets, on the clock, in order.
+-- instant that is no double it is one next to it, of the last one both ends of the bracket. Besides (nil where all is
+-- double): .start, as read, and .shift, as above; .final, the last bracket, on the clock, and .last, its first end.
 function instant.list(t, what)
   if t == nil then check.fail("%s is missing: { start, ..., end } in seconds", what) end
   local list = read_all(type(t) == "table" and t or { 0, t }, what)
@@ -90,20 +95,20 @@ function instant.list(t, what)
   local function add(double)
     if (double > times[#times]) == forward and double ~= times[#times] then times[#times + 1] = double end
   end
-  local near, far = forward and "lo" or "hi", forward and "hi" or "lo"
-  for i = 2, #list do
-    local x = instant.on_clock(list[i], times.shift)
-    add(x[near])
-    if x.lo < x.hi then
-      times.brackets = times.brackets or {}
-      times.brackets[#times.brackets + 1] = x
-      if i == #list then
-        times.last = times[#times]
-        add(x[far])
-      end
-    end
+  for i = 2, #list - 1 do add(instant.on_clock(list[i], times.shift).near) end
+  local final = instant.on_clock(list[#list], times.shift)
+  add(forward and final.lo or final.hi)
+  if final.lo < final.hi then
+    times.last, times.final = times[#times], final
+    add(forward and final.hi or final.lo)
   end
   return times
+end
+
+-- Another list of doubles for the same horizon.
+function instant.like(times, list)
+  list.shift, list.start, list.final, list.last = times.shift, times.start, times.final, times.last
+  return list
 end
 
 -- The start and the end, for records: a number, or an enclosure.

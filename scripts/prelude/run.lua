@@ -87,7 +87,7 @@ local function at_bracket(self, t)
   local first, last = self.times[1], self.t_reached
   local forward = last >= first
   if t.lo < math.min(first, last) or t.hi > math.max(first, last) then not_within(self, t) end
-  local list = bracket.values(self, forward and t.lo or t.hi, forward and t.hi or t.lo)
+  local list = bracket.values(self, forward and t.lo or t.hi, forward and t.hi or t.lo, t.near)
   return list and by_name(self, list)
 end
 
@@ -117,7 +117,7 @@ local function ends_in_bracket(self) return self.times.last and self.t_reached =
 
 -- The states at the end as expressions: there the clock is past the true end, by up to the width of the bracket.
 local function set_back(self, list)
-  local way = bracket.moved(self, self.times[#self.times], self.times.last)
+  local way = bracket.moved(self, self.times.last, self.times[#self.times])
   for k, x in ipairs(list) do
     list[k] = way and x + core.expression(way[k]) or core.expression(self.x[self.states[k]])
   end
@@ -153,7 +153,7 @@ function Run.__index(self, key)
   if methods[key] then return methods[key] end
   if key ~= "x" then return nil end
   local n, value = last_step(self.track), nil
-  if ends_in_bracket(self) then value = at_bracket(self, self.times.brackets[#self.times.brackets]) end
+  if ends_in_bracket(self) then value = at_bracket(self, self.times.final) end
   value = value or n > 0 and enclosures(self, n, false) or strict(self.initial(), self.states)
   rawset(self, "x", value)
   return value

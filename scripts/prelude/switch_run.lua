@@ -31,8 +31,8 @@ local function add_step(result, step)
   if core.recording() then
     local x = {}
     for _, name in ipairs(check.sorted(step.x)) do x[#x + 1], x[#x + 2] = name, step.x[name] end
-    core.record("step", { "t", core.interval(step.t), "span", core.interval(step.t_from):hull(step.t), "mode", step.mode,
-      "x", x })
+    core.record("step", { "t", core.interval(step.t), "span", core.interval(step.t_from):hull(step.t), "mode",
+      step.mode, "x", x })
   end
 end
 
@@ -50,7 +50,8 @@ function switch_run.add_leg(result, mode, found)
       add_step(result, { clock_from = step.clock_from, clock = step.clock, x = step.x, mode = mode.name, of = step })
     end
     if #result.list >= first then
-      result.parts[#result.parts + 1] = { from = result.list[first].clock_from, till = result.t_reached, run = piece.run }
+      result.parts[#result.parts + 1] = { from = result.list[first].clock_from, till = result.t_reached,
+        run = piece.run }
     end
   end
 end
@@ -120,7 +121,7 @@ local function at_bracket(self, lo, hi)
     if from < to then
       local box = part.tube
       if part.run then
-        local list = bracket.values(part.run, from, to)
+        local list = bracket.values(part.run, from, to, from)
         if not list then check.fail('at: solver `%s` says nothing between its steps', self.solver) end
         box = {}
         for k, name in ipairs(part.run.states) do box[name] = list[k] end

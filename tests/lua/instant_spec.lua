@@ -1,5 +1,5 @@
--- Times given as text are the instants that they say, in every verb and every place that takes one. x' = 1, x' = c t and
--- x' = -x have closed forms: rational numbers, which are compared exactly, and exp and sin to 40 digits by mpmath.
+-- Times given as text are the instants that they say, in every verb and every place that takes one. x' = 1, x' = c t
+-- and x' = -x have closed forms: rational numbers, which are compared exactly, and exp and sin to 40 digits by mpmath.
 local ambit = require "ambit"
 
 local one = ambit.ode { states = { "x" }, equations = function() return { x = 1 } end }

@@ -155,9 +155,9 @@ describe("reduce, the one-track vehicle", function()
       if term.technique == "enclosure" and term.status == "cut" then of[term.equation] = term.replacement end
     end
     local left, right = of.yaw:match "%[([-%d.]+), ([-%d.]+)%]"
-    assert.is_true(math.abs(right - 0.00825) < 1e-4 and tonumber(left) == -right)   -- equation 26
+    assert.is_true(math.abs(tonumber(right) - 0.00825) < 1e-4 and tonumber(left) == -tonumber(right))   -- equation 26
     local lo, hi = of.x:match "%[([-%d.]+), ([-%d.]+)%]"
-    assert.is_true(math.abs(lo - 16.64796) < 1e-3 and math.abs(hi - 16.667) < 1e-3) -- equation 27
+    assert.is_true(math.abs(tonumber(lo) - 16.64796) < 1e-3 and math.abs(tonumber(hi) - 16.667) < 1e-3) -- equation 27
     assert.is_true(small.error.x > 0.07 and small.error.x < 0.08)                   -- 0.0729 by sampling
     assert.is_true(small.error.y < 0.1)
     -- at t = 5.8 s, for the ends of the data: there x is least in both models

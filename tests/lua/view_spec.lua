@@ -124,7 +124,7 @@ local function follow(view, length, share)
     if i < #view.t then
       for _ = 1, parts do
         check(view.swept[i], "on the way")
-        s = advance(s, (view.t[i + 1] - view.t[i]) / parts, l1, 1)
+        s = advance(s, (tonumber(view.t[i + 1]) - tonumber(view.t[i])) / parts, l1, 1)
       end
       check(view.swept[i], "on the way")
     end
@@ -178,7 +178,8 @@ describe("what a page claims", function()
       for _, r in ipairs { 1.98, 2, 2.02 } do
         inside(view.boxes[i][1], place(tonumber(view.t[i]), r), 1e-12, "at " .. view.t[i])
         for k = 0, i < #view.t and 10 or -1 do
-          local t = view.t[i] + (view.t[i + 1] - view.t[i]) * (k / 10)
+          local from, to = tonumber(view.t[i]), tonumber(view.t[i + 1])
+          local t = from + (to - from) * (k / 10)
           inside(view.swept[i][1], place(t, r), 1e-12, ("from %s, at %.17g"):format(view.t[i], t))
         end
       end

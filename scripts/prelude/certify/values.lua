@@ -2,6 +2,7 @@
 -- the states there and, where it is smooth, as a state of its own (certify/run.lua); the intersection of both.
 local bracket = require "ambit.bracket"
 local core = require "ambit.core"
+local instant = require "ambit.instant"
 local run = require "ambit.certify.run"
 local work = require "ambit.work"
 
@@ -9,7 +10,7 @@ local values = {}
 
 -- n equal parts of the time of a scenario, and what the solver has to step on anyway.
 function values.instants(times, n)
-  local list, first, last = { shift = times.shift, last = times.last }, times[1], times[#times]
+  local list, first, last = instant.like(times, {}), times[1], times[#times]
   local direction, i = last > first and 1 or -1, 1
   for k = 0, n do
     local t = k == 0 and first or k == n and last or first + (last - first) * (k / n)
@@ -51,7 +52,7 @@ local function states_at_end(q, track, t)
     return named
   end
   return bracket.values({ track = track, states = q.system.states, system = q.system, times = q.times, rigorous = true,
-    initial = initial }, q.times.last, t)
+    initial = initial }, q.times.last, t, t)
 end
 
 -- The enclosures of all states at an instant; nil: the run did not get there.

@@ -18,8 +18,8 @@ function reference.read(value)
   check.table(value.x, what .. ".x")
   local t = instant.read(value.t == nil and check.fail("%s.t is missing: a time in seconds", what) or value.t,
     what .. ".t")
-  local read = { t = t.lo, bracket = t.lo < t.hi and t or nil, x = {}, source = value.source ~= nil and check.text(value.source, what .. ".source") or
-    "given by the scene" }
+  local source = value.source ~= nil and check.text(value.source, what .. ".source") or "given by the scene"
+  local read = { t = t.lo, bracket = t.lo < t.hi and t or nil, x = {}, source = source }
   for _, name in ipairs(check.sorted(value.x)) do
     check.text(name, what .. ".x: name of a state")
     local kind = check.kind(value.x[name])

@@ -4,6 +4,7 @@
 -- i and i + 1: a list of { t = enclosure, values }, each of which holds for all times in its t (the tubes of the steps
 -- of a run), together for all times from t[i] to t[i + 1].
 local core = require "ambit.core"
+local instant = require "ambit.instant"
 local simulate = require "ambit.simulate"
 
 local motion = {}
@@ -39,7 +40,7 @@ end
 
 -- About `count` instants from the start to what was reached, the given ones among them; nil: there is no room for them.
 local function finer(given, reached, count)
-  local times, whole = { given[1] }, math.abs(reached - given[1])
+  local times, whole = instant.like(given, { given[1] }), math.abs(reached - given[1])
   for i = 2, #given do
     local from, to = given[i - 1], given[i]
     local beyond = math.abs(to - given[1]) >= whole
@@ -66,9 +67,17 @@ local function refined(run, question, count)
   return good and again.status == "complete" and again or run
 end
 
+-- The last step of a run that ends in a bracket is that: what it says belongs to one instant.
+local function add_end(self, run, step)
+  local n, way = #self.t, self.over[#self.t - 1]
+  self.t[n], self.at[n] = run.times.final.near, run.x
+  if way then way[#way + 1] = step.has_tube and { t = span(step.clock_from, step.clock), values = step.tube } or nil end
+end
+
 -- Between the instants of a run: at most `count` of them, at ends of steps.
 local function collect(run, count)
   local steps, t_start = steps_of(run), run.t_start
+  local last = #steps > 1 and steps[#steps].clock_from == run.times.last and table.remove(steps) or nil
   local self = { t = { t_start }, at = { run.initial() }, over = {} }
   local tubes, length = {}, #steps > 0 and (steps[#steps].clock - t_start) / count or 0
   for i, step in ipairs(steps) do
@@ -79,6 +88,7 @@ local function collect(run, count)
       tubes = {}
     end
   end
+  if last then add_end(self, run, last) end
   return self
 end
 
