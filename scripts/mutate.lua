@@ -4,8 +4,8 @@
 --   lua5.4 scripts/mutate.lua [--count N] [--seed N] [--area NAME] [--place DIR] [--results FILE]
 --
 -- N mutations (300) are drawn from all that are possible, spread over the areas and the operators. What has been tried
--- stands in FILE (build/mutate/results.txt) and is not tried again, so that a run can be interrupted and go on. A
--- mutation that survives must be explained in scripts/mutate/explained.lua: it changes no answer, or only makes a set
+-- stands in FILE (docs/results/mutations.txt) and is not tried again, so that a run can be interrupted and go on; remove
+-- the file to try everything anew. A mutation that survives must be explained in scripts/mutate/explained.lua: it changes no answer, or only makes a set
 -- wider or a run slower. The exit code is 3 if one is not.
 package.path = "./scripts/?.lua;" .. package.path
 local areas = require "mutate.areas"
@@ -14,7 +14,7 @@ local known_before = require "mutate.known"
 local source = require "mutate.source"
 local trial = require "mutate.trial"
 
-local settings = { count = 300, seed = 1, place = "build/mutate/tree", results = "build/mutate/results.txt" }
+local settings = { count = 300, seed = 1, place = "build/mutate/tree", results = "docs/results/mutations.txt" }
 
 local function read_arguments()
   local i = 1
@@ -127,11 +127,11 @@ local function count(area, files, known, is_ready)
     local found = known[mutation.key]
     if not found then
       if not is_ready[area] then
-        local failed = trial.is_sound(area, settings.place, settings.results .. ".log")
+        local failed = trial.is_sound(area, settings.place, settings.place .. ".log")
         if failed then error(("the tests of `%s` fail without a mutation: %s"):format(area.name, failed), 0) end
         is_ready[area] = true
       end
-      found = { trial.run(area, mutation, settings.place, settings.results .. ".log") }
+      found = { trial.run(area, mutation, settings.place, settings.place .. ".log") }
       remember(mutation.key, found[1], found[2])
       print(("%-9s %s:%d %s %s"):format(found[1], mutation.file, mutation.line, mutation.operator, found[2] or ""))
       print("          " .. mutation.new:match "^%s*(.*)$")

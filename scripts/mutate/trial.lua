@@ -83,9 +83,9 @@ local function build(area, place, log)
   return shell(("cmake --build %s/build --target %s"):format(place, table.concat(area.targets, " ")), log)
 end
 
--- Do all tests of the area pass as it is?
+-- Do all tests of the area pass as it is? (All is built: a mutation of another area may still be in.)
 function trial.is_sound(area, place, log)
-  assert(build(area, place, log), "the area does not build: " .. area.name)
+  assert(shell(("cmake --build %s/build"):format(place), log), "the tree does not build")
   return noticed(area, place, log)
 end
 
@@ -101,7 +101,6 @@ function trial.run(area, mutation, place, log)
   end
   write(file, text)
   write(place .. "/mutated", "")
-  build(area, place, log)
   return outcome, by
 end
 
