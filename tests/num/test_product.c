@@ -184,6 +184,17 @@ static void matrices_contain_exact_sums(void **unused) {
           check_matrix(variant[v]->matmul, shape[i][0], shape[i][1], shape[i][2], kind, &state);
 }
 
+/* The functions that others call set the rounding mode themselves. */
+static void callers_need_no_rounding_mode(void **unused) {
+  (void)unused;
+  uint64_t state = 15;
+  for (size_t n = 1; n < 20; n++)
+    for (int kind = THIN; kind <= WIDE; kind++) {
+      check_series(ambit_product_convolve, n, kind, &state);
+      check_matrix(ambit_product_matmul, n, n, n, kind, &state);
+    }
+}
+
 static void an_empty_sum_is_zero(void **unused) {
   (void)unused;
   memset(d.rlo, 1, 6 * sizeof(double)), memset(d.rhi, 1, 6 * sizeof(double));
@@ -276,6 +287,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(series_contain_exact_sums),
     cmocka_unit_test(matrices_contain_exact_sums),
+    cmocka_unit_test(callers_need_no_rounding_mode),
     cmocka_unit_test(an_empty_sum_is_zero),
     cmocka_unit_test(odd_data_go_the_slow_way),
     cmocka_unit_test(a_matrix_with_one_empty_element),

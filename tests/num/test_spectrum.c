@@ -230,6 +230,25 @@ static void linear_equations_are_solved(void **arena) {
   }
 }
 
+/* All of [1 - r, 1 + r] x = [-1, 1] together: x in [-1 / (1 - r), 1 / (1 - r)], coupled or not. */
+static void wide_right_sides_are_covered(void **arena) {
+  (void)arena;
+  for (size_t n = 1; n <= 4; n++) {
+    const double r = 0.25;
+    ambit_interval a[16], b[4], x[4];
+    double scratch[32];
+    for (size_t i = 0; i < n * n; i++)
+      a[i] = i % (n + 1) ? (ambit_interval) { 0, 0 } : (ambit_interval) { 1 - r, 1 + r };
+    for (size_t i = 0; i < n; i++) b[i] = (ambit_interval) { -1, 1 };
+    assert_true(ambit_solve_enclose(n, a, b, x, scratch));
+    for (size_t i = 0; i < n; i++) assert_true(x[i].lo <= -1 / (1 - r) && x[i].hi >= 1 / (1 - r));
+    b[n - 1] = AMBIT_ENTIRE;
+    assert_false(ambit_solve_enclose(n, a, b, x, scratch));
+    a[0] = AMBIT_EMPTY;
+    assert_false(ambit_solve_enclose(n, a, b, x, scratch));
+  }
+}
+
 static int set_up(void **arena) { return (*arena = ambit_arena_open()) ? 0 : -1; }
 static int tear_down(void **arena) { return ambit_arena_close(*arena), 0; }
 
@@ -237,6 +256,6 @@ int main(void) {
   const struct CMUnitTest tests[] = { cmocka_unit_test(known_spectra_are_enclosed),
     cmocka_unit_test(bad_vectors_harm_nobody), cmocka_unit_test(members_of_wide_sets_are_enclosed),
     cmocka_unit_test(definite_means_definite), cmocka_unit_test(lyapunov_agrees_with_the_spectrum),
-    cmocka_unit_test(linear_equations_are_solved) };
+    cmocka_unit_test(linear_equations_are_solved), cmocka_unit_test(wide_right_sides_are_covered) };
   return cmocka_run_group_tests(tests, set_up, tear_down);
 }
