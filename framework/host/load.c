@@ -1,8 +1,10 @@
 /* load.c -- dlopen with everything checked that can be checked. */
 #include "host/load.h"
 #include "host/object.h"
+#include "host/trust.h"
 #include <dlfcn.h>
 #include <elf.h>
+#include <errno.h>
 #include <fenv.h>
 #include <link.h>
 #include <stdio.h>
@@ -75,28 +77,44 @@ static ambit_status check_entry(
 }
 
 /* The floating-point environment is kept: a library linked with -ffast-math sets flush-to-zero when it is loaded. */
-static void *open_library(const char *file) {
+static void *open_library(const char *file, char reason[AMBIT_REASON_MAX]) {
   fenv_t floating;
   fegetenv(&floating);
   void *handle = dlopen(file, RTLD_NOW | RTLD_LOCAL);
   fesetenv(&floating);
-  return handle;
+  if (handle) return handle;
+  const char *why = dlerror();
+  snprintf(reason, AMBIT_REASON_MAX, "the loader says: %s", why ? why : "no reason");
+  return NULL;
+}
+
+/* The file that was looked at is the one that is mapped: the loader opens it by its name once more. */
+static void *open_unchanged(const char *file, struct stat *about, char reason[AMBIT_REASON_MAX]) {
+  struct stat after;
+  if (stat(file, about) != 0) {
+    snprintf(reason, AMBIT_REASON_MAX, "%s", strerror(errno));
+    return NULL;
+  }
+  if (!ambit_trust_file(file, reason, AMBIT_REASON_MAX)) return NULL;
+  void *handle = open_library(file, reason);
+  if (!handle) return NULL;
+  if (stat(file, &after) == 0 && ambit_trust_same(about, &after)) return handle;
+  snprintf(reason, AMBIT_REASON_MAX, "it was changed while it was loaded");
+  dlclose(handle);
+  return NULL;
 }
 
 ambit_status ambit_load_file(const char *file, const char *id, ambit_loaded *loaded, char reason[AMBIT_REASON_MAX]) {
   if (!ambit_object_check(file, reason, AMBIT_REASON_MAX)) return AMBIT_INVALID;
-  void *handle = open_library(file);
-  if (!handle) {
-    const char *why = dlerror();
-    snprintf(reason, AMBIT_REASON_MAX, "the loader says: %s", why ? why : "no reason");
-    return AMBIT_INVALID;
-  }
+  void *handle = open_unchanged(file, &loaded->about, reason);
+  if (!handle) return AMBIT_INVALID;
   const void *entry = find_entry(handle, reason);
   if (!entry) return refuse(handle, AMBIT_INVALID);
   ambit_status status = check_entry(entry, id, &loaded->plugin, reason);
   if (status != AMBIT_OK) return refuse(handle, status);
   loaded->handle = handle;
   loaded->file = file;
+  loaded->shadows = false;
   return AMBIT_OK;
 }
 
@@ -121,6 +139,15 @@ static void suggest(
   if (near) snprintf(out, room, " (did you mean `%s`?)", near);
 }
 
+/* Ambit's own file of that kind and name, if `file` is another; NULL. */
+static const char *find_shadowed(
+    ambit_arena *arena, const ambit_path *path, const char *kind, const char *name, const char *file) {
+  struct stat own, other;
+  const char *shadowed = path->own ? ambit_path_file(arena, path->own, kind, name) : NULL;
+  if (!shadowed || stat(shadowed, &own) != 0 || stat(file, &other) != 0) return NULL;
+  return own.st_dev == other.st_dev && own.st_ino == other.st_ino ? NULL : shadowed;
+}
+
 ambit_status ambit_load_named(ambit_arena *arena, const ambit_path *path, const char *kind, const char *name,
     ambit_loaded *loaded, ambit_failure *f) {
   ambit_status status = ambit_path_check(kind, name, f);
@@ -130,7 +157,14 @@ ambit_status ambit_load_named(ambit_arena *arena, const ambit_path *path, const 
   for (size_t i = 0; i < path->count; i++) {
     const char *file = ambit_path_file(arena, path->directory[i], kind, name);
     if (!file) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+    const char *shadowed = find_shadowed(arena, path, kind, name, file);
+    if (shadowed && !ambit_trust_has_shadows())
+      return ambit_fail(f, AMBIT_INVALID,
+          "%s plugin `%s`: %s would take the place of Ambit's own %s; give it another name, or allow it "
+          "(--allow-shadow)",
+          kind, name, file, shadowed);
     status = ambit_load_file(file, id, loaded, reason);
+    loaded->shadows = shadowed != NULL;
     if (status == AMBIT_OK) return AMBIT_OK;
     append(tried, sizeof tried, file, reason);
     if (access(file, F_OK) == 0) return ambit_fail(f, status, "cannot use %s plugin `%s`:%s", kind, name, tried);

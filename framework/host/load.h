@@ -3,21 +3,24 @@
 #define AMBIT_LOAD_H
 #include "host/path.h"
 #include <stdbool.h>
+#include <sys/stat.h>
 
 typedef struct ambit_loaded {
   void *handle; /* dlclose when done */
   const char *file;
+  struct stat about;   /* of the file, when it was loaded */
+  bool shadows;        /* it has the kind and name of one of Ambit's own */
   ambit_plugin plugin; /* the kernel's copy, as far as both know the struct */
 } ambit_loaded;
 
 #define AMBIT_REASON_MAX 512
 
-/* Maps `file` and checks its entry: ABI version, size and, unless `id` is NULL, that it calls itself so. INVALID:
-** `reason` says why. */
+/* Maps `file`, if it may speak (trust.h), and checks its entry: ABI version, size and, unless `id` is NULL, that it
+** calls itself so. INVALID: `reason` says why. */
 ambit_status ambit_load_file(const char *file, const char *id, ambit_loaded *loaded, char reason[AMBIT_REASON_MAX]);
 /* The first existing <directory>/<kind>/<name>.so. A file that exists but cannot be used ends the search: silently
-** taking another plugin of the same name would hide the mistake. The failure lists every file tried and why it was
-** not taken. */
+** taking another plugin of the same name would hide the mistake. One that takes the place of Ambit's own ends it too,
+** unless that is allowed (trust.h). The failure lists every file tried and why it was not taken. */
 ambit_status ambit_load_named(ambit_arena *arena, const ambit_path *path, const char *kind, const char *name,
     ambit_loaded *loaded, ambit_failure *f);
 

@@ -1,7 +1,7 @@
 /* path.c -- the search path for plugins. */
 #include "host/path.h"
 #include "base/names.h"
-#include <dlfcn.h>
+#include "host/trust.h"
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -37,25 +37,14 @@ static void append_list(ambit_path *path, char *list) {
   }
 }
 
-/* The real name of the folder that holds libambit, in the arena. */
-static char *folder_of_kernel(ambit_arena *arena) {
-  Dl_info about;
-  if (!dladdr((void *)&ambit_plugin_kind, &about) || !about.dli_fname) return NULL;
-  char *real = realpath(about.dli_fname, NULL);
-  char *text = real ? ambit_arena_text(arena, real) : NULL;
-  free(real);
-  char *slash = text ? strrchr(text, '/') : NULL;
-  if (slash) *slash = '\0';
-  return slash ? text : NULL;
-}
-
 /* "<where libambit is>/ambit" */
 static char *beside_kernel(ambit_arena *arena) {
-  const char *folder = folder_of_kernel(arena);
-  if (!folder) return NULL;
-  size_t bytes = strlen(folder) + sizeof "/ambit";
-  char *text = ambit_arena_alloc(arena, bytes);
-  if (text) snprintf(text, bytes, "%s/ambit", folder);
+  char *kernel = ambit_trust_kernel();
+  char *slash = kernel ? strrchr(kernel, '/') : NULL;
+  size_t bytes = slash ? (size_t)(slash - kernel) + sizeof "/ambit" : 0;
+  char *text = slash ? ambit_arena_alloc(arena, bytes) : NULL;
+  if (text) snprintf(text, bytes, "%.*s/ambit", (int)(slash - kernel), kernel);
+  free(kernel);
   return text;
 }
 
@@ -63,12 +52,12 @@ ambit_status ambit_path_open(ambit_arena *arena, const char *given, ambit_path *
   if (!given) given = getenv("AMBIT_PATH");
   if (!given) given = "";
   char *list = ambit_arena_text(arena, given);
-  path->count = 0;
+  path->count = 0, path->own = NULL;
   path->directory = ambit_arena_alloc(arena, (count_parts(given) + 3) * sizeof *path->directory);
   if (!list || !path->directory) return AMBIT_NOMEM;
   append_list(path, list);
   const char *own = beside_kernel(arena);
-  if (own && is_directory(own)) append(path, own);
+  if (own && is_directory(own)) append(path, path->own = own);
   return AMBIT_OK;
 }
 

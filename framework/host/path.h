@@ -7,6 +7,7 @@
 typedef struct ambit_path {
   size_t count;
   const char **directory; /* [count] */
+  const char *own;        /* Ambit's own, the last of them; NULL: there is none */
 } ambit_path;
 
 /* given (NULL: $AMBIT_PATH), then Ambit's own: the directory `ambit` beside libambit, wherever that was moved. No

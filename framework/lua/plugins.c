@@ -1,6 +1,7 @@
 /* plugins.c -- plugins as Lua tables: the listing, and what each declares about itself (ports, parameters, options). */
 #include "lua/core.h"
 #include "base/names.h"
+#include "host/trust.h"
 #include <string.h>
 
 static void set_text(lua_State *L, const char *key, const char *value) {
@@ -122,6 +123,20 @@ static int list(lua_State *L) {
   return 1;
 }
 
+/* trust(folder): what lies there may be loaded, whoever may write there */
+static int trust(lua_State *L) {
+  ambit_failure f = { 0 };
+  if (ambit_trust_folder(luaL_checkstring(L, 1), &f) != AMBIT_OK) ambit_lua_raise(L, &f);
+  return 0;
+}
+
+/* allow_shadow(): a plugin on AMBIT_PATH may have the kind and name of one of Ambit's own */
+static int allow_shadow(lua_State *L) {
+  (void)L;
+  ambit_trust_shadows();
+  return 0;
+}
+
 /* nearest(name, {candidate, ...}) -> the nearest one or nil */
 static int nearest(lua_State *L) {
   const char *name = luaL_checkstring(L, 1);
@@ -138,6 +153,6 @@ static int nearest(lua_State *L) {
 
 void ambit_lua_open_plugins(lua_State *L, ambit_lua *core) {
   static const luaL_Reg functions[] = { { "plugin", plugin }, { "list", list }, { "nearest", nearest },
-    { NULL, NULL } };
+    { "trust", trust }, { "allow_shadow", allow_shadow }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
 }

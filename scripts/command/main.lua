@@ -18,10 +18,17 @@ local commands = {
 local exit_codes = [[
 exit codes: 0 done and proved, 1 script or input error, 2 wrong usage, 3 ran but could not prove, 130 interrupted]]
 
+local trust_options = [[
+options before the command, for plugins (AMBIT_PATH):
+  --trust FOLDER   load plugins from this folder although others may write there; may be repeated
+  --allow-shadow   a plugin may have the kind and name of one of Ambit's own, which it replaces
+]]
+
 local function overview()
   local lines = { "usage: ambit <command> [options]", "", "commands:" }
   for _, entry in ipairs(commands) do lines[#lines + 1] = ("  %-9s %s"):format(entry[1], entry[2]) end
   lines[#lines + 1] = ""
+  lines[#lines + 1] = trust_options
   lines[#lines + 1] = "`ambit <command> --help` says more; `ambit --version` prints the version."
   lines[#lines + 1] = exit_codes
   return table.concat(lines, "\n")
@@ -41,8 +48,31 @@ local function unknown(name)
   return usage_error(message, "try `ambit --help`")
 end
 
+-- Takes the options before the command off argv; nil, or what is wrong with them.
+local function take_trust(argv)
+  while argv[1] do
+    local folder = argv[1]:match "^%-%-trust=(.+)$"
+    if argv[1] == "--allow-shadow" then
+      core.allow_shadow()
+    elseif folder or argv[1] == "--trust" then
+      if not folder then
+        table.remove(argv, 1)
+        folder = argv[1]
+      end
+      if not folder then return "option `--trust` needs a folder" end
+      local good, problem = pcall(core.trust, folder)
+      if not good then return tostring(problem) end
+    else
+      return nil
+    end
+    table.remove(argv, 1)
+  end
+end
+
 return function(argv)
   core.text_arithmetic("ambit")
+  local problem = take_trust(argv)
+  if problem then return usage_error(problem, "try `ambit --help`") end
   local name = argv[1]
   if name == nil then return usage_error("expected a command", overview()) end
   if name == "--help" or name == "-h" or name == "help" then return print(overview()) or 0 end

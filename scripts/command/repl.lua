@@ -21,8 +21,8 @@ local function environment()
 end
 
 local function reader()
-  local found, readline = pcall(require, "readline")
-  if found and core.terminal "stdin" then return function(prompt) return readline.readline(prompt) end end
+  local readline = require "ambit.foreign".find "readline"
+  if readline and core.terminal "stdin" then return function(prompt) return readline.readline(prompt) end end
   local interactive = core.terminal "stdin"
   return function(prompt)
     if interactive then io.stdout:write(prompt) io.stdout:flush() end

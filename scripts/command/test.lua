@@ -14,8 +14,8 @@ ambit: the test runner "busted" is not installed for Lua 5.4
 ]]
 
 function command.run(words)
-  local found, runner = pcall(require, "busted.runner")
-  if not found then
+  local runner = require "ambit.foreign".find "busted.runner"
+  if not runner then
     io.stderr:write(missing)
     return 1
   end

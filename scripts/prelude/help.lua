@@ -101,6 +101,8 @@ of a mechanism; otherwise nothing happens.]],
   simplify = "simplify(e): an equal expression with fewer operations, if one is found.",
   plugins = "plugins([kind]): what there is, without loading it.",
   plugin = "plugin(kind, name): one plugin, loaded; its exported functions are in .fn.",
+  trust = "trust { folder, ..., shadow = true }: load plugins from these folders although others may write there;\n"
+    .. "shadow: a plugin may have the kind and name of one of Ambit's own, which it replaces.",
   help = "help([name]): this text; name of a function or a plugin.",
   version = "version: of Ambit.",
 }

@@ -35,6 +35,7 @@ local ambit = {
   view = later("view", "view"),
   plugins = later("plugin", "plugins"),
   plugin = later("plugin", "plugin"),
+  trust = later("plugin", "trust"),
   help = function(...) return require "ambit.help"(...) end,
 }
 

@@ -45,4 +45,16 @@ function plugin.plugin(kind, name)
   return p
 end
 
+-- trust { folder, ..., shadow = true }: what `ambit --trust FOLDER --allow-shadow` says, for a program that hosts Ambit
+-- in a Lua state. It holds for the whole process, and for plugins that are loaded from then on.
+function plugin.trust(t)
+  check.table(t, "trust")
+  check.keys(t, { "shadow" }, "trust", #t)
+  if t.shadow ~= nil and type(t.shadow) ~= "boolean" then
+    check.fail("trust: shadow: expected true or false, got %s", type(t.shadow))
+  end
+  for i, folder in ipairs(t) do core.trust(check.text(folder, ("trust: folder %d"):format(i))) end
+  if t.shadow then core.allow_shadow() end
+end
+
 return plugin

@@ -8,8 +8,8 @@ local check = require "ambit.check"
 local xml = {}
 
 local function expat(what)
-  local found, lxp = pcall(require, "lxp")
-  if found then return lxp end
+  local lxp = require "ambit.foreign".find "lxp"
+  if lxp then return lxp end
   check.fail("%s: to read XML the Lua module `lxp` is needed, which is not installed (Debian: apt install lua-expat)",
     what)
 end

@@ -918,6 +918,11 @@ function ambit.plugins(kind) end
 ---@param name string
 ---@return { kind: string, name: string, version: string, doc: string, fn: table<string, function> }
 function ambit.plugin(kind, name) end
+
+---Loads plugins from these folders although others may write there. It holds for the whole process, and for plugins that
+---are loaded from then on: what `ambit --trust FOLDER --allow-shadow` says on the command line.
+---@param t { [integer]: string, shadow?: boolean } shadow: a plugin may replace one of Ambit's own by its kind and name
+function ambit.trust(t) end
 ---@param name? string
 ---@return string
 function ambit.help(name) end

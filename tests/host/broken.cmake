@@ -24,7 +24,7 @@ foreach(test host.registry host.object host.services host.slow_fault host.trust 
     model.allocations model.work)
   if(TARGET test.${test})
     target_compile_definitions(test.${test} PRIVATE AMBIT_BROKEN_DIR="${AMBIT_BROKEN_DIR}"
-      AMBIT_SHADOW_DIR="${AMBIT_SHADOW_DIR}" AMBIT_LYING_DIR="${AMBIT_LYING_DIR}")
+      AMBIT_SHADOW_DIR="${AMBIT_SHADOW_DIR}" AMBIT_LYING_DIR="${AMBIT_LYING_DIR}" AMBIT_PLUGINS_DIR="${PROJECT_BINARY_DIR}/plugins")
     add_dependencies(test.${test} broken_plugins)
   endif()
 endforeach()

@@ -1,5 +1,6 @@
 /* test_services.c -- what the kernel lends: memory, one failure message, notes, services by id; the slow path of the
 ** elementary functions. */
+#include "host/trust.h"
 #include "host/services.h"
 #include "graph/jet.h"
 #include "host/registry.h"
@@ -83,6 +84,7 @@ static void does_without_the_slow_path(void **state) {
   ambit_interval s, huge = { 1e300, 1e300 };
   int notes = 0;
   (void)state;
+  ambit_trust_shadows();
   ambit_registry *r = ambit_registry_open(AMBIT_SHADOW_DIR);
   assert_non_null(r);
   ambit_registry_set_note(r, count_note, &notes);
