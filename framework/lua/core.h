@@ -53,8 +53,10 @@ typedef struct ambit_lua_expression {
   int8_t dimension[7];
 } ambit_lua_expression;
 
-/* An enclosure; flags: AMBIT_F_PARTIAL if some operation on the way left its domain. One that a script wrote down,
-** `declared`, is a set of which all of `inner` is known to be meant; of what was computed no value is. */
+/* An enclosure; flags: AMBIT_F_PARTIAL if some operation on the way left its domain; or AMBIT_LUA_SAMPLED (sampled.h).
+** One that a script wrote down, `declared`, is a set of which all of `inner` is known to be meant; of what was computed
+** no value is. */
+#define AMBIT_LUA_SAMPLED 0x100u
 typedef struct ambit_lua_enclosure {
   ambit_interval x;
   uint32_t flags;

@@ -1,5 +1,6 @@
 /* enclosure.c -- enclosures as Lua values: bounds, width, text rounded outward, certain comparisons. */
 #include "lua/core.h"
+#include "lua/sampled.h"
 #include "num/decimal.h"
 #include <string.h>
 
@@ -52,9 +53,12 @@ static int intersect(lua_State *L) {
 static int text(lua_State *L) {
   const ambit_lua_enclosure *x = self(L);
   lua_Integer digits = lua_isnumber(L, 2) ? lua_tointeger(L, 2) : 3;
-  char out[3 * AMBIT_DECIMAL_MAX];
+  char out[AMBIT_SAMPLED_MAX];
   if (digits < 1 || digits > 17) ambit_lua_error(L, "text: expected 1 to 17 digits");
-  lua_pushlstring(L, out, (size_t)ambit_decimal_interval(out, x->x, (int)digits));
+  int length = x->flags & AMBIT_LUA_SAMPLED
+                   ? ambit_lua_sampled_text((const ambit_lua_sampled *)(const void *)x, (int)digits, out)
+                   : ambit_decimal_interval(out, x->x, (int)digits);
+  lua_pushlstring(L, out, (size_t)length);
   return 1;
 }
 
@@ -84,13 +88,17 @@ static int less_equal(lua_State *L) {
   return 1;
 }
 
-/* x.lo, x.hi, x.partial; everything else is a method (own value 1) */
+/* x.lo, x.hi, x.partial, x.error (nil unless it was sampled); everything else is a method (own value 1) */
 static int get_field(lua_State *L) {
   const ambit_lua_enclosure *x = self(L);
   const char *key = luaL_checkstring(L, 2);
   if (strcmp(key, "lo") == 0) return lua_pushnumber(L, x->x.lo), 1;
   if (strcmp(key, "hi") == 0) return lua_pushnumber(L, x->x.hi), 1;
   if (strcmp(key, "partial") == 0) return lua_pushboolean(L, (x->flags & AMBIT_F_PARTIAL) != 0), 1;
+  if (strcmp(key, "error") == 0) {
+    if (!(x->flags & AMBIT_LUA_SAMPLED)) return 0;
+    return lua_pushnumber(L, ((const ambit_lua_sampled *)(const void *)x)->error), 1;
+  }
   lua_pushvalue(L, 2);
   if (lua_rawget(L, AMBIT_LUA_OWN(1)) != LUA_TNIL) return 1;
   ambit_lua_error(L,

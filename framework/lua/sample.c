@@ -2,6 +2,7 @@
 #include "lua/core.h"
 #include "lua/receiver.h"
 #include "lua/request.h"
+#include "lua/sampled.h"
 #include "model/context.h"
 #include "model/sample.h"
 #include <math.h>
@@ -87,7 +88,7 @@ static void push_facts(lua_State *L, const ambit_sample_result *r, size_t n, con
   lua_setfield(L, -2, "errors");
 }
 
-/* sample_expressions(arithmetic, options, {expression}, {leaf}, {value}, draws, seed, plan or nil) -> {enclosure},
+/* sample_expressions(arithmetic, options, {expression}, {leaf}, {value}, draws, seed, plan or nil) -> {sampled},
 ** {defined draws}, report, facts */
 static int sample_expressions(lua_State *L) {
   wishes w = read_wishes(L, 6);
@@ -103,7 +104,7 @@ static int sample_expressions(lua_State *L) {
   ambit_status status = ambit_sample_expressions(&q, &w.plan, hull, error, defined, &result, &report, &f);
   ambit_receiver_end(&to);
   if (status != AMBIT_OK) ambit_lua_raise(L, &f);
-  ambit_lua_push_enclosures(L, q.nexpr, hull, 0);
+  ambit_lua_push_sampled(L, q.nexpr, hull, error);
   lua_createtable(L, (int)q.nexpr, 0);
   for (size_t i = 0; i < q.nexpr; i++) {
     lua_pushinteger(L, (lua_Integer)defined[i]);
@@ -114,7 +115,7 @@ static int sample_expressions(lua_State *L) {
   return 4;
 }
 
-/* sample_system(as simulate, draws, seed, plan or nil) -> {enclosure} by instant and state, facts, report. Solver "":
+/* sample_system(as simulate, draws, seed, plan or nil) -> {sampled} by instant and state, facts, report. Solver "":
 ** lanes. */
 static int sample_system(lua_State *L) {
   wishes w = read_wishes(L, 8);
@@ -131,7 +132,7 @@ static int sample_system(lua_State *L) {
   ambit_status status = ambit_sample_system(&q, &w.plan, hull, error, &result, &report, &f);
   ambit_receiver_end(&to);
   if (status != AMBIT_OK) ambit_lua_raise(L, &f);
-  ambit_lua_push_enclosures(L, n, hull, 0);
+  ambit_lua_push_sampled(L, n, hull, error);
   push_facts(L, &result, n, error);
   ambit_lua_push_report(L, &report);
   return 3;

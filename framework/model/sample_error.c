@@ -92,3 +92,13 @@ ambit_status ambit_sample_estimate_error(const ambit_sample_error *q, ambit_aren
   }
   return AMBIT_OK;
 }
+
+ambit_interval ambit_sample_sure(ambit_interval hull, double *error) {
+  if (ambit_interval_is_empty(hull) || !isfinite(*error) || *error == 0) return hull;
+  double lo = ambit_interval_add((ambit_interval) { hull.lo, hull.lo }, (ambit_interval) { *error, *error }).hi;
+  double hi = ambit_interval_sub((ambit_interval) { hull.hi, hull.hi }, (ambit_interval) { *error, *error }).lo;
+  if (lo < hi) return (ambit_interval) { lo, hi };
+  double middle = ambit_interval_mid(hull), radius = ambit_interval_rad(hull);
+  *error = ambit_interval_add((ambit_interval) { *error, *error }, (ambit_interval) { radius, radius }).hi;
+  return (ambit_interval) { middle, middle };
+}

@@ -18,6 +18,9 @@ typedef struct ambit_sample_error {
   const ambit_interval *hull;     /* [ntime * nx] of the sample */
 } ambit_sample_error;
 
+/* The part of a hull that its error leaves, rounded inward; if it leaves nothing, the middle, and *error becomes how far
+** it may be from all that was drawn. An error that is not known leaves all. */
+ambit_interval ambit_sample_sure(ambit_interval hull, double *error);
 /* error [ntime * nx]: of state i at time[k] at k * nx + i; NaN where nothing is known. OK or NOMEM. */
 ambit_status ambit_sample_estimate_error(const ambit_sample_error *q, ambit_arena *arena, double *error);
 #endif

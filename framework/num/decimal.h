@@ -32,4 +32,6 @@ int ambit_decimal_up(char out[AMBIT_DECIMAL_MAX], double x, int digits);   /* no
 /* "[2.3205, 2.3916]": rounded outward, `digits` significant digits of the width (1..17); a point that the digits show
 ** exactly prints bare: "2.5"; "[empty]", "[entire]". Returns the length. */
 int ambit_decimal_interval(char out[3 * AMBIT_DECIMAL_MAX], ambit_interval x, int digits);
+/* The same rounded inward, with two digits or more: all of what it shows is in x. */
+int ambit_decimal_inner(char out[3 * AMBIT_DECIMAL_MAX], ambit_interval x, int digits);
 #endif

@@ -67,3 +67,13 @@ int ambit_decimal_interval(char out[3 * AMBIT_DECIMAL_MAX], ambit_interval x, in
   ambit_decimal_up(hi, x.hi, shown);
   return snprintf(out, 3 * AMBIT_DECIMAL_MAX, "[%s, %s]", lo, hi);
 }
+
+/* digits >= 2: then there are ten units of the last digit at least between the bounds, which cannot pass each other */
+int ambit_decimal_inner(char out[3 * AMBIT_DECIMAL_MAX], ambit_interval x, int digits) {
+  if (!ambit_interval_is_bounded(x) || !(x.lo < x.hi)) return ambit_decimal_interval(out, x, digits);
+  char lo[AMBIT_DECIMAL_MAX], hi[AMBIT_DECIMAL_MAX];
+  int shown = visible_digits(x, digits < 2 ? 2 : digits > 17 ? 17 : digits);
+  ambit_decimal_up(lo, x.lo, shown);
+  ambit_decimal_down(hi, x.hi, shown);
+  return snprintf(out, 3 * AMBIT_DECIMAL_MAX, "[%s, %s]", lo, hi);
+}

@@ -177,20 +177,20 @@ local function dense_times(times)
   return list
 end
 
-local function bounds_of(values, errors, width, times)
+local function bounds_of(values, width, times)
   local lo, hi, error = {}, {}, {}
   for i = 1, width do
     lo[i], hi[i], error[i] = {}, {}, {}
     for k = 1, times do
       local at = (k - 1) * width + i
-      lo[i][k], hi[i][k], error[i][k] = values[at].lo, values[at].hi, errors[at]
+      lo[i][k], hi[i][k], error[i][k] = values[at].lo, values[at].hi, values[at].error
     end
   end
   return lo, hi, error
 end
 
 local function inner_of(facts, times, values, width)
-  local lo, hi, error = bounds_of(values, facts.errors, width, #times)
+  local lo, hi, error = bounds_of(values, width, #times)
   return { t = times, lo = lo, hi = hi, error = error, draws = facts.draws, failed = facts.failed,
     status = facts.status, reason = facts.reason, points = facts.points, cpu_seconds = facts.cpu_seconds }
 end
@@ -210,8 +210,8 @@ end
 
 -- The inner hull for what another verb was asked: q = what simulate.request makes, or { expressions, leaves, values }
 -- of an evaluation -> { t, lo = { { bound at t[1], ... } by state or result }, hi, error, draws, failed, status,
--- cpu_seconds }, or nil and why there is none. Where no draw reached a time, lo = inf and hi = -inf; the ends may be
--- off by `error` (NaN: not known). options: cpu = s after which it ends with what it has, threads, t = { times of its
+-- cpu_seconds }, or nil and why there is none. Where no draw reached a time, lo = inf and hi = -inf; the hull is made
+-- smaller by `error` already (NaN: not known); where that leaves nothing, lo = hi is off by `error`. options: cpu = s after which it ends with what it has, threads, t = { times of its
 -- own instead of those of the request and 49 between }, points.
 function verb.inner(q, n, seed, options)
   local plan = { polish = true }

@@ -22,6 +22,7 @@ local ambit = {}
 ---@field lo number exact double
 ---@field hi number exact double
 ---@field partial boolean some operation on the way left its domain; the set holds for the part inside
+---@field error? number of what was sampled: by how much its hull was made smaller, or how far off its middle is
 ---@operator add(ambit.datum): ambit.enclosure
 ---@operator sub(ambit.datum): ambit.enclosure
 ---@operator mul(ambit.datum): ambit.enclosure
@@ -714,8 +715,8 @@ function ambit.reduce(t) end
 ---@field wall_seconds number
 ---@field t number[]
 ---@field states string[]
----@field x table<string, ambit.enclosure> hull of the draws at the last time
----@field error table<string, number> how far its ends may be off: an estimate; of expressions a proved bound
+---@field x table<string, ambit.enclosure> hull of the draws at the last time, made smaller by its error
+---@field error table<string, number> how far the ends of what was drawn may be off: an estimate; of expressions a proved bound
 local sample = {}
 ---@param t number|string one of the listed times
 ---@return table<string, ambit.enclosure>

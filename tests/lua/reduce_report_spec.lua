@@ -281,7 +281,7 @@ describe("the sampled error", function()
     local detailed, reduced = models(between(1, 2), core.expression "1e-14")
     local s = facts { detailed = detailed, model = reduced }:sample { draws = 50 }
     local exact = 1e-14 * (1 - math.exp(-5))
-    assert.is_true(math.abs(s.error.x - exact) < 0.05 * exact)
+    assert.is_true(s.error.x <= exact and s.error.x > 0.5 * exact) -- less what the draws may be off by
   end)
 
   it("takes outputs that are no states, what scenarios vary, and several scenarios", function()

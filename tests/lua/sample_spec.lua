@@ -110,8 +110,8 @@ describe("sample of a system", function()
       for _, t in ipairs { 0, 0.5, 2 } do
         local x, error = s:at(t).x, s:error_at(t).x
         assert.truthy(error >= 0 and error < 1e-8)
-        assert.truthy(math.abs(x.lo - math.exp(-1.5 * t)) <= error + 1e-15)
-        assert.truthy(math.abs(x.hi - 2 * math.exp(-t)) <= error + 1e-15)
+        assert.truthy(math.abs(x.lo - math.exp(-1.5 * t)) <= 2 * error + 1e-15)
+        assert.truthy(math.abs(x.hi - 2 * math.exp(-t)) <= 2 * error + 1e-15)
       end
       assert.equal(s.x.x.hi, s:at(2).x.hi)
     end
@@ -119,7 +119,7 @@ describe("sample of a system", function()
 
   it("goes backwards in time, takes tolerances, and options of gsl", function()
     local back = draw { t = { 2, 0 } }
-    assert.truthy(math.abs(back.x.x.hi - 2 * math.exp(3)) <= back.error.x)
+    assert.truthy(math.abs(back.x.x.hi - 2 * math.exp(3)) <= 2 * back.error.x)
     local loose = draw { relative = 1e-4, absolute = "1e-6" }
     assert.truthy(loose.error.x > draw().error.x)
     assert.equal("gsl", draw { method = "rkf45" }.method)
@@ -134,6 +134,37 @@ describe("sample of a system", function()
     assert.equal(one.x.x.lo, three.x.x.lo)
     assert.equal(one.x.x.hi, three.x.x.hi)
     assert.equal(one.error.x, three.error.x)
+  end)
+
+  -- What is printed, too: all digits are known.
+  it("claims no more than it knows", function()
+    for _, relative in ipairs { 1e-3, 1e-6, 1e-10 } do
+      local s = draw { relative = relative, absolute = relative }
+      for _, t in ipairs { 0, 0.5, 2 } do
+        local x, lo, hi = s:at(t).x, math.exp(-1.5 * t), 2 * math.exp(-t)
+        assert.truthy(x.lo >= lo and x.hi <= hi and x.error == s:error_at(t).x)
+        for _, digits in ipairs { 3, 17 } do
+          local from, to = x:text(digits):match "^%[(%S+), (%S+)%]$"
+          assert.truthy(tonumber(from) >= lo and tonumber(to) <= hi, x:text(digits))
+        end
+      end
+      local one = draw { initial = { x = 1 }, relative = relative, absolute = relative, t = { 0, 2 },
+        ambit.ode { states = { "x" }, equations = function(st) return { x = -st.x } end } }
+      for _, digits in ipairs { 3, 17 } do
+        local value, error = one.x.x:text(digits):match "^(%S+) %+%- (%S+)$"
+        assert.truthy(math.abs(value - math.exp(-2)) <= tonumber(error), one.x.x:text(digits))
+        assert.truthy(tonumber(error) <= 2.5 * one.error.x)
+      end
+    end
+    assert.is_nil(ambit.interval(0, 1).error)
+  end)
+
+  it("says of one draw that its error is all there is to it", function()
+    local q = { decay, initial = { x = 1 }, t = { 0, 1 }, n = 20, threads = 1 }
+    q[1] = ambit.ode { states = { "x" }, equations = function(s) return { x = -s.x } end }
+    local run, seen = ambit.simulate { q[1], initial = q.initial, t = q.t }, ambit.sample(q)
+    assert.is_nil(run:overestimation(seen).x)
+    assert.is_nil(run:overestimation(seen).contradiction)
   end)
 
   -- The true range of x at the last time lies within lo, hi: does the hull, made smaller by its error, too?
@@ -197,9 +228,12 @@ describe("overestimation", function()
     local e = ambit.sqrt(between(0, 1) + 1e16) - 1e8 -- from 0 to 5e-9; doubles there are 1.5e-8 apart
     local seen = ambit.sample { { e } }
     assert.is_nil(ambit.overestimation(ambit.evaluate { { e } }, seen)[1])
-    assert.is_nil(over.factor(ambit.interval(0, 1), 0, 1, math.huge))
-    assert.equal(2, over.factor(ambit.interval(0, 1), 0, 1, 0.25))
-    assert.equal(1, over.factor(ambit.interval(0, 1), 0, 1, 0 / 0))
+    assert.is_nil(over.factor(ambit.interval(0, 1), { lo = 0.5, hi = 0.5, error = 1 }))
+    assert.equal(2, over.factor(ambit.interval(0, 1), { lo = 0.25, hi = 0.75, error = 0.25 }))
+    assert.is_false(over.misses(ambit.interval(0, 1), { lo = 1.5, hi = 1.5, error = 0.75 }))
+    assert.is_true(over.misses(ambit.interval(0, 1), { lo = 1.5, hi = 1.5, error = 0.25 }))
+    assert.is_true(over.misses(ambit.interval(0, 1), { lo = 0.5, hi = 1.5, error = 0.75 })) -- made smaller already
+    assert.is_false(over.misses(ambit.interval(0, 1), { lo = 0.5, hi = 1.5, error = 0 / 0 }))
   end)
 
   it("says what it cannot compare", function()
@@ -267,8 +301,8 @@ describe("the inner hull of another verb's request", function()
     local own = {}
     for k, t in ipairs(inner.t) do
       own[t] = k
-      assert.truthy(math.abs(inner.lo[1][k] - math.exp(-t)) <= inner.error[1][k])
-      assert.truthy(math.abs(inner.hi[1][k] - 2 * math.exp(-t)) <= inner.error[1][k])
+      assert.truthy(math.abs(inner.lo[1][k] - math.exp(-t)) <= 2 * inner.error[1][k])
+      assert.truthy(math.abs(inner.hi[1][k] - 2 * math.exp(-t)) <= 2 * inner.error[1][k])
     end
     assert.truthy(own[0.0] and own[1.0] and own[3.0])
     assert.equal(100, inner.draws)

@@ -1,6 +1,7 @@
 /* test_sample.c -- hulls of draws lie inside the true range, come close to it, and are the same for the same seed,
 ** however many threads there are. */
 #include "model/sample.h"
+#include "model/sample_error.h"
 #include "num/random.h"
 #include "model/scene.h"
 #include <math.h>
@@ -364,9 +365,28 @@ static void counts_draws_that_fail(void **state) {
   assert_non_null(strstr(f.message, "solver `mock`: this system is not for me"));
 }
 
+static void keeps_what_its_error_leaves(void **state) {
+  (void)state;
+  double error = 0.25, small = 0x1p-60, none = 0, unknown = NAN, endless = INFINITY;
+  ambit_interval hull = { 1, 2 }, x = ambit_sample_sure(hull, &error);
+  assert_true(x.lo == 1.25 && x.hi == 1.75 && error == 0.25);
+  x = ambit_sample_sure(hull, &small); /* rounded inward */
+  assert_true(x.lo > 1 && x.hi < 2);
+  x = ambit_sample_sure((ambit_interval) { 1, 1.25 }, &error);
+  assert_true(x.lo == 1.125 && x.hi == 1.125 && error == 0.375);
+  x = ambit_sample_sure(hull, &none);
+  assert_true(x.lo == 1 && x.hi == 2);
+  x = ambit_sample_sure(hull, &unknown);
+  assert_true(x.lo == 1 && x.hi == 2 && isnan(unknown));
+  x = ambit_sample_sure(hull, &endless);
+  assert_true(x.lo == 1 && x.hi == 2 && isinf(endless));
+  assert_true(ambit_interval_is_empty(ambit_sample_sure(AMBIT_EMPTY, &error)));
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(draws_uniformly),
+    cmocka_unit_test(keeps_what_its_error_leaves),
     cmocka_unit_test_setup_teardown(estimates_from_inside, set_up, tear_down),
     cmocka_unit_test_setup_teardown(threads_change_nothing, set_up, tear_down),
     cmocka_unit_test_setup_teardown(follows_extremes, set_up, tear_down),

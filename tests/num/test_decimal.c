@@ -169,6 +169,29 @@ static void printing(void **unused) {
   assert_int_equal(ambit_decimal_shortest(text, -INFINITY), 4);
 }
 
+/* Bounds of any widths, some ulps or many decades: what is shown lies inside, in order. */
+static void printing_inward(void **unused) {
+  (void)unused;
+  uint64_t seed = 5;
+  for (int i = 0; i < 100000; i++) {
+    double a = oracle_uniform(&seed, -2, 2) * pow(10, oracle_uniform(&seed, -20, 20));
+    double b = i % 3 ? a + oracle_uniform(&seed, -1, 1) * pow(10, oracle_uniform(&seed, -16, 2)) * fabs(a)
+                     : nextafter(a, INFINITY);
+    ambit_interval x = { fmin(a, b), fmax(a, b) }, lo, hi;
+    char text[3 * AMBIT_DECIMAL_MAX], *comma;
+    ambit_decimal_inner(text, x, 1 + i % 17);
+    if (x.lo == x.hi || !(comma = strchr(text, ','))) continue;
+    *comma = '\0';
+    comma[strlen(comma + 1)] = '\0'; /* the bracket */
+    assert_int_equal(ambit_decimal_read(text + 1, &lo, NULL, NULL), AMBIT_OK);
+    assert_int_equal(ambit_decimal_read(comma + 1, &hi, NULL, NULL), AMBIT_OK);
+    if (!(lo.hi >= x.lo && hi.lo <= x.hi && lo.lo <= hi.hi)) fail_msg("[%a, %a]: %s,%s", x.lo, x.hi, text, comma + 1);
+  }
+  char text[3 * AMBIT_DECIMAL_MAX];
+  ambit_decimal_inner(text, (ambit_interval) { 0.49331, 0.58959 }, 3);
+  assert_string_equal(text, "[0.4934, 0.5895]");
+}
+
 static void locales(void **unused) {
   (void)unused;
   if (!setlocale(LC_NUMERIC, "de_DE.UTF-8") && !setlocale(LC_NUMERIC, "fr_FR.UTF-8")) {
@@ -202,6 +225,7 @@ int main(void) {
     cmocka_unit_test(rest_and_tolerance),
     cmocka_unit_test(random_literals),
     cmocka_unit_test(printing),
+    cmocka_unit_test(printing_inward),
     cmocka_unit_test(locales),
     cmocka_unit_test(turkish),
   };

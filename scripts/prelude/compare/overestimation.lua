@@ -42,11 +42,11 @@ end
 local function missed(row, x, comparison, i)
   local sample = comparison.sample
   for k, name in ipairs(comparison.names) do
-    local set, lo, hi = core.interval(x.lo[k], x.hi[k]), sample.lo[k][i], sample.hi[k][i]
-    if sample_overestimation.misses(set, lo, hi, SURE * sample.error[k][i]) then
+    local set, hull = core.interval(x.lo[k], x.hi[k]), sample_overestimation.hull_of(sample, k, i)
+    if sample_overestimation.misses(set, hull, SURE) then
       return ("%s misses sampled motions about %s at t = %s: %s, and draws from %s to %s that are off by about %.2g")
-        :format(row.label, name, core.literal(sample.t[i]), tostring(set), core.literal(lo), core.literal(hi),
-          sample.error[k][i])
+        :format(row.label, name, core.literal(sample.t[i]), tostring(set), core.literal(hull.lo),
+          core.literal(hull.hi), hull.error)
     end
   end
 end

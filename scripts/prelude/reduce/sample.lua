@@ -87,12 +87,15 @@ local function grid(times)
   return list
 end
 
-local function magnitude(x) return x:is_empty() and 0 or x:mag() end
+-- How far off what is known of a hull only as its middle may be.
+local function slack(x) return x.lo == x.hi and x.error == x.error and x.error or 0 end
+
+local function magnitude(x) return x:is_empty() and 0 or math.max(0, x:mag() - slack(x)) end
 
 -- How far apart the hulls are at their ends (equation 19).
 local function apart(a, b)
   if a:is_empty() or b:is_empty() then return 0 end
-  return math.max(math.abs(a.lo - b.lo), math.abs(a.hi - b.hi))
+  return math.max(0, math.max(math.abs(a.lo - b.lo), math.abs(a.hi - b.hi)) - slack(a) - slack(b))
 end
 
 -- Fills in what was found of an output: the difference over time, the greatest error and when it is.

@@ -9,24 +9,29 @@ local core = require "ambit.core"
 
 local over = {}
 
--- Width of the enclosure per width of the hull that is sure; nil: the hull is empty or nothing but error, so it says
--- nothing. An unknown error (nil, NaN) is taken for none.
-function over.factor(enclosure, lo, hi, error)
-  local sure = hi - lo - (error and error == error and 2 * error or 0)
+-- A hull is a sampled range: { lo, hi, error }, made smaller by its error already (framework/lua/sampled.h); where it is
+-- nothing but error, lo = hi is off by `error`.
+
+-- Width of the enclosure per width of the hull; nil: the hull is empty or nothing but error, so it says nothing.
+function over.factor(enclosure, hull)
+  local sure = hull.hi - hull.lo
   if not (sure > 0) then return nil end
   return enclosure:width() / sure
 end
 
--- Does the enclosure miss a value that was seen, by more than that may be off? Unknown errors excuse everything.
-function over.misses(enclosure, lo, hi, error)
+-- Does the enclosure miss a value that was seen, by more than `times` (1) what it may be off? Unknown errors excuse
+-- everything.
+function over.misses(enclosure, hull, times)
+  local lo, hi, error = hull.lo, hull.hi, hull.error
   if not (hi >= lo) or not error or error ~= error then return false end
   if enclosure:is_empty() then return true end
-  return enclosure.lo > lo + error or enclosure.hi < hi - error
+  local more = error == 0 and 0 or ((times or 1) - (lo < hi and 1 or 0)) * error
+  return enclosure.lo > lo + more or enclosure.hi < hi - more
 end
 
-local function complaint(name, enclosure, lo, hi, error, when)
-  return ("%s%s: the enclosure %s misses sampled values from %s to %s, which are off by at most %.2g"):format(name,
-    when or "", enclosure:text(17), core.literal(lo), core.literal(hi), error)
+local function complaint(name, enclosure, hull, when)
+  return ("%s%s: the enclosure %s misses sampled values from %s to %s"):format(name, when or "", enclosure:text(17),
+    core.literal(hull.lo), core.literal(hull.hi))
 end
 
 -- -- runs
@@ -39,11 +44,9 @@ local function of_run(run, t)
   return run:at(t)
 end
 
-local function factors(run, enclosures, hulls, errors)
+local function factors(run, enclosures, hulls)
   local list = {}
-  for _, name in ipairs(run.states) do
-    list[name] = over.factor(enclosures[name], hulls[name].lo, hulls[name].hi, errors[name])
-  end
+  for _, name in ipairs(run.states) do list[name] = over.factor(enclosures[name], hulls[name]) end
   return list
 end
 
@@ -53,13 +56,12 @@ local methods = {}
 -- By state name at one of the times of the sample.
 function methods:at(t)
   local facts = getmetatable(self).facts
-  local hulls, errors = facts.sample:at(t), facts.sample:error_at(t)
-  local enclosures = of_run(facts.run, t)
+  local hulls, enclosures = facts.sample:at(t), of_run(facts.run, t)
   if not enclosures then
     check.fail("at: the run has no tight enclosure at t = %s: put it into the list of times, or simulate with " ..
       "dense = true", core.literal(t))
   end
-  return factors(facts.run, enclosures, hulls, errors)
+  return factors(facts.run, enclosures, hulls)
 end
 
 local function text(self)
@@ -88,15 +90,13 @@ function over.of_run(run, sample)
   for _, t in ipairs(sample.t) do
     local enclosures = of_run(run, t)
     if enclosures then
-      local hulls, errors = sample:at(t), sample:error_at(t)
-      final, facts.t = factors(run, enclosures, hulls, errors), t
+      local hulls = sample:at(t)
+      final, facts.t = factors(run, enclosures, hulls), t
       for _, name in ipairs(run.states) do
         local hull = hulls[name]
         if final[name] then facts.max[name] = math.max(facts.max[name] or 0, final[name]) end
-        if not facts.contradiction and run.rigorous
-          and over.misses(enclosures[name], hull.lo, hull.hi, errors[name]) then
-          facts.contradiction = complaint(name, enclosures[name], hull.lo, hull.hi, errors[name],
-            " at t = " .. core.literal(t))
+        if not facts.contradiction and run.rigorous and over.misses(enclosures[name], hull) then
+          facts.contradiction = complaint(name, enclosures[name], hull, " at t = " .. core.literal(t))
         end
       end
     end
@@ -112,7 +112,7 @@ end
 
 local function at_path(path) return path == "" and "" or " at " .. path:gsub("%.$", "") end
 
-local function walk(result, sample, errors, visit, path)
+local function walk(result, sample, visit, path)
   if type(result) ~= "table" then
     if check.kind(result) ~= "enclosure" then
       check.fail("overestimation: expected what ambit.evaluate or ambit.simulate gave%s, got %s", at_path(path),
@@ -121,7 +121,7 @@ local function walk(result, sample, errors, visit, path)
       check.fail("overestimation: expected what ambit.sample made of the same%s, got %s", at_path(path),
         check.kind(sample))
     end
-    return visit(result, sample, errors, path)
+    return visit(result, sample, path)
   end
   local list = {}
   for _, key in ipairs(check.sorted(result)) do
@@ -129,39 +129,31 @@ local function walk(result, sample, errors, visit, path)
     if inner == nil or inner == false then
       check.fail("overestimation: the sample has nothing at %s", path .. tostring(key))
     end
-    list[key] = walk(result[key], inner, type(errors) == "table" and errors[key] or nil, visit,
-      path .. tostring(key) .. ".")
+    list[key] = walk(result[key], inner, visit, path .. tostring(key) .. ".")
   end
   return list
 end
 
-local function errors_of(sample) return type(sample) == "table" and sample.error or nil end
-
 -- Of what evaluate gave, in its shape: factors.
-function over.of_result(result, sample)
-  return walk(result, sample, errors_of(sample), function(x, hull, error)
-    return over.factor(x, hull.lo, hull.hi, error)
-  end, "")
-end
+function over.of_result(result, sample) return walk(result, sample, over.factor, "") end
 
 -- A run, or what evaluate gave, against a sample -> text that says what is missed and by how much, or nil.
 function over.contradiction(result, sample)
   if type(result) == "table" and result.track then return over.of_run(result, sample).contradiction end
   local found
-  walk(result, sample, errors_of(sample), function(x, hull, error, path)
-    if not found and over.misses(x, hull.lo, hull.hi, error) then
-      found = complaint((path:gsub("%.$", "")), x, hull.lo, hull.hi, error)
-    end
+  walk(result, sample, function(x, hull, path)
+    if not found and over.misses(x, hull) then found = complaint((path:gsub("%.$", "")), x, hull) end
   end, "")
   return found
 end
 
--- The same of an inner hull (sample.inner) of one state or result at one of its times: number, number, enclosure
--- -> factor or nil, text or nil.
+-- The sampled range of an inner hull (sample.inner), of one state or result at one of its times.
+function over.hull_of(inner, i, k) return { lo = inner.lo[i][k], hi = inner.hi[i][k], error = inner.error[i][k] } end
+
+-- The factor of an enclosure against it, and what it misses as text, or nil.
 function over.of_inner(inner, i, k, enclosure, name)
-  local lo, hi, error = inner.lo[i][k], inner.hi[i][k], inner.error[i][k]
-  return over.factor(enclosure, lo, hi, error),
-    over.misses(enclosure, lo, hi, error) and complaint(name, enclosure, lo, hi, error) or nil
+  local hull = over.hull_of(inner, i, k)
+  return over.factor(enclosure, hull), over.misses(enclosure, hull) and complaint(name, enclosure, hull) or nil
 end
 
 -- ambit.overestimation(result, sample)
