@@ -79,6 +79,7 @@ int luaopen_ambit_core(lua_State *L) {
   ambit_lua_open_functions(L, core);
   ambit_lua_open_expression(L, core);
   ambit_lua_open_enclosure(L, core);
+  ambit_lua_open_units(L, core);
   ambit_lua_open_data(L, core);
   ambit_lua_open_plugins(L, core);
   ambit_lua_open_mechanism(L, core);

@@ -45,12 +45,10 @@ void ambit_lua_push_function(lua_State *L, ambit_lua *core, lua_CFunction f, int
 #define AMBIT_TYPE_SYSTEM "ambit.system"
 #define AMBIT_TYPE_TRACK "ambit.track"
 
-/* An expression; `dimension` is what its data said ("35 mm": a length), known only while no operation has touched it.
-*/
+/* An expression and its dimension. Equal nodes may be of different dimension, so the graph does not know it. */
 typedef struct ambit_lua_expression {
   ambit_expr e;
-  bool known;
-  int8_t dimension[7];
+  ambit_dimension dimension;
 } ambit_lua_expression;
 
 /* An enclosure; flags: AMBIT_F_PARTIAL if some operation on the way left its domain; or AMBIT_LUA_SAMPLED (sampled.h).
@@ -70,7 +68,7 @@ void ambit_lua_where(lua_State *L);
 _Noreturn void ambit_lua_error(lua_State *L, const char *format, ...);
 _Noreturn void ambit_lua_raise(lua_State *L, const ambit_failure *f);
 
-ambit_lua_expression *ambit_lua_push_expression(lua_State *L, ambit_expr e); /* NO_EXPR: raises */
+ambit_lua_expression *ambit_lua_push_expression(lua_State *L, ambit_expr e); /* NO_EXPR: raises; OPEN dimension */
 void ambit_lua_push_enclosure(lua_State *L, ambit_interval x, uint32_t flags);
 /* A fresh datum made by the running line of the script, NULL: no name yet; raises where there is no memory. */
 ambit_expr ambit_lua_datum(lua_State *L, const char *name, ambit_interval outer, ambit_interval inner);
@@ -86,9 +84,11 @@ ambit_lua_enclosure ambit_lua_to_enclosure(lua_State *L, int idx, const char *wh
 /* {expression, ...} at idx -> an array of n owned by Lua (pushed as one userdata above the stack). */
 ambit_expr *ambit_lua_to_array(lua_State *L, int idx, size_t n);
 bool ambit_lua_is_constant(lua_State *L, const ambit_lua_expression *x);
-/* "kg*m^2/s^3" of a dimension, for the unit reader. */
-#define AMBIT_LUA_DIMENSION_MAX 96
-void ambit_lua_dimension_text(const int8_t power[7], char out[AMBIT_LUA_DIMENSION_MAX]);
+/* The dimension of the value at idx: of an expression, of a text with a unit; BARE for all else. */
+ambit_dimension ambit_lua_dimension(lua_State *L, int idx, const char *what);
+/* Of `op` between the two (unary: b ignored); raises a message that names both where they do not fit. */
+ambit_dimension ambit_lua_dimension_op(
+    lua_State *L, uint32_t op, ambit_dimension a, ambit_dimension b, const char *what);
 
 /* profile.c: calls the running function once more, in a frame of the profile; `framed` then says not to do it again. */
 int ambit_lua_call_framed(lua_State *L);
@@ -97,6 +97,7 @@ int ambit_lua_call_framed(lua_State *L);
 void ambit_lua_open_functions(lua_State *L, ambit_lua *core);  /* functions.c: sin, pow, ... */
 void ambit_lua_open_expression(lua_State *L, ambit_lua *core); /* expression.c */
 void ambit_lua_open_enclosure(lua_State *L, ambit_lua *core);  /* enclosure.c */
+void ambit_lua_open_units(lua_State *L, ambit_lua *core);      /* units.c: dimensions of expressions */
 void ambit_lua_open_data(lua_State *L, ambit_lua *core);       /* data.c: around, between, interval */
 void ambit_lua_open_plugins(lua_State *L, ambit_lua *core);    /* plugins.c */
 void ambit_lua_open_mechanism(lua_State *L, ambit_lua *core);  /* mechanism.c */

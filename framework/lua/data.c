@@ -17,11 +17,12 @@
 typedef struct tolerance {
   ambit_interval size; /* >= 0 */
   bool relative;
+  ambit_dimension dimension;
 } tolerance;
 
 /* 0.1 (a number: absolute), "0.1", "0.1%", "0.1 mm" */
 static tolerance tolerance_of(lua_State *L, int idx) {
-  tolerance t = { { 0, 0 }, false };
+  tolerance t = { { 0, 0 }, false, { 0 } };
   ambit_failure f = { 0 };
   if (lua_type(L, idx) == LUA_TNUMBER) {
     double x = lua_tonumber(L, idx);
@@ -39,6 +40,7 @@ static tolerance tolerance_of(lua_State *L, int idx) {
   if (*rest && t.relative) ambit_lua_error(L, "around: a tolerance in %% takes no unit, got \"%s\"", rest);
   if (*rest) {
     lua_pushfstring(L, "1 %s", rest);
+    t.dimension = ambit_lua_dimension(L, -1, "around");
     ambit_interval unit = ambit_lua_to_enclosure(L, -1, "around").x;
     lua_pop(L, 1);
     t.size = ambit_interval_mul(t.size, unit);
@@ -92,6 +94,8 @@ static int around(lua_State *L) {
   ambit_lua_expression c = ambit_lua_to_expression(L, 1, NULL, "around");
   tolerance t = tolerance_of(L, 2);
   const char *name = name_of(L, 3, "around");
+  if (t.dimension.state == AMBIT_DIMENSION_KNOWN) /* a bare tolerance is in the unit of the value */
+    c.dimension = ambit_lua_dimension_op(L, AMBIT_OP_ADD, c.dimension, t.dimension, "around");
   if (t.size.hi > 0) {
     if (ambit_lua_is_constant(L, &c)) {
       ambit_interval x = ambit_tight(core->graph, core->registry, c.e);
@@ -113,17 +117,12 @@ static int between(lua_State *L) {
   const char *name = name_of(L, 3, "between");
   if (!ambit_lua_is_constant(L, &lo) || !ambit_lua_is_constant(L, &hi))
     ambit_lua_error(L, "between: the ends must be known numbers, not uncertain themselves");
-  if (lo.known && hi.known && memcmp(lo.dimension, hi.dimension, sizeof lo.dimension) != 0)
-    ambit_lua_error(L, "between: the ends have different dimensions");
+  lo.dimension = ambit_lua_dimension_op(L, AMBIT_OP_ADD, lo.dimension, hi.dimension, "between");
   ambit_interval a = ambit_tight(core->graph, core->registry, lo.e), b = ambit_tight(core->graph, core->registry, hi.e);
   if (a.lo > b.hi) ambit_lua_error(L, "between: the interval is reversed: %g is greater than %g", a.lo, b.hi);
   ambit_interval range = { a.lo, b.hi };
   if (!ambit_interval_is_bounded(range)) ambit_lua_error(L, "between: the ends must be finite");
   if (lo.e != hi.e) lo.e = ambit_lua_datum(L, name, range, between_all(a, b));
-  if (!lo.known) {
-    hi.e = lo.e;
-    lo = hi;
-  }
   *ambit_lua_push_expression(L, lo.e) = lo;
   return 1;
 }
@@ -146,6 +145,8 @@ static int interval(lua_State *L) {
   }
   x = end[0];
   y = end[1];
+  ambit_lua_dimension_op(
+      L, AMBIT_OP_ADD, ambit_lua_dimension(L, 1, "interval"), ambit_lua_dimension(L, 2, "interval"), "interval");
   if (ambit_interval_is_empty(x.x) && lua_isnoneornil(L, 2)) {
     ambit_lua_push_enclosure(L, AMBIT_EMPTY, x.flags);
     return 1;

@@ -42,14 +42,16 @@ static int order(lua_State *L) {
 /* derivative(e, x): x a variable, an unknown or ambit.time */
 static int derivative(lua_State *L) {
   ambit_graph *g = AMBIT_LUA(L)->graph;
-  ambit_expr e = ambit_lua_to_expression(L, 1, NULL, "derivative").e,
-             x = ambit_lua_to_expression(L, 2, NULL, "derivative").e;
+  ambit_lua_expression of = ambit_lua_to_expression(L, 1, NULL, "derivative"),
+                       by = ambit_lua_to_expression(L, 2, NULL, "derivative");
+  ambit_expr e = of.e, x = by.e;
   ambit_failure f = { 0 };
   if (ambit_graph_node(g, x)->op < AMBIT_LEAF_UNKNOWN)
     ambit_lua_error(L, "derivative: the second argument must be a single variable or unknown");
   ambit_expr d = ambit_graph_derivative(g, e, x, &f);
   if (d == AMBIT_NO_EXPR && f.status != AMBIT_OK) ambit_lua_raise(L, &f);
-  ambit_lua_push_expression(L, d);
+  ambit_lua_push_expression(L, d)->dimension =
+      ambit_lua_dimension_op(L, AMBIT_OP_DIV, of.dimension, by.dimension, "derivative");
   return 1;
 }
 
@@ -67,11 +69,12 @@ static int rate_off_kinks(lua_State *L) {
 }
 
 static int simplify(lua_State *L) {
-  ambit_expr e = ambit_lua_to_expression(L, 1, NULL, "simplify").e;
+  ambit_lua_expression x = ambit_lua_to_expression(L, 1, NULL, "simplify");
   int fits = 1;
   lua_Integer limit = lua_isnoneornil(L, 2) ? 1000 : lua_tointegerx(L, 2, &fits);
   if (!fits || limit < 1) ambit_lua_error(L, "simplify: expected a positive integer, the most terms to expand into");
-  ambit_lua_push_expression(L, ambit_graph_simplify(AMBIT_LUA(L)->graph, e, (size_t)limit));
+  x.e = ambit_graph_simplify(AMBIT_LUA(L)->graph, x.e, (size_t)limit);
+  ambit_lua_push_expression(L, x.e)->dimension = x.dimension;
   return 1;
 }
 
@@ -95,7 +98,7 @@ static int time_symbol(lua_State *L) {
 }
 
 static int pi(lua_State *L) {
-  ambit_lua_push_expression(L, ambit_graph_pi(AMBIT_LUA(L)->graph));
+  ambit_lua_push_expression(L, ambit_graph_pi(AMBIT_LUA(L)->graph))->dimension.state = AMBIT_DIMENSION_SOFT;
   return 1;
 }
 

@@ -11,8 +11,9 @@
 static const struct {
   const char *name;
   int arity;
+  const char *symbol;
 } opcode[] = {
-#define AMBIT_X(name, arity, symbol) { #name, arity },
+#define AMBIT_X(name, arity, symbol) { #name, arity, symbol },
   AMBIT_OPS(AMBIT_X)
 #undef AMBIT_X
 };
@@ -41,9 +42,10 @@ static int apply(lua_State *L, uint32_t op, int arity, const char *what) {
     ambit_lua_push_enclosure(L, r, flags | a.flags | b.flags);
     return 1;
   }
-  ambit_expr a = ambit_lua_to_expression(L, 1, NULL, what).e;
-  ambit_expr b = arity == 2 ? ambit_lua_to_expression(L, 2, NULL, what).e : a;
-  ambit_lua_push_expression(L, ambit_graph_op(AMBIT_LUA(L)->graph, op, a, b));
+  ambit_lua_expression a = ambit_lua_to_expression(L, 1, NULL, what);
+  ambit_lua_expression b = arity == 2 ? ambit_lua_to_expression(L, 2, NULL, what) : a;
+  ambit_dimension d = ambit_lua_dimension_op(L, op, a.dimension, b.dimension, opcode[op].symbol);
+  ambit_lua_push_expression(L, ambit_graph_op(AMBIT_LUA(L)->graph, op, a.e, b.e))->dimension = d;
   return 1;
 }
 
@@ -92,7 +94,12 @@ static bool half_integer_exponent(lua_State *L, int idx, int32_t *n) {
   return true;
 }
 
-static int integer_power(lua_State *L, int32_t n) {
+/* Twice the exponent is n: the dimension, where both sides are expressions. */
+static ambit_dimension power_dimension(lua_State *L, int32_t n) {
+  return ambit_dimension_power(ambit_lua_dimension(L, 1, "pow"), (int64_t)n * (AMBIT_POWER_ONE / 2));
+}
+
+static int integer_power(lua_State *L, int32_t n, ambit_dimension d) {
   if (is_enclosure(L, 1)) {
     ambit_lua_enclosure a = ambit_lua_to_enclosure(L, 1, "pow");
     ambit_interval r;
@@ -100,21 +107,37 @@ static int integer_power(lua_State *L, int32_t n) {
     ambit_lua_push_enclosure(L, r, flags | a.flags);
   } else {
     ambit_expr a = ambit_lua_to_expression(L, 1, NULL, "pow").e;
-    ambit_lua_push_expression(L, ambit_graph_pown(AMBIT_LUA(L)->graph, a, n));
+    ambit_lua_push_expression(L, ambit_graph_pown(AMBIT_LUA(L)->graph, a, n))->dimension = d;
   }
   return 1;
+}
+
+/* a^b with an exponent that is no half integer: of a length only if the exponent is a known number such as "1/3". */
+static ambit_dimension general_power_dimension(lua_State *L, ambit_dimension base) {
+  if (!ambit_dimension_is_number(base) && is_unknown(L, 2))
+    ambit_lua_error(L, "pow: a quantity with a unit takes no uncertain or variable exponent");
+  if (is_unknown(L, 2))
+    return base.state == AMBIT_DIMENSION_SOFT ? (ambit_dimension) { .state = AMBIT_DIMENSION_OPEN } : base;
+  ambit_interval sixtieths = ambit_interval_mul(
+      ambit_lua_to_enclosure(L, 2, "exponent").x, (ambit_interval) { AMBIT_POWER_ONE, AMBIT_POWER_ONE });
+  double near = nearbyint(sixtieths.lo);
+  bool whole = fabs(near) < 1e6 && sixtieths.lo <= near && near <= sixtieths.hi;
+  return whole ? ambit_dimension_power(base, (int64_t)near) : (ambit_dimension) { .state = AMBIT_DIMENSION_OPEN };
 }
 
 /* a^b: integer b for every a, half integers as powers of the square root, a >= 0; otherwise exp(b log a), a > 0 */
 static int power(lua_State *L) {
   int32_t n;
   lua_settop(L, 2);
+  ambit_dimension exponent = ambit_lua_dimension(L, 2, "pow");
+  if (!ambit_dimension_is_number(exponent)) ambit_lua_dimension_op(L, AMBIT_OP_EXP, exponent, exponent, "exponent");
   if (half_integer_exponent(L, 2, &n)) {
-    if (n % 2 == 0) return integer_power(L, n / 2);
+    ambit_dimension d = power_dimension(L, n);
+    if (n % 2 == 0) return integer_power(L, n / 2, d);
     lua_settop(L, 1);
     apply(L, AMBIT_OP_SQRT, 1, "pow");
     lua_replace(L, 1);
-    return integer_power(L, n);
+    return integer_power(L, n, d);
   }
   if (wants_enclosure(L, 2)) {
     ambit_lua_enclosure a = ambit_lua_to_enclosure(L, 1, "pow"), b = ambit_lua_to_enclosure(L, 2, "pow");
@@ -126,11 +149,13 @@ static int power(lua_State *L) {
     return 1;
   }
   ambit_graph *g = AMBIT_LUA(L)->graph;
-  ambit_expr a = ambit_lua_to_expression(L, 1, NULL, "pow").e, b = ambit_lua_to_expression(L, 2, NULL, "pow").e;
+  ambit_lua_expression base = ambit_lua_to_expression(L, 1, NULL, "pow");
+  ambit_expr a = base.e, b = ambit_lua_to_expression(L, 2, NULL, "pow").e;
+  ambit_dimension d = general_power_dimension(L, base.dimension);
   a = ambit_graph_op(g, AMBIT_OP_LOG, a, a);
   if (a != AMBIT_NO_EXPR) a = ambit_graph_op(g, AMBIT_OP_MUL, a, b);
   if (a != AMBIT_NO_EXPR) a = ambit_graph_op(g, AMBIT_OP_EXP, a, a);
-  ambit_lua_push_expression(L, a);
+  ambit_lua_push_expression(L, a)->dimension = d;
   return 1;
 }
 

@@ -8,8 +8,7 @@
 ambit_lua_expression *ambit_lua_push_expression(lua_State *L, ambit_expr e) {
   if (e == AMBIT_NO_EXPR) ambit_lua_error(L, "out of memory while building an expression");
   ambit_lua_expression *x = lua_newuserdatauv(L, sizeof *x, 0);
-  memset(x, 0, sizeof *x);
-  x->e = e;
+  *x = (ambit_lua_expression) { .e = e, .dimension.state = AMBIT_DIMENSION_OPEN };
   luaL_setmetatable(L, AMBIT_TYPE_EXPRESSION);
   return x;
 }
@@ -80,22 +79,6 @@ static ambit_expr number_expression(lua_State *L, int idx, const char *what) {
   return ambit_graph_number(g, x);
 }
 
-void ambit_lua_dimension_text(const int8_t power[7], char out[AMBIT_LUA_DIMENSION_MAX]) {
-  static const char *const base[7] = { "m", "kg", "s", "A", "K", "mol", "cd" };
-  size_t used = 0;
-  out[0] = '\0';
-  for (int sign = 1; sign >= -1; sign -= 2) {
-    for (int i = 0; i < 7; i++) {
-      int p = power[i] * sign;
-      if (p <= 0) continue;
-      const char *join = sign < 0 ? (used ? "/" : "1/") : used ? "*" : "";
-      used +=
-          (size_t)snprintf(out + used, AMBIT_LUA_DIMENSION_MAX - used, p == 1 ? "%s%s" : "%s%s^%d", join, base[i], p);
-    }
-  }
-  if (!used) snprintf(out, AMBIT_LUA_DIMENSION_MAX, "1");
-}
-
 static bool text_is_set(const char *text, const char *rest) {
   while (isspace((unsigned char)*text)) text++;
   const char *mark = strchr(text, '?');
@@ -138,13 +121,12 @@ static ambit_status text_expression(
   ambit_interval x, inner;
   const char *rest = "";
   ambit_unit unit = { 0 };
-  char dimension[AMBIT_LUA_DIMENSION_MAX];
+  char dimension[AMBIT_DIMENSION_TEXT_MAX];
   if (ambit_decimal_read_set(text, &x, &inner, &rest, f) != AMBIT_OK) return f->status;
   while (isspace((unsigned char)*rest)) rest++;
   if (*rest && ambit_unit_read(rest, &unit, f) != AMBIT_OK) return f->status;
-  if (!wanted) ambit_lua_dimension_text(unit.power, dimension);
-  memcpy(out->dimension, unit.power, sizeof out->dimension);
-  out->known = *rest != '\0';
+  if (!wanted) ambit_dimension_text(unit.power, dimension);
+  if (*rest) out->dimension = ambit_dimension_known(unit.power);
   if (text_is_set(text, rest)) {
     out->e = set_expression(L, x, inner, rest, wanted ? wanted : dimension, f);
     return out->e == AMBIT_NO_EXPR ? ambit_fail(f, AMBIT_NOMEM, "out of memory") : AMBIT_OK;
@@ -157,12 +139,13 @@ static ambit_status text_expression(
 static void check_dimension(lua_State *L, const ambit_lua_expression *x, const char *wanted, const char *what) {
   ambit_unit unit;
   ambit_failure f = { 0 };
-  char have[AMBIT_LUA_DIMENSION_MAX], message[256];
-  if (!wanted || !x->known) return;
+  char have[AMBIT_DIMENSION_TEXT_MAX], name[AMBIT_DIMENSION_TEXT_MAX], message[3 * AMBIT_DIMENSION_TEXT_MAX];
+  if (!wanted || x->dimension.state != AMBIT_DIMENSION_KNOWN) return;
   if (ambit_unit_read(wanted, &unit, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
-  if (memcmp(unit.power, x->dimension, sizeof unit.power) == 0) return;
-  ambit_lua_dimension_text(x->dimension, have);
-  snprintf(message, sizeof message, "expected a value in %s, got one in %s", wanted, have);
+  if (ambit_dimension_agree(x->dimension, ambit_dimension_known(unit.power))) return;
+  ambit_dimension_name(unit.power, name);
+  ambit_dimension_name(x->dimension.power, have);
+  snprintf(message, sizeof message, "expected %s, got %s", name, have);
   wrong(L, what, message);
 }
 
@@ -208,6 +191,21 @@ ambit_lua_expression ambit_lua_to_expression(lua_State *L, int idx, const char *
   snprintf(message, sizeof message, "expected a number, text, expression or enclosure, got %s",
       lua_isnone(L, idx) ? "nothing" : type_name(L, idx));
   wrong(L, what, message);
+}
+
+ambit_dimension ambit_lua_dimension(lua_State *L, int idx, const char *what) {
+  const ambit_lua_expression *x = luaL_testudata(L, idx, AMBIT_TYPE_EXPRESSION);
+  ambit_interval value;
+  ambit_unit unit;
+  ambit_failure f = { 0 };
+  const char *rest;
+  if (x) return x->dimension;
+  if (lua_type(L, idx) != LUA_TSTRING) return (ambit_dimension) { 0 };
+  ambit_status status = ambit_decimal_read(whole_text(L, idx, what), &value, &rest, &f);
+  if (status == AMBIT_OK) status = ambit_unit_read(rest, &unit, &f);
+  if (status != AMBIT_OK) wrong(L, what, f.message);
+  while (isspace((unsigned char)*rest)) rest++;
+  return *rest ? ambit_dimension_known(unit.power) : (ambit_dimension) { 0 };
 }
 
 /* How many SI units one `unit` is. */

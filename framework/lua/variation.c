@@ -7,12 +7,12 @@
 
 /* The unit of a datum as it was written, or NULL: not known. */
 static const char *datum_unit(lua_State *L, ambit_arena *arena, int idx, lua_Integer i) {
-  char text[AMBIT_LUA_DIMENSION_MAX];
+  char text[AMBIT_DIMENSION_TEXT_MAX];
   lua_rawgeti(L, idx, i);
   const ambit_lua_expression *x = luaL_checkudata(L, -1, AMBIT_TYPE_EXPRESSION);
   lua_pop(L, 1); /* the table keeps it */
-  if (!x->known) return NULL;
-  ambit_lua_dimension_text(x->dimension, text);
+  if (x->dimension.state != AMBIT_DIMENSION_KNOWN) return NULL;
+  ambit_dimension_text(x->dimension.power, text);
   const char *unit = ambit_arena_text(arena, text);
   if (!unit) ambit_lua_error(L, "out of memory");
   return unit;

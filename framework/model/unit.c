@@ -18,43 +18,44 @@
 typedef struct entry {
   const char *name;
   bool prefix; /* takes SI prefixes */
-  ambit_unit unit;
+  int8_t power[AMBIT_DIMENSIONS];
+  ambit_unit_factor factor;
 } entry;
 
 /* clang-format off */
 /*                          m kg  s  A  K mol cd  pi  10^ numerator denominator */
 static const entry known[] = {
-  { "1", false,         { {  0, 0, 0, 0, 0, 0, 0 }, 0,   0, 1, 1 } },
-  { "m", true,          { {  1, 0, 0, 0, 0, 0, 0 }, 0,   0, 1, 1 } },
-  { "g", true,          { {  0, 1, 0, 0, 0, 0, 0 }, 0,  -3, 1, 1 } },
-  { "s", true,          { {  0, 0, 1, 0, 0, 0, 0 }, 0,   0, 1, 1 } },
-  { "A", true,          { {  0, 0, 0, 1, 0, 0, 0 }, 0,   0, 1, 1 } },
-  { "K", true,          { {  0, 0, 0, 0, 1, 0, 0 }, 0,   0, 1, 1 } },
-  { "mol", true,        { {  0, 0, 0, 0, 0, 1, 0 }, 0,   0, 1, 1 } },
-  { "cd", true,         { {  0, 0, 0, 0, 0, 0, 1 }, 0,   0, 1, 1 } },
-  { "rad", true,        { {  0, 0, 0, 0, 0, 0, 0 }, 0,   0, 1, 1 } },
-  { "deg", false,       { {  0, 0, 0, 0, 0, 0, 0 }, 1,   0, 1, 180 } },
-  { "rev", false,       { {  0, 0, 0, 0, 0, 0, 0 }, 1,   0, 2, 1 } },
-  { "rpm", false,       { {  0, 0, -1, 0, 0, 0, 0 }, 1,  0, 1, 30 } },
-  { "Hz", true,         { {  0, 0, -1, 0, 0, 0, 0 }, 0,  0, 1, 1 } },
-  { "N", true,          { {  1, 1, -2, 0, 0, 0, 0 }, 0,  0, 1, 1 } },
-  { "Pa", true,         { { -1, 1, -2, 0, 0, 0, 0 }, 0,  0, 1, 1 } },
-  { "J", true,          { {  2, 1, -2, 0, 0, 0, 0 }, 0,  0, 1, 1 } },
-  { "W", true,          { {  2, 1, -3, 0, 0, 0, 0 }, 0,  0, 1, 1 } },
-  { "C", true,          { {  0, 0, 1, 1, 0, 0, 0 }, 0,   0, 1, 1 } },
-  { "V", true,          { {  2, 1, -3, -1, 0, 0, 0 }, 0, 0, 1, 1 } },
-  { "ohm", true,        { {  2, 1, -3, -2, 0, 0, 0 }, 0, 0, 1, 1 } },
-  { "H", true,          { {  2, 1, -2, -2, 0, 0, 0 }, 0, 0, 1, 1 } },
-  { "Wb", true,         { {  2, 1, -2, -1, 0, 0, 0 }, 0, 0, 1, 1 } },
-  { "T", true,          { {  0, 1, -2, -1, 0, 0, 0 }, 0, 0, 1, 1 } },
-  { "t", false,         { {  0, 1, 0, 0, 0, 0, 0 }, 0,   3, 1, 1 } },
-  { "bar", true,        { { -1, 1, -2, 0, 0, 0, 0 }, 0,  5, 1, 1 } },
-  { "min", false,       { {  0, 0, 1, 0, 0, 0, 0 }, 0,   0, 60, 1 } },
-  { "h", false,         { {  0, 0, 1, 0, 0, 0, 0 }, 0,   0, 3600, 1 } },
-  { "in", false,        { {  1, 0, 0, 0, 0, 0, 0 }, 0,  -4, 254, 1 } },
-  { "ft", false,        { {  1, 0, 0, 0, 0, 0, 0 }, 0,  -4, 3048, 1 } },
-  { "lb", false,        { {  0, 1, 0, 0, 0, 0, 0 }, 0,  -8, 45359237, 1 } },
-  { "lbf", false,       { {  1, 1, -2, 0, 0, 0, 0 }, 0, -13, 44482216152605, 1 } },
+  { "1", false,         {  0, 0, 0, 0, 0, 0, 0 }, { 0,   0, 1, 1 } },
+  { "m", true,          {  1, 0, 0, 0, 0, 0, 0 }, { 0,   0, 1, 1 } },
+  { "g", true,          {  0, 1, 0, 0, 0, 0, 0 }, { 0,  -3, 1, 1 } },
+  { "s", true,          {  0, 0, 1, 0, 0, 0, 0 }, { 0,   0, 1, 1 } },
+  { "A", true,          {  0, 0, 0, 1, 0, 0, 0 }, { 0,   0, 1, 1 } },
+  { "K", true,          {  0, 0, 0, 0, 1, 0, 0 }, { 0,   0, 1, 1 } },
+  { "mol", true,        {  0, 0, 0, 0, 0, 1, 0 }, { 0,   0, 1, 1 } },
+  { "cd", true,         {  0, 0, 0, 0, 0, 0, 1 }, { 0,   0, 1, 1 } },
+  { "rad", true,        {  0, 0, 0, 0, 0, 0, 0 }, { 0,   0, 1, 1 } },
+  { "deg", false,       {  0, 0, 0, 0, 0, 0, 0 }, { 1,   0, 1, 180 } },
+  { "rev", false,       {  0, 0, 0, 0, 0, 0, 0 }, { 1,   0, 2, 1 } },
+  { "rpm", false,       {  0, 0, -1, 0, 0, 0, 0 }, { 1,  0, 1, 30 } },
+  { "Hz", true,         {  0, 0, -1, 0, 0, 0, 0 }, { 0,  0, 1, 1 } },
+  { "N", true,          {  1, 1, -2, 0, 0, 0, 0 }, { 0,  0, 1, 1 } },
+  { "Pa", true,         { -1, 1, -2, 0, 0, 0, 0 }, { 0,  0, 1, 1 } },
+  { "J", true,          {  2, 1, -2, 0, 0, 0, 0 }, { 0,  0, 1, 1 } },
+  { "W", true,          {  2, 1, -3, 0, 0, 0, 0 }, { 0,  0, 1, 1 } },
+  { "C", true,          {  0, 0, 1, 1, 0, 0, 0 }, { 0,   0, 1, 1 } },
+  { "V", true,          {  2, 1, -3, -1, 0, 0, 0 }, { 0, 0, 1, 1 } },
+  { "ohm", true,        {  2, 1, -3, -2, 0, 0, 0 }, { 0, 0, 1, 1 } },
+  { "H", true,          {  2, 1, -2, -2, 0, 0, 0 }, { 0, 0, 1, 1 } },
+  { "Wb", true,         {  2, 1, -2, -1, 0, 0, 0 }, { 0, 0, 1, 1 } },
+  { "T", true,          {  0, 1, -2, -1, 0, 0, 0 }, { 0, 0, 1, 1 } },
+  { "t", false,         {  0, 1, 0, 0, 0, 0, 0 }, { 0,   3, 1, 1 } },
+  { "bar", true,        { -1, 1, -2, 0, 0, 0, 0 }, { 0,  5, 1, 1 } },
+  { "min", false,       {  0, 0, 1, 0, 0, 0, 0 }, { 0,   0, 60, 1 } },
+  { "h", false,         {  0, 0, 1, 0, 0, 0, 0 }, { 0,   0, 3600, 1 } },
+  { "in", false,        {  1, 0, 0, 0, 0, 0, 0 }, { 0,  -4, 254, 1 } },
+  { "ft", false,        {  1, 0, 0, 0, 0, 0, 0 }, { 0,  -4, 3048, 1 } },
+  { "lb", false,        {  0, 1, 0, 0, 0, 0, 0 }, { 0,  -8, 45359237, 1 } },
+  { "lbf", false,       {  1, 1, -2, 0, 0, 0, 0 }, { 0, -13, 44482216152605, 1 } },
 };
 /* clang-format on */
 #define KNOWN (sizeof known / sizeof *known)
@@ -64,6 +65,8 @@ static const struct {
   int16_t decimal;
 } prefixes[] = { { "n", -9 }, { "u", -6 }, { "\xc2\xb5", -6 }, { "\xce\xbc", -6 }, { "m", -3 }, { "c", -2 },
   { "d", -1 }, { "k", 3 }, { "M", 6 }, { "G", 9 } };
+
+static const ambit_unit one = { .factor = { .numerator = 1, .denominator = 1 } };
 
 /* -- exact products */
 
@@ -77,21 +80,65 @@ static uint64_t common_divisor(uint64_t a, uint64_t b) {
 }
 
 /* u := u * v^sign; false: too large to be exact */
-static bool multiply(ambit_unit *u, ambit_unit v, int sign) {
+static bool multiply_factor(ambit_unit_factor *u, ambit_unit_factor v, int sign) {
   uint64_t above = sign > 0 ? v.numerator : v.denominator, below = sign > 0 ? v.denominator : v.numerator;
   uint64_t p = common_divisor(above, u->denominator), q = common_divisor(below, u->numerator);
   bool fits = !__builtin_mul_overflow(u->numerator / q, above / p, &u->numerator);
   fits = !__builtin_mul_overflow(u->denominator / p, below / q, &u->denominator) && fits;
-  for (int i = 0; i < 7; i++) {
-    int power = u->power[i] + sign * v.power[i];
-    fits = fits && power >= -99 && power <= 99;
-    u->power[i] = (int8_t)power;
-  }
   int pi = u->pi + sign * v.pi, decimal = u->decimal + sign * v.decimal;
   fits = fits && pi >= -9 && pi <= 9 && decimal >= -300 && decimal <= 300;
   u->pi = (int8_t)pi;
   u->decimal = (int16_t)decimal;
   return fits;
+}
+
+static bool raise_factor(ambit_unit_factor *u, ambit_unit_factor v, int n) {
+  for (int k = n < 0 ? -n : n; k > 0; k--)
+    if (!multiply_factor(u, v, n > 0 ? 1 : -1)) return false;
+  return true;
+}
+
+static bool same_factor(ambit_unit_factor a, ambit_unit_factor b) {
+  return a.pi == b.pi && a.decimal == b.decimal && a.numerator == b.numerator && a.denominator == b.denominator;
+}
+
+/* u := u * v^(share / 60): whole powers into the exact factor, the rest as a root */
+static bool multiply_root(ambit_unit *u, ambit_unit_factor v, int share) {
+  if (same_factor(v, one.factor)) return true;
+  unsigned k = 0;
+  while (k < u->roots && !same_factor(u->root[k], v)) k++;
+  if (k < u->roots) share += u->share[k];
+  int rest = share % AMBIT_POWER_ONE;
+  if (rest < 0) rest += AMBIT_POWER_ONE;
+  if (!raise_factor(&u->factor, v, (share - rest) / AMBIT_POWER_ONE)) return false;
+  if (k == u->roots) {
+    if (rest == 0) return true;
+    if (k == AMBIT_UNIT_ROOTS) return false;
+    u->roots++;
+  }
+  u->root[k] = v;
+  u->share[k] = (uint8_t)rest;
+  if (rest > 0) return true;
+  u->roots--;
+  u->root[k] = u->root[u->roots];
+  u->share[k] = u->share[u->roots];
+  return true;
+}
+
+/* u := u * v^(power / 60) */
+static bool multiply(ambit_unit *u, ambit_unit v, int power) {
+  for (int i = 0; i < AMBIT_DIMENSIONS; i++) {
+    int p = v.power[i] * power;
+    if (p % AMBIT_POWER_ONE != 0) return false;
+    p = u->power[i] + p / AMBIT_POWER_ONE;
+    if (p > AMBIT_POWER_MAX || p < -AMBIT_POWER_MAX) return false;
+    u->power[i] = (int16_t)p;
+  }
+  for (unsigned k = 0; k < v.roots; k++) {
+    int share = v.share[k] * power;
+    if (share % AMBIT_POWER_ONE != 0 || !multiply_root(u, v.root[k], share / AMBIT_POWER_ONE)) return false;
+  }
+  return multiply_root(u, v.factor, power);
 }
 
 /* -- names */
@@ -102,11 +149,18 @@ static const entry *find_entry(const char *name) {
   return NULL;
 }
 
+static ambit_unit unit_of(const entry *e, int decimal) {
+  ambit_unit unit = { .factor = e->factor };
+  for (int i = 0; i < AMBIT_DIMENSIONS; i++) unit.power[i] = (int16_t)(e->power[i] * AMBIT_POWER_ONE);
+  unit.factor.decimal = (int16_t)(unit.factor.decimal + decimal);
+  return unit;
+}
+
 /* A unit by its own name, else a prefix and a unit. */
 static bool find_unit(const char *name, ambit_unit *unit) {
   const entry *e = find_entry(name);
   if (e) {
-    *unit = e->unit;
+    *unit = unit_of(e, 0);
     return true;
   }
   for (size_t i = 0; i < sizeof prefixes / sizeof *prefixes; i++) {
@@ -114,8 +168,7 @@ static bool find_unit(const char *name, ambit_unit *unit) {
     if (strncmp(name, prefixes[i].name, n) != 0) continue;
     e = find_entry(name + n);
     if (!e || !e->prefix) continue;
-    *unit = e->unit;
-    unit->decimal = (int16_t)(unit->decimal + prefixes[i].decimal);
+    *unit = unit_of(e, prefixes[i].decimal);
     return true;
   }
   return false;
@@ -135,6 +188,18 @@ static bool find_pair(const char *name, char hint[2 * WORD_MAX]) {
   return false;
 }
 
+const char *ambit_unit_name(size_t k, bool *takes_prefix) {
+  if (k >= KNOWN) return NULL;
+  *takes_prefix = known[k].prefix;
+  return known[k].name;
+}
+
+const char *ambit_unit_prefix(size_t k, int *decimal) {
+  if (k >= sizeof prefixes / sizeof *prefixes) return NULL;
+  *decimal = prefixes[k].decimal;
+  return prefixes[k].name;
+}
+
 static ambit_status fail_unknown(const char *name, ambit_failure *f) {
   const char *candidate[KNOWN + 6] = { "km", "cm", "mm", "kg", "kN", "ms" };
   char hint[2 * WORD_MAX];
@@ -146,7 +211,8 @@ static ambit_status fail_unknown(const char *name, ambit_failure *f) {
       near ? "`?)" : "");
 }
 
-/* -- grammar: unit := factor { [* . /] factor }; factor := (name | "1" | "(" unit ")") [^ integer] */
+/* -- grammar: unit := factor { [* . /] factor }; factor := (name | "1" | "(" unit ")") [^ power]; power := integer
+** | decimal | "(" integer "/" integer ")" */
 
 typedef struct reader {
   const char *whole, *at;
@@ -166,18 +232,46 @@ static bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c 
 
 static ambit_status read_product(reader *r, ambit_unit *unit);
 
+#define WHOLE_MAX 9
+
+static bool read_integer(reader *r, long *n) {
+  char *end;
+  if (*r->at < '0' || *r->at > '9') return false;
+  *n = strtol(r->at, &end, 10);
+  r->at = end;
+  return *n < 1000;
+}
+
+/* "2", "-1", "1.5", "(1/3)" -> sixtieths; false: no such power */
+static bool read_sixtieths(reader *r, int *power) {
+  long above = 0, below = 1;
+  bool bracket = *r->at == '(';
+  if (bracket) r->at++;
+  int sign = *r->at == '-' ? -1 : 1;
+  if (*r->at == '-' || *r->at == '+') r->at++;
+  if (!read_integer(r, &above)) return false;
+  if (bracket && *r->at == '/') {
+    r->at++;
+    if (!read_integer(r, &below) || below == 0) return false;
+  } else if (*r->at == '.') {
+    for (r->at++; *r->at >= '0' && *r->at <= '9' && below < 1000; r->at++, below *= 10)
+      above = 10 * above + *r->at - '0';
+  }
+  if (bracket && *r->at++ != ')') return false;
+  if (above * AMBIT_POWER_ONE % below != 0 || above > WHOLE_MAX * below) return false;
+  *power = sign * (int)(above * AMBIT_POWER_ONE / below);
+  return true;
+}
+
 static ambit_status read_power(reader *r, ambit_unit *unit) {
   skip_blanks(r);
   if (*r->at != '^') return AMBIT_OK;
-  char *end;
-  long n = strtol(r->at + 1, &end, 10);
-  if (end == r->at + 1 || n < -9 || n > 9) return wrong(r, "expected an integer from -9 to 9 after ^");
-  r->at = end;
+  int power;
+  r->at++;
+  if (!read_sixtieths(r, &power)) return wrong(r, "expected a power from -9 to 9 after ^, such as 2, -1, 1.5 or (1/3)");
   ambit_unit base = *unit;
-  *unit = known[0].unit;
-  for (long k = labs(n); k > 0; k--)
-    if (!multiply(unit, base, n > 0 ? 1 : -1)) return wrong(r, "the powers are too large");
-  return AMBIT_OK;
+  *unit = one;
+  return multiply(unit, base, power) ? AMBIT_OK : wrong(r, "the powers are too large or too fine");
 }
 
 static ambit_status read_factor(reader *r, ambit_unit *unit) {
@@ -208,12 +302,12 @@ static ambit_status read_factor(reader *r, ambit_unit *unit) {
 }
 
 static ambit_status read_product(reader *r, ambit_unit *unit) {
-  *unit = known[0].unit;
+  *unit = one;
   for (int sign = 1;;) {
     ambit_unit factor;
     ambit_status status = read_factor(r, &factor);
     if (status != AMBIT_OK) return status;
-    if (!multiply(unit, factor, sign)) return wrong(r, "its factor is too large");
+    if (!multiply(unit, factor, sign * AMBIT_POWER_ONE)) return wrong(r, "its factor is too large");
     skip_blanks(r);
     if (*r->at == '\0' || *r->at == ')') return AMBIT_OK;
     sign = *r->at == '/' ? -1 : 1;
@@ -226,7 +320,7 @@ static ambit_status read_product(reader *r, ambit_unit *unit) {
 
 ambit_status ambit_unit_read(const char *text, ambit_unit *unit, ambit_failure *f) {
   reader r = { .whole = text, .at = text, .f = f };
-  *unit = known[0].unit;
+  *unit = one;
   skip_blanks(&r);
   if (!*r.at) return AMBIT_OK;
   ambit_status status = read_product(&r, unit);
@@ -259,14 +353,26 @@ static ambit_expr integer(ambit_graph *g, uint64_t n) {
   return ambit_graph_decimal(g, text, NULL);
 }
 
-/* x in the unit, in SI. 90 deg is exactly pi/2: the rational factor first. */
-static ambit_expr scale(ambit_graph *g, ambit_expr x, const ambit_unit *unit) {
-  x = ambit_graph_op(g, AMBIT_OP_MUL, x, integer(g, unit->numerator));
-  x = ambit_graph_op(g, AMBIT_OP_DIV, x, integer(g, unit->denominator));
-  ambit_expr pi = unit->pi ? ambit_graph_pi(g) : 0;
-  for (int k = unit->pi; k > 0; k--) x = ambit_graph_op(g, AMBIT_OP_MUL, x, pi);
-  for (int k = unit->pi; k < 0; k++) x = ambit_graph_op(g, AMBIT_OP_DIV, x, pi);
+/* x times a factor. 90 deg is exactly pi/2: the rational factor first. */
+static ambit_expr scale(ambit_graph *g, ambit_expr x, const ambit_unit_factor *u) {
+  x = ambit_graph_op(g, AMBIT_OP_MUL, x, integer(g, u->numerator));
+  x = ambit_graph_op(g, AMBIT_OP_DIV, x, integer(g, u->denominator));
+  ambit_expr pi = u->pi ? ambit_graph_pi(g) : 0;
+  for (int k = u->pi; k > 0; k--) x = ambit_graph_op(g, AMBIT_OP_MUL, x, pi);
+  for (int k = u->pi; k < 0; k++) x = ambit_graph_op(g, AMBIT_OP_DIV, x, pi);
   return x;
+}
+
+/* u^(share / 60): a square root where it is one, otherwise by the logarithm */
+static ambit_expr root_of(ambit_graph *g, const ambit_unit_factor *u, int share) {
+  char ten[16], part[16];
+  snprintf(ten, sizeof ten, "1e%d", u->decimal);
+  snprintf(part, sizeof part, "%d/%d", share, AMBIT_POWER_ONE);
+  ambit_expr x = scale(g, ambit_graph_decimal(g, ten, NULL), u), power = ambit_graph_decimal(g, part, NULL);
+  if (2 * share == AMBIT_POWER_ONE) return ambit_graph_op(g, AMBIT_OP_SQRT, x, x);
+  x = ambit_graph_op(g, AMBIT_OP_LOG, x, x);
+  x = ambit_graph_op(g, AMBIT_OP_MUL, x, power);
+  return ambit_graph_op(g, AMBIT_OP_EXP, x, x);
 }
 
 static ambit_status fail_dimension(const char *text, const char *unit, const char *wanted, ambit_failure *f) {
@@ -293,8 +399,11 @@ ambit_status ambit_unit_quantity(
   memcpy(literal, text, length);
   literal[length] = '\0';
   if (*rest && memcmp(unit.power, goal.power, sizeof unit.power) != 0) return fail_dimension(text, rest, wanted, f);
-  ambit_expr e = read_number(g, literal, unit.decimal, f);
+  ambit_expr e = read_number(g, literal, unit.factor.decimal, f);
   if (e == AMBIT_NO_EXPR) return f && f->status != AMBIT_OK ? f->status : AMBIT_INVALID;
-  *out = scale(g, e, &unit);
+  e = scale(g, e, &unit.factor);
+  for (unsigned k = 0; k < unit.roots; k++)
+    e = ambit_graph_op(g, AMBIT_OP_MUL, e, root_of(g, &unit.root[k], unit.share[k]));
+  *out = e;
   return *out == AMBIT_NO_EXPR ? ambit_fail(f, AMBIT_NOMEM, "out of memory") : AMBIT_OK;
 }

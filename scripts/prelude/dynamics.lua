@@ -35,11 +35,12 @@ end
 -- Energy of the whole mechanism, J.
 function methods:energy()
   local e = core.pull(self.handle, -1, 0, core.ENERGY, 2)
-  return shaped { kinetic = e[1], potential = e[2], total = e[1] + e[2] }
+  local kinetic, potential = core.in_unit(e[1], "J"), core.in_unit(e[2], "J")
+  return shaped { kinetic = kinetic, potential = potential, total = kinetic + potential }
 end
 
 -- What drives, dampers and applied forces put in beyond that, W: the total energy changes by it.
-function methods:power() return core.pull(self.handle, -1, 0, core.POWER, 1)[1] end
+function methods:power() return core.in_unit(core.pull(self.handle, -1, 0, core.POWER, 1)[1], "W") end
 
 local function names_of(list)
   local names = {}
@@ -54,39 +55,50 @@ function methods:speed_names() return names_of(core.speeds(self.handle)) end
 function methods:coordinates()
   local t = {}
   for _, c in ipairs(core.coordinates(self.handle)) do
-    t[c.name] = c.q
+    t[c.name] = core.in_unit(c.q, c.unit)
   end
   for _, s in ipairs(core.speeds(self.handle)) do
-    t[s.name], t[s.du_name] = s.u, s.du
+    t[s.name], t[s.du_name] = core.in_unit(s.u, s.unit), core.in_unit(s.du, s.unit .. "/s")
   end
   return shaped(t)
+end
+
+-- Quantities along the speeds, each in its unit: that of `all` by that of the speed.
+local function by_speed(self, list, all)
+  for i, speed in ipairs(core.speeds(self.handle)) do
+    list[i] = core.in_unit(list[i], ("%s/(%s)"):format(all, speed.unit))
+  end
+  return list
 end
 
 -- M by rows.
 function methods:mass_matrix()
   local n, mass = core.motion(self.handle)
-  return rows_of(mass, n, n)
+  local speeds, rows = core.speeds(self.handle), rows_of(mass, n, n)
+  for i, row in ipairs(rows) do by_speed(self, row, ("J/(%s)"):format(speeds[i].unit)) end
+  return rows
 end
 
 -- h = -bias: what all elements exert along the speeds while u' is zero.
-function methods:generalised_forces() return shaped(core.force(self.handle)) end
+function methods:generalised_forces() return shaped(by_speed(self, core.force(self.handle), "W")) end
 
 -- C u + g, and whatever else the elements exert: M u' + bias = tau.
 function methods:bias()
   local list = core.force(self.handle)
   for i, h in ipairs(list) do list[i] = -h end
-  return shaped(list)
+  return shaped(by_speed(self, list, "W"))
 end
 
 -- What holds the mechanism at rest against the field of gravity alone.
-function methods:gravity_torque() return shaped(core.gravity_torque(self.handle)) end
+function methods:gravity_torque() return shaped(by_speed(self, core.gravity_torque(self.handle), "W")) end
 
 -- The generalised forces of a motion q, q', q''.
-function methods:inverse_dynamics() return shaped(core.inverse(self.handle)) end
+function methods:inverse_dynamics() return shaped(by_speed(self, core.inverse(self.handle), "W")) end
 
 -- The accelerations as functions of q, q' and forces named tau_beta1, ...; form: "mass_matrix" | "articulated".
 function methods:forward_dynamics(t)
   local list = core.forward(self.handle, form_of(t, "forward_dynamics"))
+  for i, speed in ipairs(core.speeds(self.handle)) do list[i] = core.in_unit(list[i], speed.unit .. "/s") end
   return shaped(list)
 end
 
@@ -105,7 +117,9 @@ function methods:jacobian(at)
   end
   local part, port = frame.place(self, at, "frame", "jacobian: expected m:jacobian(frame)")
   local n, list = core.jacobian(self.handle, part, port, offset)
-  return rows_of(list, n, 6)
+  local rows = rows_of(list, n, 6)
+  for i, row in ipairs(rows) do by_speed(self, row, i <= 3 and "rad/s" or "m/s") end
+  return rows
 end
 
 -- The equations of motion as a first-order system; made once as long as no part is added.

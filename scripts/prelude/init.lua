@@ -51,7 +51,8 @@ end
 -- A number, or what a text says, as an expression; unit: the SI unit that it must agree with.
 function ambit.number(value, unit)
   if unit ~= nil then check.text(unit, "number: unit") end
-  return core.expression(value, unit, "number")
+  local e = core.expression(value, unit, "number")
+  return unit and core.in_unit(e, unit) or e
 end
 
 -- Whose is arithmetic on texts, "1" / "3"? true: Ambit's, as in the command; false: Lua's, which rounds. Until the host
@@ -66,6 +67,16 @@ end
 core.text_arithmetic("watched")
 
 local degree = ambit.pi / 180
-function ambit.degrees(x) return core.mul(x, degree) end
+
+-- A number of degrees, which has no unit, as an angle.
+function ambit.degrees(x)
+  local _, unit = core.unit_of(x)
+  if unit then
+    check.fail("degrees: expected a number of degrees without a unit, got %s: a value with a unit is converted already",
+      unit)
+  end
+  local angle = core.mul(x, degree)
+  return check.kind(angle) == "expression" and core.in_unit(angle, "rad") or angle
+end
 
 return ambit

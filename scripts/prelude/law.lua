@@ -6,6 +6,7 @@
 --   from and to  length of the line between the points, its rate
 --   at           of a force: position and velocity of the point; of a torque: angular velocity. World axes; with
 --                axes = "body" velocities in those of the frame
+-- Their units are soft: -x may stand for -1 N/m * x.
 local check = require "ambit.check"
 local core = require "ambit.core"
 local frame = require "ambit.frame"
@@ -31,6 +32,10 @@ local function of_joint(self, port, value, what, arguments)
   local part, number = frame.place(self, value, "joint", what)
   local q = core.pull(self.handle, part, number, core.COORDINATE, port.coordinates)
   local u = core.pull(self.handle, part, number, core.RATE, port.dof)
+  local unit = core.coordinate_unit(self.handle, q[1]) -- nil: a given motion
+  if unit and port.coordinates == 1 and port.dof == 1 then
+    q[1], u[1] = core.in_unit(q[1], unit, true), core.in_unit(u[1], unit .. "/s", true)
+  end
   arguments[#arguments + 1] = port.coordinates == 1 and q[1] or q
   arguments[#arguments + 1] = port.dof == 1 and u[1] or u
 end
@@ -39,9 +44,9 @@ local function of_line(self, t, values, what, arguments)
   local first, first_rate = measure.point(self, t.from, offset_of(values, "from_offset"), what)
   local second, second_rate = measure.point(self, t.to, offset_of(values, "to_offset"), what)
   local d = second - first
-  local length = core.sqrt(rotation.dot(d, d))
+  local length = core.in_unit(core.sqrt(rotation.dot(d, d)), "m", true)
   arguments[#arguments + 1] = length
-  arguments[#arguments + 1] = rotation.dot(d, second_rate - first_rate) / length
+  arguments[#arguments + 1] = core.in_unit(rotation.dot(d, second_rate - first_rate) / length, "m/s", true)
 end
 
 local function of_frame(self, t, values, param, what, arguments)
@@ -49,8 +54,9 @@ local function of_frame(self, t, values, param, what, arguments)
   local position, velocity = measure.point(self, t.at, offset_of(values, "offset"), what)
   local angular_velocity, _, axes = measure.twist(self, t.at, what)
   local rate = is_force and velocity or angular_velocity
-  if is_force then arguments[#arguments + 1] = position end
-  arguments[#arguments + 1] = t.axes == "body" and rotation.turned_back(axes, rate) or rate
+  if is_force then arguments[#arguments + 1] = Vector.in_unit(position, "m", true) end
+  if t.axes == "body" then rate = rotation.turned_back(axes, rate) end
+  arguments[#arguments + 1] = Vector.in_unit(rate, is_force and "m/s" or "rad/s", true)
 end
 
 -- What `value`, given for `param` of the element declared by d, returns; t: the user's table, values: the parameters

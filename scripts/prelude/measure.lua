@@ -23,14 +23,15 @@ local function vector_at(list, first) return Vector.new(list[first], list[first 
 -- Position (world) and rotation (nine entries by rows, own axes -> world) of a frame.
 local function pose(self, at, what)
   local list = pull(self, at, core.POSE, 12, what)
-  return vector_at(list, 10), list
+  return Vector.in_unit(vector_at(list, 10), "m"), list
 end
 
 -- The twist of a frame in world axes: angular velocity, velocity of its origin; and its rotation.
 local function twist(self, at, what)
   local _, r = pose(self, at, what)
   local list = pull(self, at, core.TWIST, 6, what)
-  return rotation.turned(r, vector_at(list, 1)), rotation.turned(r, vector_at(list, 4)), r
+  return Vector.in_unit(rotation.turned(r, vector_at(list, 1)), "rad/s"),
+    Vector.in_unit(rotation.turned(r, vector_at(list, 4)), "m/s"), r
 end
 
 measure.twist = twist
@@ -54,7 +55,7 @@ function methods:angular_velocity(at) return (twist(self, at, "angular_velocity"
 function methods:acceleration(at)
   local _, r = pose(self, at, "acceleration")
   local proper = pull(self, at, core.ACCEL, 6, "acceleration")
-  return rotation.turned(r, vector_at(proper, 4)) + vector_at(whole(self, core.FIELD, 3), 1)
+  return Vector.in_unit(rotation.turned(r, vector_at(proper, 4)) + vector_at(whole(self, core.FIELD, 3), 1), "m/s^2")
 end
 
 -- A point at `offset` (axes of the frame, or nil) of a frame: its position and its velocity, world axes.
@@ -63,7 +64,7 @@ function measure.point(self, at, offset, what)
   local w, v = twist(self, at, what)
   if not offset then return r, v end
   local arm = rotation.turned(q, offset)
-  return r + arm, v + rotation.cross(w, arm)
+  return Vector.in_unit(r + arm, "m"), Vector.in_unit(v + rotation.cross(w, arm), "m/s")
 end
 
 -- -- two frames
@@ -71,14 +72,14 @@ end
 -- Of the origins, m.
 function methods:distance(a, b)
   local d = pose(self, b, "distance: second frame") - pose(self, a, "distance: first frame")
-  return core.sqrt(rotation.dot(d, d))
+  return core.in_unit(core.sqrt(rotation.dot(d, d)), "m")
 end
 
 -- Rotation and position of b in the axes of a.
 function methods:relative_pose(a, b)
   local ra, qa = pose(self, a, "relative_pose: first frame")
   local rb, qb = pose(self, b, "relative_pose: second frame")
-  return setmetatable({ position = rotation.turned_back(qa, rb - ra),
+  return setmetatable({ position = Vector.in_unit(rotation.turned_back(qa, rb - ra), "m"),
     rotation = rotation.matrix(rotation.product_back(qa, qb)) }, Matrix)
 end
 
@@ -88,8 +89,9 @@ function methods:relative_velocity(a, b)
   local rb = pose(self, b, "relative_velocity: second frame")
   local wa, va = twist(self, a, "relative_velocity: first frame")
   local wb, vb = twist(self, b, "relative_velocity: second frame")
-  return setmetatable({ linear = rotation.turned_back(qa, vb - va - rotation.cross(wa, rb - ra)),
-    angular = rotation.turned_back(qa, wb - wa) }, Matrix)
+  local linear = rotation.turned_back(qa, vb - va - rotation.cross(wa, rb - ra))
+  return setmetatable({ linear = Vector.in_unit(linear, "m/s"),
+    angular = Vector.in_unit(rotation.turned_back(qa, wb - wa), "rad/s") }, Matrix)
 end
 
 -- Without an axis: the angle of the rotation from a to b, 0 to pi. About an axis (in the axes of a): the signed angle
@@ -102,7 +104,7 @@ function methods:angle(a, b, axis, near)
   if axis == nil then
     if near ~= nil then check.fail "angle: `near` is of the angle about an axis: say which axis" end
     local s = rotation.vee(q)
-    return core.atan2(core.sqrt(rotation.dot(s, s)), rotation.trace(q) - 1)
+    return core.in_unit(core.atan2(core.sqrt(rotation.dot(s, s)), rotation.trace(q) - 1), "rad")
   end
   local n = rotation.direction(axis, "angle: axis")
   if near ~= nil then
@@ -110,20 +112,20 @@ function methods:angle(a, b, axis, near)
     q = rotation.product_back(rotation.about(n, near), q)
   end
   local twisted = 2 * core.atan2(rotation.dot(n, rotation.vee(q)), 1 + rotation.trace(q))
-  return near and near + twisted or twisted
+  return core.in_unit(near and near + twisted or twisted, "rad")
 end
 
 -- -- masses
 
 -- kg
-function methods:total_mass() return whole(self, core.MASS, 1)[1] end
+function methods:total_mass() return core.in_unit(whole(self, core.MASS, 1)[1], "kg") end
 
 -- In the world, m.
 function methods:centre_of_mass()
   local mass = self:total_mass()
   if mass == core.expression(0) then check.fail "centre_of_mass: the mechanism has no mass" end
   local moment = vector_at(whole(self, core.MASS_MOMENT, 3), 1)
-  return Vector.new(moment.x / mass, moment.y / mass, moment.z / mass)
+  return Vector.in_unit(Vector.new(moment.x / mass, moment.y / mass, moment.z / mass), "m")
 end
 
 -- Linear momentum, N s, and angular momentum, N m s, in world axes, about the world's origin or that of a frame.
@@ -131,7 +133,7 @@ function methods:momentum(about)
   local list = whole(self, core.MOMENTUM, 6)
   local angular, linear = vector_at(list, 1), vector_at(list, 4)
   if about ~= nil then angular = angular - rotation.cross(pose(self, about, "momentum: about"), linear) end
-  return setmetatable({ linear = linear, angular = angular }, Matrix)
+  return setmetatable({ linear = Vector.in_unit(linear, "N s"), angular = Vector.in_unit(angular, "N m s") }, Matrix)
 end
 
 -- -- what a joint transmits
@@ -164,7 +166,8 @@ function methods:reaction(joint, which)
   local wrench = core.pull(self.handle, part, port, core.WRENCH, 6)
   for i = 1, 6 do wrench[i] = -wrench[i] end
   if which == "motion" then wrench = in_motion(self, wrench) end
-  return setmetatable({ torque = vector_at(wrench, 1), force = vector_at(wrench, 4) }, Matrix)
+  return setmetatable({ torque = Vector.in_unit(vector_at(wrench, 1), "N m"),
+    force = Vector.in_unit(vector_at(wrench, 4), "N") }, Matrix)
 end
 
 function measure.install(into)

@@ -6,6 +6,25 @@ local session = require "ambit.session"
 local Ode = { __name = "ode" }
 Ode.__index = Ode
 
+local ode = {}
+
+-- The unit that a state was declared with; nil: none, so that any value fits. A mechanism declares all of its own.
+function ode.unit(self, i)
+  local unit = self.units[i]
+  if unit == "1" and not self.mechanism then return nil end
+  return unit
+end
+
+local function rate_unit(self, i)
+  local unit = ode.unit(self, i)
+  return unit and unit .. "/s"
+end
+
+-- The state i as functions get it: in its unit, where it has one; soft: which is not insisted on.
+function ode.symbol(self, i, soft)
+  return core.in_unit(self.symbols[i], ode.unit(self, i), soft or self.unchecked)
+end
+
 function Ode.__tostring(self)
   local lines = { ('ode "%s"'):format(self.name) }
   for i, name in ipairs(self.states) do lines[#lines + 1] = ("  d %s/dt = %s"):format(name, tostring(self.rates[i])) end
@@ -15,7 +34,7 @@ end
 -- The right-hand side of a state, as an expression.
 function Ode:rate(name)
   for i, state in ipairs(self.states) do
-    if state == name then return self.rates[i] end
+    if state == name then return core.in_unit(self.rates[i], rate_unit(self, i)) end
   end
   check.fail('ode `%s`: no state `%s`%s', self.name, tostring(name), check.suggest(name, self.states))
 end
@@ -23,13 +42,11 @@ end
 require("ambit.source").install(Ode)
 check.methods(Ode, Ode)
 
-local ode = {}
-
 local function object(system, name, mechanism, parameters, declaration)
   local names, units, symbols, rates = core.system_parts(system)
   return setmetatable({ name = name, system = system, states = names, units = units, symbols = symbols,
-    rates = rates, mechanism = mechanism or false, parameters = parameters or {}, declaration = declaration or false },
-    Ode)
+    rates = rates, mechanism = mechanism or false, parameters = parameters or {}, declaration = declaration or false,
+    unchecked = false }, Ode)
 end
 
 -- mechanism: the one whose equations of motion these are, if they are of one; parameters: { name = expression };
@@ -58,9 +75,9 @@ local function strict(values, what)
 end
 
 -- What a function(s, p, t) of a system is called with; of that of a mechanism function(s, p, t, m).
-function ode.arguments(self)
+function ode.arguments(self, soft)
   local s = {}
-  for i, name in ipairs(self.states) do s[name] = self.symbols[i] end
+  for i, name in ipairs(self.states) do s[name] = ode.symbol(self, i, soft) end
   return strict(s, "states"), strict(self.parameters, "parameters"), core.time(), self.mechanism or nil
 end
 
@@ -96,9 +113,9 @@ local function read_parameters(t, is_state)
 end
 
 -- The derivatives by state name: what the function returned, or a table of functions and expressions.
-local function read_rates(result, names, s, p, t)
+local function read_rates(result, self, s, p, t)
   check.table(result, "ode: equations")
-  local rates = {}
+  local rates, names = {}, self.states
   local by_place = #result == #names and next(result, #result) == nil
   if not by_place then check.keys(result, names, "ode: equations") end
   for i, name in ipairs(names) do
@@ -106,18 +123,19 @@ local function read_rates(result, names, s, p, t)
     if by_place then value = result[i] else value = result[name] end
     if value == nil then check.fail('ode: equations: the derivative of `%s` is missing', name) end
     if type(value) == "function" then value = value(s, p, t) end
-    rates[i] = core.expression(value, nil, "ode: derivative of " .. name)
+    rates[i] = core.expression(value, rate_unit(self, i), "ode: derivative of " .. name)
   end
   return rates
 end
 
-local function write_rates(equations, names, symbols, parameters)
+-- self: { states, units, symbols } with which the equations are written
+local function write_rates(equations, self, parameters)
   local by_name = {}
-  for i, name in ipairs(names) do by_name[name] = symbols[i] end
+  for i, name in ipairs(self.states) do by_name[name] = ode.symbol(self, i) end
   local s, p, time = strict(by_name, "ode: states"), strict(parameters, "ode: parameters"), core.time()
   local result = equations
   if type(result) == "function" then result = result(s, p, time) end
-  return read_rates(result, names, s, p, time)
+  return read_rates(result, self, s, p, time)
 end
 
 -- Is there something to be called again with other parameters?
@@ -132,7 +150,10 @@ end
 -- ambit.ode { states = { "x" }, parameters = { a = 1 }, equations = function(s, p, t) return { x = -p.a * s.x } end }
 function ode.new(t)
   check.table(t, "ode")
-  check.keys(t, { "states", "parameters", "equations", "name" }, "ode", 1)
+  check.keys(t, { "states", "parameters", "equations", "name", "check_units" }, "ode", 1)
+  if t.check_units ~= nil and type(t.check_units) ~= "boolean" then
+    check.fail("ode: check_units: expected true or false, got %s", check.kind(t.check_units))
+  end
   if t.states == nil then check.fail "ode: states are missing: a list of names" end
   if t.equations == nil then
     check.fail "ode: equations are missing: a function(s, p, t) that returns the derivatives"
@@ -144,9 +165,13 @@ function ode.new(t)
     values[name] = symbols[i]
   end
   local parameters = read_parameters(t.parameters, values)
-  local rates = write_rates(t.equations, names, symbols, parameters)
-  return ode.of_system(core.system(names, units, symbols, rates), t.name or t[1] or "ode", nil, parameters,
+  local unchecked = t.check_units == false
+  local rates = write_rates(t.equations, { states = names, units = units, symbols = symbols, unchecked = unchecked },
+    parameters)
+  local self = ode.of_system(core.system(names, units, symbols, rates), t.name or t[1] or "ode", nil, parameters,
     is_rewritable(t.equations) and t.equations)
+  self.unchecked = unchecked
+  return self
 end
 
 -- u such that a datum of one unknown u, of which it is a linear function, has a value; nil: it is none.
@@ -164,7 +189,9 @@ local function read_values(self, values, what)
   local parameters, anew, from, to = {}, false, {}, {}
   for name, value in pairs(self.parameters) do parameters[name] = value end
   for _, key in ipairs(check.sorted(values)) do
-    local value, datum = core.expression(values[key]), key
+    local datum = key
+    if type(key) == "string" then datum = self.parameters[key] end
+    local value = core.expression(values[key], core.unit_of(datum), ("%s: %s"):format(what, tostring(key)))
     if type(key) == "string" then
       datum = self.parameters[key]
       if not datum then
@@ -192,13 +219,13 @@ end
 function ode.instance(self, values, what)
   if next(values) == nil then return self end
   local parameters, anew, from, to = read_values(self, values, what or "instance")
-  local rates = anew and write_rates(self.declaration, self.states, self.symbols, parameters) or self.rates
+  local rates = anew and write_rates(self.declaration, self, parameters) or self.rates
   rates = core.substitute(rates, from, to)
   for name, value in pairs(parameters) do parameters[name] = core.substitute({ value }, from, to)[1] end
   local invariants, names = core.system_invariants(self.system)
   local system = core.system(self.states, self.units, self.symbols, rates, core.substitute(invariants, from, to), names)
   local instance = object(system, self.name, self.mechanism, parameters, self.declaration)
-  instance.replaced = { from, to }
+  instance.replaced, instance.unchecked = { from, to }, self.unchecked
   return instance
 end
 

@@ -35,7 +35,9 @@ function rotation.trace(r) return r[1] + r[5] + r[9] end
 function rotation.vee(r) return Vector.new(r[8] - r[6], r[3] - r[7], r[4] - r[2]) end
 
 function rotation.matrix(r)
-  return setmetatable({ { r[1], r[2], r[3] }, { r[4], r[5], r[6] }, { r[7], r[8], r[9] } }, Matrix)
+  local n = {}
+  for i = 1, 9 do n[i] = core.in_unit(r[i], "1") end
+  return setmetatable({ { n[1], n[2], n[3] }, { n[4], n[5], n[6] }, { n[7], n[8], n[9] } }, Matrix)
 end
 
 -- "x", "-z" or three numbers, as a unit vector

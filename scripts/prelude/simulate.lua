@@ -43,7 +43,7 @@ function verb.initial(t, system, what)
     local value
     if by_place then value = t[i] else value = t[name] end
     if value == nil then check.fail('%s: initial: the state `%s` has no value', what, name) end
-    list[i] = core.expression(value, system.units[i], ("%s: initial.%s"):format(what, name))
+    list[i] = core.expression(value, ode.unit(system, i), ("%s: initial.%s"):format(what, name))
   end
   return list
 end

@@ -23,13 +23,13 @@ local SHARE = 1e-3    -- of the time in the last mode: how far behind a switch t
 -- The state of a system with this name, or nil.
 local function namesake(system, name)
   for i, own in ipairs(system.states) do
-    if own == name then return system.symbols[i] end
+    if own == name then return ode.symbol(system, i) end
   end
 end
 
 local function read_reset(guard, place, source, target)
   local given = guard.entry.reset
-  if type(given) == "function" then given = given(ode.arguments(source)) end
+  if type(given) == "function" then given = given(ode.arguments(source, true)) end
   given = given == nil and {} or check.table(given, place .. ".reset")
   check.keys(given, target.states, place .. ".reset")
   local list = {}
@@ -39,7 +39,7 @@ local function read_reset(guard, place, source, target)
     if value == nil then
       check.fail("%s: reset: the state `%s` of mode `%s` gets no value", place, name, guard.entry.to)
     end
-    list[i] = core.expression(value, target.units[i], ("%s.reset: %s"):format(place, name))
+    list[i] = core.expression(value, ode.unit(target, i), ("%s.reset: %s"):format(place, name))
   end
   return instant.formulas(list, source.shift)
 end

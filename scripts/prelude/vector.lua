@@ -1,5 +1,7 @@
 -- vector.lua -- three components with names: p.x, p.y, p.z; also p[1], p[2], p[3] and ipairs(p). Of expressions or of
 -- enclosures.
+local core = require "ambit.core"
+
 local Vector = { __name = "vector", is_shape = true }
 local names = { "x", "y", "z" }
 
@@ -23,6 +25,12 @@ function Vector.__mul(a, b)
   local v, s = a, b
   if getmetatable(a) ~= Vector then v, s = b, a end
   return Vector.new(v.x * s, v.y * s, v.z * s)
+end
+
+-- The same components in this unit; soft: which is not insisted on.
+function Vector.in_unit(self, unit, soft)
+  local function component(x) return core.in_unit(x, unit, soft) end
+  return Vector.new(component(self.x), component(self.y), component(self.z))
 end
 
 function Vector.new(x, y, z) return setmetatable({ x = x, y = y, z = z }, Vector) end

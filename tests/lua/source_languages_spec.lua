@@ -260,7 +260,7 @@ describe("sources of other languages", function()
       parameters = { time = ambit.between("0.1", "0.7"), b = ambit.between(1, 2) * ambit.pi },
       equations = function(s, p, t)
         local all = ambit.between(-1, 1) + ambit.sin(p.b * t) * p.time
-        for _, state in ipairs(states_of_all_kinds) do all = all + ambit.cos(s[state[1]]) * ambit.sin(all) end
+        for _, state in ipairs(states_of_all_kinds) do all = all + ambit.cos(1 * s[state[1]]) * ambit.sin(all) end -- 1/m or what it takes
         local rates = {}
         for i, state in ipairs(states_of_all_kinds) do rates[i] = all * s[state[1]] + i end
         return rates

@@ -62,10 +62,11 @@ local function check_leaves(m, expression, what)
 end
 
 local function written_output(m, value, what)
-  if type(value) == "function" then value = value(ode.arguments(m.system)) end
-  local expression = in_motion(m, core.expression(value, nil, what))
+  if type(value) == "function" then value = value(ode.arguments(m.system, true)) end
+  value = core.expression(value, nil, what)
+  local unit, expression = core.unit_of(value, true) or "1", in_motion(m, value)
   expression = ode.as_instance(m.system, { expression })[1] -- m:position(frame) is written with the data of m
-  return check_leaves(m, expression, what)
+  return check_leaves(m, expression, what), unit
 end
 
 -- { "x", "x'", y = function(s, p, t) ... end } -> { { name, unit, expression } }: listed ones first
@@ -81,7 +82,7 @@ local function read_outputs(m, outputs, what)
   end
   for _, key in ipairs(check.sorted(outputs)) do
     if type(key) == "string" then
-      add(key, written_output(m, outputs[key], ("%s: `%s`"):format(what, key)), "1")
+      add(key, written_output(m, outputs[key], ("%s: `%s`"):format(what, key)))
     elseif math.type(key) ~= "integer" or key < 1 or key > #outputs then
       check.fail("%s: unexpected entry [%s]", what, tostring(key))
     else

@@ -72,9 +72,10 @@ function scenario.symbols(t, what)
   return symbols
 end
 
-local function value_of(value, what)
+-- unit: that of what the value stands for; nil: not known
+local function value_of(value, unit, what)
   if type(value) == "function" then value = value(core.time()) end
-  local e = core.expression(value, nil, what)
+  local e = core.expression(value, unit, what)
   for _, leaf in ipairs(core.leaves { e }) do
     if leaf.kind == "symbol" then check.fail("%s depends on `%s`: expected data and time only", what, leaf.name) end
   end
@@ -136,7 +137,8 @@ local function read(t, entry, number, count, m, what)
     if value == nil then value = find(common, key) end
     if value == nil then value = default_of(m, key) end
     local n = #s.leaves + 1
-    s.leaves[n], s.values[n] = m.varied[key], value_of(value, ("%s: `%s`"):format(where, tostring(key)))
+    s.leaves[n] = m.varied[key]
+    s.values[n] = value_of(value, core.unit_of(default_of(m, key)), ("%s: `%s`"):format(where, tostring(key)))
     s.by_key[key] = s.values[n]
   end
   s.initial = initial_of(entry.initial == nil and t.initial or entry.initial, m, s, where)

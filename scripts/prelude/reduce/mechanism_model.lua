@@ -37,7 +37,8 @@ local function written(value, copy, still, states, what)
     local result = value
     if type(value) == "function" then result = value(states_of(s, still, states), p, t, copy.mechanism) end
     local e = core.expression(result, nil, what)
-    return #copy.leaves > 0 and core.substitute({ e }, copy.leaves, copy.motions)[1] or e
+    if #copy.leaves == 0 then return e end
+    return core.in_unit(core.substitute({ e }, copy.leaves, copy.motions)[1], (core.unit_of(e, true)))
   end
 end
 

@@ -89,6 +89,7 @@ local function write_states(out, states)
     list[i] = plain and quoted(state.name) or ("{ %s, %s }"):format(quoted(state.name), quoted(state.unit))
   end
   out(source_model.wrap("  states = { " .. table.concat(list, ", ") .. " },", "    ", 110))
+  if not plain then out "  check_units = false, -- numbers stand for coefficients in SI units" end
 end
 
 local MOST_LOCALS = 150 -- Lua has 200

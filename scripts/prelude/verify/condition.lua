@@ -3,6 +3,7 @@
 local check = require "ambit.check"
 local core = require "ambit.core"
 local event = require "ambit.event"
+local ode = require "ambit.ode"
 
 local condition = {}
 
@@ -25,7 +26,7 @@ end
 
 local function arguments(system)
   local states = {}
-  for i, name in ipairs(system.states) do states[name] = system.symbols[i] end
+  for i, name in ipairs(system.states) do states[name] = ode.symbol(system, i) end
   return strict(states, "state"), strict(system.parameters, "parameter"), core.time()
 end
 
