@@ -1,11 +1,39 @@
-// bands.js -- enclosures over time: one plot for each name, a band for each chosen combination, the hull of the samples
-// and the reference in them. Drawn by uPlot.
-const SHOWN_AT_FIRST = 3, NAMES_AT_FIRST = 8, FAR = 3, FEW = 30, THIN = 0.02, HEIGHT = 240;
+// bands.js -- enclosures over time: one plot for each name, the chosen combinations, the hull of the samples and the
+// reference in them. At its instants a combination is a bar, between them the tube that holds there all the time is a
+// box; nothing is drawn where nothing is known. uPlot makes the axes.
+const SHOWN_AT_FIRST = 3, NAMES_AT_FIRST = 8, FAR = 3, THIN = 0.02, MANY = 60, HEIGHT = 240;
 
 const half = text => text.replace(")", ", 0.16)").replace("rgb(", "rgba(");
 const label = x => String(Number(x.toPrecision(10)));
 // Three digits, not below x: a width that is proved stays one.
 const upward = x => Number(x.toPrecision(3)) >= x ? x.toPrecision(3) : (x * 1.005).toPrecision(3);
+
+const span = (lo, hi) => `[${lo}, ${hi}]`;
+
+// The number of the part of a track that t is in: from its instant to the next one; -1: in none.
+const partOf = (times, t) => times.findIndex((at, k) =>
+  k + 1 < times.length && Math.min(at, times[k + 1]) < t && t < Math.max(at, times[k + 1]));
+
+// What is known of a layer at its instant k, as words.
+function known({ lo, hi, error, only }, k, isWidth) {
+  if (lo[k] === null || !only && hi[k] === null) return "";
+  if (only) return lo[k];
+  if (isWidth) return upward(hi[k] - lo[k]);
+  return lo[k] === hi[k] && error && error[k] > 0 ? `${lo[k]} \u00b1 ${upward(error[k])}` : span(lo[k], hi[k]);
+}
+
+function told(layer, t, isWidth) {
+  const { text, t: times, tube } = layer, at = times.indexOf(t);
+  const words = at >= 0 && known(layer, at, isWidth);
+  if (words) return `${text} ${words}`;
+  const k = partOf(times, t);
+  if (k < 0) return "";
+  if (tube && !isWidth && tube.lo[k] !== null && tube.hi[k] !== null) {
+    return `${text} ${span(tube.lo[k], tube.hi[k])} from t = ${times[k]} to ${times[k + 1]}`;
+  }
+  const own = known(layer, k, isWidth);
+  return own ? `${text} ${own} at t = ${times[k]}` : "";
+}
 
 class Bands {
   constructor(place, data) {
@@ -67,10 +95,11 @@ class Bands {
 
   layers(name) {
     const { rows, sample, reference } = this.data;
-    const list = [...this.chosen].map(([k, c]) => ({ text: rows[k].label, track: rows[k].track, colour: paint(c) }));
-    if (sample) list.push({ text: "sampled hull", track: sample, colour: "--ink", dash: [3, 3] });
-    const bands = list.map(({ text, track, colour: c, dash }) =>
-      ({ text, c, dash, t: track.t, lo: track.lo[name], hi: track.hi[name] }));
+    const list = [...this.chosen].map(([k, c]) => ({ text: rows[k].label, track: rows[k].track, c: paint(c) }));
+    if (sample) list.push({ text: "sampled hull", track: sample, c: "--ink", sampled: true });
+    const bands = list.map(({ text, track, c, sampled }) => ({ text, c, sampled, t: track.t, lo: track.lo[name],
+      hi: track.hi[name], error: track.error && track.error[name],
+      tube: track.tube && { lo: track.tube.lo[name], hi: track.tube.hi[name] } }));
     if (reference && reference.x[name].some(x => x !== null)) {
       bands.push({ text: "reference", c: "--ink", t: reference.t, lo: reference.x[name], only: true });
     }
@@ -79,8 +108,8 @@ class Bands {
 
   // The range that shows the tightest band well; what leaves it by far is cut off.
   range(layers) {
-    const ends = layers.map(({ lo, hi }) => {
-      const all = [...lo, ...(hi || [])].filter(x => x !== null);
+    const ends = layers.map(({ lo, hi, tube }) => {
+      const all = [...lo, ...(hi || []), ...(tube ? [...tube.lo, ...tube.hi] : [])].filter(x => x !== null);
       return all.length ? [Math.min(...all), Math.max(...all)] : null;
     }).filter(Boolean);
     if (ends.length === 0) return [0, 1];
@@ -94,24 +123,68 @@ class Bands {
     return [low - margin, high + margin];
   }
 
-  // One line or two for a layer, and the band between them.
+  // Points for the scales; in the mode of widths they are all that is drawn.
   series(layers) {
-    const series = [{ label: "t" }], bands = [], tables = [];
+    const series = [{ label: "t" }], tables = [], isWidth = this.mode === "width";
     for (const layer of layers) {
       const widths = layer.hi && layer.lo.map((lo, i) => lo === null || layer.hi[i] === null || !(layer.hi[i] > lo)
         ? null : layer.hi[i] - lo);
-      const lines = this.mode === "width" ? [widths] : layer.only ? [layer.lo] : [layer.hi, layer.lo];
-      if (!lines[0]) continue;
-      const single = lines[0].filter(x => x !== null).length < 2;
-      const dots = layer.only && layer.t.length <= FEW;
-      lines.forEach(() => series.push({ label: layer.text, stroke: () => colour(layer.c), width: 1.5, dash: layer.dash,
-        points: { show: single || dots, size: 7 }, ...(dots && { paths: () => null }) }));
-      if (lines.length === 2) {
-        bands.push({ series: [series.length - 2, series.length - 1], fill: () => half(colour(layer.c)) });
-      }
-      tables.push([layer.t, ...lines]);
+      const points = isWidth ? widths : layer.lo;
+      if (!points) continue;
+      series.push({ label: layer.text, stroke: () => colour(layer.c), paths: () => null,
+        points: { show: isWidth, size: layer.t.length > MANY ? 3 : 5, fill: () => colour(layer.c) } });
+      tables.push([layer.t, points]);
     }
-    return { series, bands, data: tables.length > 0 ? uPlot.join(tables) : [[]] };
+    return { series, data: tables.length > 0 ? uPlot.join(tables) : [[]] };
+  }
+
+  // What is known in the plot of enclosures, where it is known.
+  paint(plot, layers) {
+    if (this.mode === "width") return;
+    const { ctx, bbox } = plot, dot = devicePixelRatio || 1;
+    const x = t => plot.valToPos(t, "x", true), y = value => plot.valToPos(value, "y", true);
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+    ctx.clip();
+    for (const layer of layers) {
+      ctx.strokeStyle = colour(layer.c);
+      this.boxes(ctx, layer, x, y, dot);
+      ctx.fillStyle = colour(layer.c);
+      this.bars(ctx, layer, x, y, dot);
+    }
+    ctx.restore();
+  }
+
+  boxes(ctx, { t, tube, c }, x, y, dot) {
+    ctx.fillStyle = half(colour(c));
+    ctx.lineWidth = 0.5 * dot;
+    for (let k = 0; tube && k + 1 < t.length; k++) {
+      if (tube.lo[k] === null || tube.hi[k] === null) continue;
+      const [left, top] = [Math.min(x(t[k]), x(t[k + 1])), y(tube.hi[k])];
+      const place = [left, top, Math.abs(x(t[k + 1]) - x(t[k])), y(tube.lo[k]) - top];
+      ctx.fillRect(...place);
+      ctx.strokeRect(...place);
+    }
+  }
+
+  // Upright bars, at least as high as they can be seen; of the samples two short lines, of the reference a dot.
+  bars(ctx, { t, lo, hi, sampled, only }, x, y, dot) {
+    t.forEach((at, k) => {
+      const bounds = only ? [lo[k], lo[k]] : [lo[k], hi[k]];
+      if (bounds.includes(null)) return;
+      const [low, high] = bounds.map(y);
+      if (only) {
+        ctx.beginPath();
+        ctx.arc(x(at), low, 3.5 * dot, 0, 2 * Math.PI);
+        ctx.fill();
+      } else if (sampled) {
+        for (const end of [low, high]) ctx.fillRect(x(at) - 2 * dot, end - 0.5 * dot, 4 * dot, dot);
+      } else {
+        const height = Math.max(low - high, 2 * dot);
+        ctx.fillRect(x(at) - 0.75 * dot, (low + high - height) / 2, 1.5 * dot, height);
+      }
+    });
   }
 
   axes() {
@@ -133,30 +206,25 @@ class Bands {
     box.append(make("figcaption", this.mode === "width" ? `width of ${title}` : title));
     const canvas = box.appendChild(make("div")), read = make("p", "", "quiet readout");
     box.append(read);
-    const layers = this.layers(name), { series, bands, data } = this.series(layers);
+    const layers = this.layers(name), { series, data } = this.series(layers);
     const linear = { range: () => this.range(layers) }, logarithmic = { distr: 3 };
-    const plot = new uPlot({ width: this.width(), height: HEIGHT, series, bands, axes: this.axes(),
+    const plot = new uPlot({ width: this.width(), height: HEIGHT, series, axes: this.axes(),
       legend: { show: false },
       scales: { x: { time: false }, y: this.mode === "width" ? logarithmic : linear },
       cursor: { points: { show: false }, y: false },
-      hooks: { setCursor: [u => this.read(u, name, read)] } }, data, canvas);
+      hooks: { draw: [u => this.paint(u, layers)], setCursor: [u => this.read(u, layers, read)] } }, data, canvas);
     plot.root.setAttribute("role", "img");
     plot.root.setAttribute("aria-label", `${title} over time: ${layers.map(layer => layer.text).join(", ")}`);
     return { plot, read };
   }
 
-  // What each layer says at the last of its instants up to the cursor.
-  read(plot, name, place) {
+  // What each layer says of the instant under the cursor: what holds at it, or all the time around it, or, with its own
+  // time, what was known last.
+  read(plot, layers, place) {
     const i = plot.cursor.idx;
     if (i === null || i === undefined) return;
-    const t = plot.data[0][i], words = [`t = ${label(t)}`];
-    for (const { text, t: times, lo, hi, only } of this.layers(name)) {
-      const k = times.findLastIndex(at => at <= t);
-      if (k < 0 || lo[k] === null) continue;
-      const band = () => this.mode === "width" ? upward(hi[k] - lo[k]) : `[${lo[k]}, ${hi[k]}]`;
-      words.push(`${text} ${only ? lo[k] : band()}`);
-    }
-    place.textContent = words.join(" \u00b7 ");
+    const t = plot.data[0][i], words = layers.map(layer => told(layer, t, this.mode === "width")).filter(Boolean);
+    place.textContent = [`t = ${t}`, ...words].join(" \u00b7 ");
   }
 
   width() { return Math.max(220, this.room.firstChild ? this.room.firstChild.clientWidth : this.room.clientWidth); }

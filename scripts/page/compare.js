@@ -52,9 +52,9 @@ function showBands(place, data) {
   });
   legend.list.classList.add("long");
   place.insertBefore(legend.list, bands.room);
-  const notes = ["Bounds hold at the instants; lines only join them."];
-  if (data.sample) notes.push("Dashed: the hull of sampled motions, which no enclosure can be inside of.");
-  if (data.reference) notes.push("Dark line or dots: the reference.");
+  const notes = ["Bars: bounds at an instant. Boxes: bounds that hold all the time between two instants."];
+  if (data.sample) notes.push("Dark dashes: the hull of sampled motions, which no enclosure can be inside of.");
+  if (data.reference) notes.push("Dark dots: the reference.");
   place.append(make("p", notes.join(" "), "quiet"));
   bands.draw();
 }

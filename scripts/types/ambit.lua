@@ -778,7 +778,14 @@ function ambit.overestimation(result, sample) end
 ---@field steps integer?
 ---@field memory number? bytes by which its process grew
 ---@field work table? the report of a run
----@field track { t: number[], lo: number[][], hi: number[][] }? at most 200 instants, by place of the state
+---@field track ambit.track?
+
+---At most 200 instants, bounds by place of the state.
+---@class ambit.track
+---@field t number[]
+---@field lo number[][]
+---@field hi number[][]
+---@field tube { lo: number[][], hi: number[][] } all the time from an instant to the next one
 
 ---Printed, it is a table.
 ---@class ambit.comparison

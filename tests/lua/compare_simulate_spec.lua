@@ -196,6 +196,26 @@ describe("compare over solvers", function()
     assert.same({ 0 }, r.rows[1].track.t)
   end)
 
+  it("keeps in a track what holds between its instants, too", function()
+    local turn = ambit.ode { states = { "x", "y" }, equations = function(s) return { x = -s.y, y = s.x } end }
+    for _, till in ipairs { 3, -3 } do
+      local r = ambit.compare { turn, initial = { x = 1, y = 0 }, t = { 0, till }, repeats = 1,
+        solvers = { "lohner", "taylor_model", "valencia", "stiff", "gsl" } }
+      for _, row in ipairs(r.rows) do
+        local track = row.track
+        for k = 1, #track.t - 1 do
+          assert.equal(row.rigorous, track.tube.lo[1][k] == track.tube.lo[1][k])
+          for j = 0, row.rigorous and 8 or -1 do
+            local t = track.t[k] + (track.t[k + 1] - track.t[k]) * j / 8
+            assert.is_true(track.tube.lo[1][k] <= math.cos(t) + 1e-15 and math.cos(t) - 1e-15 <= track.tube.hi[1][k])
+            assert.is_true(track.tube.lo[2][k] <= math.sin(t) + 1e-15 and math.sin(t) - 1e-15 <= track.tube.hi[2][k])
+          end
+        end
+        assert.equal(till, track.t[#track.t])
+      end
+    end
+  end)
+
   it("thins long tracks and keeps the widest", function()
     local r = ambit.compare { decay, initial = { x = "[1, 2]" }, t = { 0, 1 }, repeats = 1,
       solvers = { { "gsl", step_max = 1e-3 }, { "lohner", step_max = 1e-3 } } }

@@ -127,12 +127,75 @@ async function bands(section, data) {
   on.forEach(made => made.click());
   modes[0].click();
   await wait(100);
+  await readouts(section, data);
+  await gaps(section, data, legend);
+}
+
+// What is said under one t holds at that t: it is of an instant of its own, or of the tube around it, or has another
+// time beside it. So no two proofs of one truth are disjoint.
+function heldAt(words, t, data, name) {
+  const row = data.rows.filter(one => words.startsWith(one.label + " ")).pop();
+  if (!row) return null;
+  const [, lo, hi, rest] = words.slice(row.label.length).match(/^ \[(\S+), (\S+)\](.*)$/) || [];
+  check(lo !== undefined, `the readout says ${words}`);
+  const times = row.track.t, k = times.indexOf(t);
+  if (rest === "") {
+    check(k >= 0 && row.track.lo[name][k] === Number(lo) && row.track.hi[name][k] === Number(hi),
+      `at t = ${t} it says ${words}`);
+  } else if (rest.startsWith(" from")) {
+    const [from, to] = rest.match(/[\d.e-]+/g).map(Number), at = times.indexOf(from);
+    check(from < t && t < to && times[at + 1] === to && row.track.tube.lo[name][at] === Number(lo)
+      && row.track.tube.hi[name][at] === Number(hi), `at t = ${t} it says ${words}`);
+  } else {
+    const own = Number(rest.match(/^ at t = (\S+)$/)[1]);
+    check(!row.track.tube && times.includes(own), `at t = ${t} it says ${words}`);
+    return null;
+  }
+  return [Number(lo), Number(hi)];
+}
+
+async function readouts(section, data) {
   const over = section.querySelector(".tracks .u-over"), box = over.getBoundingClientRect();
-  const place = { clientX: box.left + box.width / 2, clientY: box.top + 20, bubbles: true };
-  over.dispatchEvent(new MouseEvent("mousemove", place));
+  const seen = new Set();
+  for (let x = 3; x < box.width; x += 2.3) {
+    over.dispatchEvent(new MouseEvent("mousemove", { clientX: box.left + x, clientY: box.top + 20, bubbles: true }));
+    await wait(20);
+    const said = section.querySelector(".readout").textContent;
+    if (seen.has(said)) continue;
+    seen.add(said);
+    const [head, ...words] = said.split(" \u00b7 "), t = Number(head.replace("t = ", ""));
+    check(Number.isFinite(t) && words.length > 0, `under the pointer it says: ${said}`);
+    const sets = words.map(one => heldAt(one, t, data, 0)).filter(Boolean);
+    check(Math.max(...sets.map(s => s[0])) <= Math.min(...sets.map(s => s[1])), `disjoint proofs: ${said}`);
+  }
+  check(seen.size > 20, `${seen.size} readouts`);
+  const all = [...seen].join("\n");
+  if (!data.sample) return;
+  for (const part of [" from t = ", " at t = ", "\u00b1"]) check(all.includes(part), `no readout says${part}`);
+}
+
+// A combination that says nothing between its steps is not drawn there.
+async function gaps(section, data, legend) {
+  const rows = data.rows.filter(row => row.track), k = rows.findIndex(row => !row.track.tube);
+  if (k < 0) return;
+  const on = legend.filter(made => made.getAttribute("aria-pressed") === "true");
+  on.forEach(made => made.click());
+  legend[k].click();
   await wait(100);
-  const said = section.querySelector(".readout").textContent;
-  check(/t = /.test(said) && /\[/.test(said), `under the pointer it says: ${said}`);
+  const wanted = channels(getComputedStyle(legend[k].querySelector("path")).fill).slice(0, 3);
+  const canvas = section.querySelector(".tracks canvas"), pen = canvas.getContext("2d");
+  const { data: points, width, height } = pen.getImageData(0, 0, canvas.width, canvas.height);
+  const near = i => wanted.every((c, n) => Math.abs(points[4 * i + n] - c) < 24) && points[4 * i + 3] > 127;
+  let columns = 0;
+  for (let x = 0; x < width; x++) {
+    for (let y = 0; y < height; y++) if (near(y * width + x)) { columns++; break; }
+  }
+  const instants = rows[k].track.t.length;
+  check(columns >= instants / 2 && columns <= 4 * instants * devicePixelRatio,
+    `${instants} instants are drawn in ${columns} columns of ${width}`);
+  legend[k].click();
+  on.forEach(made => made.click());
+  await wait(100);
 }
 
 async function look() {

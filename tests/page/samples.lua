@@ -6,18 +6,22 @@ local huge, nan = math.huge, 0 / 0
 
 -- -- comparisons
 
--- Enclosures of a decaying swing, w wide at the start, so many instants.
-local function track(names, w, rate, count)
-  local t, lo, hi = {}, {}, {}
+-- Enclosures of a decaying swing, w wide at the start, at so many instants; with_tube: and between them.
+local function track(names, w, rate, count, with_tube)
+  local t, lo, hi, tube = {}, {}, {}, { lo = {}, hi = {} }
   for k = 1, #names do
-    lo[k], hi[k] = {}, {}
+    lo[k], hi[k], tube.lo[k], tube.hi[k] = {}, {}, {}, {}
     for i = 1, count do
-      local at = 4 * (i - 1) / (count - 1)
-      local x, r = math.cos(k * at) * math.exp(-at / 3), w * k * math.exp(rate * at)
-      t[i], lo[k][i], hi[k][i] = at, x - r, x + r
+      local function x(at) return math.cos(k * at) * math.exp(-at / 3) end
+      local at, h = 4 * (i - 1) / (count - 1), 4 / (count - 1)
+      local r = w * k * math.exp(rate * (at + h))
+      local least, most = math.huge, -math.huge
+      for j = 0, 16 do least, most = math.min(least, x(at + h * j / 16)), math.max(most, x(at + h * j / 16)) end
+      t[i], lo[k][i], hi[k][i] = at, x(at) - r, x(at) + r
+      if i < count then tube.lo[k][i], tube.hi[k][i] = least - r - k * h * h, most + r + k * h * h end
     end
   end
-  return { t = t, lo = lo, hi = hi }
+  return { t = t, lo = lo, hi = hi, tube = with_tube and tube or nil }
 end
 
 local function row(names, family, order, width, seconds)
@@ -27,7 +31,7 @@ local function row(names, family, order, width, seconds)
     memory = 1200000 + 1000 * order, width = width, width_max = 1.5 * width, over_tightest = width / 1e-9,
     over_sample = 1 + width * 1e8, over_sample_max = 2 + width * 1e8, error = width / 3,
     work = { evaluations = 1000 * order, operations = 123456 * order, seconds_run = seconds },
-    track = track(names, width / 2, 0.2, 80) }
+    track = track(names, width / 2, 0.2, 70 + order % 23, true) } -- each has instants of its own
 end
 
 local function fail(from, status, reason, t)
@@ -48,7 +52,7 @@ local function pendulum(names)
   for order = 1, 5 do rows[order].pareto = true end -- the fastest for each width
   rows[#rows + 1] = fail(row(names, "valencia interval", 5, 1, 0.08), "unable",
     "the enclosure grew wider than 1e3 at t = 1.25; reduce the tolerances or take solver \"lohner\"", 1.25)
-  rows[#rows].track = track(names, 1e-3, 4, 30)
+  rows[#rows].track = track(names, 1e-3, 4, 30) -- says nothing between its steps
   rows[#rows + 1] = fail(row(names, "krawczyk", 1, 1, 0), "refused", "solves no differential equation", nil)
   rows[#rows].seconds_run, rows[#rows].track = nil, nil
   for order = 2, 8, 3 do
@@ -68,7 +72,12 @@ function samples.usual(title)
     for i, t in ipairs(reference.t) do reference.x[name][i] = math.cos(k * t) * math.exp(-t / 3) end
   end
   local sample = track(names, 4e-4, 0.1, 60)
-  sample.draws, sample.failed = 1000, 2
+  sample.draws, sample.failed, sample.error = 1000, 2, {}
+  for k in ipairs(names) do
+    sample.error[k] = {}
+    for i in ipairs(sample.t) do sample.error[k][i] = 1e-9 end
+  end
+  sample.hi[1][31] = sample.lo[1][31] -- nothing but error
   return { verb = "simulate", place = "double_pendulum.lua:41", title = title or "double pendulum", t = { 0, 4 },
     names = names, measure = "width", units = { "rad", "rad", "rad/s", "rad/s" }, status = "complete",
     advice = "For widths down to 1e-4 take lohner interval, order 5 (5 ms); for the tightest take lohner interval, "

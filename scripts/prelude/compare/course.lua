@@ -5,6 +5,7 @@ local core = require "ambit.core"
 local course = {}
 
 local DRAWN = 200 -- instants of a track
+local PIECES = 16 -- of a step, if there are few steps
 
 -- Enclosures of all states within step i, or at its end; nil: the solver says nothing that is tight there.
 local function enclosures(run, t)
@@ -75,10 +76,44 @@ local function values(run, i)
   return list, widest
 end
 
--- The track { t, lo, hi } from the start on, and the largest width of any state at any end of a step.
+local function add_tube(track, k, x)
+  track.tube.lo[k][#track.t], track.tube.hi[k][#track.t] = x and x.lo or 0 / 0, x and x.hi or 0 / 0
+end
+
+-- Where each state is from the end of step `first` - 1 on to that of step `last`: bounds of the tubes; NaN without one.
+local function add_tubes(track, run, ends, first, last)
+  for k in ipairs(run.states) do
+    local all
+    for i = first, last do
+      local x = core.track_value(run.track, ends[i], k, true)
+      if not x then all = nil break end
+      all = all and all:hull(x) or x
+    end
+    add_tube(track, k, all)
+  end
+end
+
+-- A long step, cut into so many pieces in time by its dense enclosure: instants within it, and the tubes between them.
+local function add_pieces(track, run, number, pieces)
+  local from, _, to = track.t[#track.t], core.track_step(run.track, number)
+  for j = 1, pieces do
+    local t, till, inside = track.t[#track.t], j == pieces and to or from + (to - from) * (j / pieces), {}
+    for k in ipairs(run.states) do
+      add_tube(track, k, core.track_dense(run.track, number, k, math.min(t, till), math.max(t, till)))
+      inside[k] = core.track_dense(run.track, number, k, till)
+    end
+    if j < pieces then add(track, till, inside) end
+  end
+end
+
+-- The track { t, lo, hi, tube = { lo, hi } } from the start on, and the largest width of any state at any end of a step.
+-- The tube at k holds at all times from t[k] to t[k + 1].
 function course.track(run)
-  local track, initial, start = { t = {}, lo = {}, hi = {} }, run.initial(), {}
-  for k, name in ipairs(run.states) do track.lo[k], track.hi[k], start[k] = {}, {}, initial[name] end
+  local track, initial, start = { t = {}, lo = {}, hi = {}, tube = { lo = {}, hi = {} } }, run.initial(), {}
+  for k, name in ipairs(run.states) do
+    track.lo[k], track.hi[k], start[k] = {}, {}, initial[name]
+    track.tube.lo[k], track.tube.hi[k] = {}, {}
+  end
   add(track, run.t_start, start)
   local ends, width, largest = ends_of(run), {}, 0
   for i, number in ipairs(ends) do
@@ -86,7 +121,14 @@ function course.track(run)
     width[i], largest = widest, math.max(largest, widest)
   end
   for _, set in ipairs(start) do largest = math.max(largest, set:width()) end
+  local before, pieces = 0, math.min(PIECES, (DRAWN - 2) // math.max(1, #ends))
   for _, i in ipairs(thinned(ends, width)) do
+    if pieces > 1 and core.track_dense(run.track, ends[i], 1, track.t[#track.t]) then
+      add_pieces(track, run, ends[i], pieces)
+    else
+      add_tubes(track, run, ends, before + 1, i)
+    end
+    before = i
     local _, t = core.track_step(run.track, ends[i])
     add(track, t, (values(run, ends[i])))
   end

@@ -14,29 +14,55 @@ local quantities = { { "width", "final width" }, { "width_max", "largest width" 
 
 local function finite(x) return x and x == x and math.abs(x) < math.huge end
 
--- The finite ones of some times, with all the digits that tell neighbours apart -> JSON, their places
+-- The finite ones of some times, exactly -> JSON, their places
 local function times(list)
   local out, places = {}, {}
   for i, t in ipairs(list) do
     if finite(t) then
-      out[#out + 1] = json.raw(("%.9g"):format(t))
+      local text = ("%.15g"):format(t)
+      out[#out + 1] = json.raw(tonumber(text) == t and text or ("%.17g"):format(t))
       places[#places + 1] = i
     end
   end
   return out, places
 end
 
--- { t, lo = { {..} per name }, hi } -> the same for JSON
-local function track(from, names)
+-- Bounds { {..} per name } at some of the places -> JSON
+local function bounds(from_lo, from_hi, names, places, way)
+  local lo, hi = {}, {}
+  for k = 1, #names do
+    local lows, highs = from_lo[k] or {}, from_hi[k] or {}
+    lo[k], hi[k] = {}, {}
+    for i, place in ipairs(places) do
+      lo[k][i], hi[k][i] = number.bounds(lows[place] or 0 / 0, highs[place] or 0 / 0, way)
+    end
+  end
+  return lo, hi
+end
+
+-- { t, lo = { {..} per name }, hi, tube = { lo, hi } } -> the same for JSON. way: -1: bounds are rounded inward.
+local function track(from, names, way)
   if not (from and from.t and from.t[1]) then return nil end
   local t, places = times(from.t)
-  local to = { t = t, lo = {}, hi = {} }
+  local to = { t = t }
+  to.lo, to.hi = bounds(from.lo, from.hi, names, places, way)
+  if from.tube and #places == #from.t then -- the last place has none: it ends
+    local tube = {}
+    tube.lo, tube.hi = bounds(from.tube.lo, from.tube.hi, names, places)
+    to.tube = tube
+  end
+  return to
+end
+
+-- The hull of samples: { t, lo, hi, error = { {..} per name } }; where lo = hi, that is off by the error.
+local function sampled(from, names)
+  local to = track(from, names, -1)
+  if not to then return nil end
+  local _, places = times(from.t)
+  to.error = {}
   for k = 1, #names do
-    local lows, highs = from.lo[k] or {}, from.hi[k] or {}
-    to.lo[k], to.hi[k] = {}, {}
-    for i, place in ipairs(places) do
-      to.lo[k][i], to.hi[k][i] = number.bounds(lows[place] or 0 / 0, highs[place] or 0 / 0)
-    end
+    to.error[k] = {}
+    for i, place in ipairs(places) do to.error[k][i] = number.drawn(((from.error or {})[k] or {})[place]) end
   end
   return to
 end
@@ -98,7 +124,7 @@ function data.of(comparison)
   end
   return { names = shown, units = units, rows = rows, quantities = offers, measure = measure,
     first = judge.telling(comparison.rows, measure, keys),
-    sample = comparison.t and track(comparison.sample, names), reference = reference(comparison.reference, names) }
+    sample = comparison.t and sampled(comparison.sample, names), reference = reference(comparison.reference, names) }
 end
 
 return data

@@ -79,14 +79,16 @@ end
 
 local function finite(x) return x == x and x ~= huge and x ~= -huge end
 
--- Bounds as JSON with as few digits as keep their distance to a part in a hundred; null: no finite bound.
-function number.bounds(lo, hi)
+-- Bounds as JSON with as few digits as keep their distance to a part in a hundred, rounded outward, or inward (way =
+-- -1); null: no finite bound.
+function number.bounds(lo, hi, way)
   if not (finite(lo) and finite(hi)) then return json.raw "null", json.raw "null" end
   local width, size, digits = hi - lo, math.max(math.abs(lo), math.abs(hi)), 17
   if width > 0 and finite(width) then
     digits = math.max(3, math.min(17, math.ceil(math.log(size / width, 10)) + 3))
   end
-  return json.raw(number.outward(lo, digits, -1)), json.raw(number.outward(hi, digits, 1))
+  way = way or 1
+  return json.raw(number.outward(lo, digits, -way)), json.raw(number.outward(hi, digits, way))
 end
 
 return number
