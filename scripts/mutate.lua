@@ -127,7 +127,7 @@ local function count(area, files, known, is_ready)
     local found = known[mutation.key]
     if not found then
       if not is_ready[area] then
-        local failed = trial.is_sound(area, settings.place, settings.place .. ".log")
+        local failed = trial.failing(area, settings.place, settings.place .. ".log")
         if failed then error(("the tests of `%s` fail without a mutation: %s"):format(area.name, failed), 0) end
         is_ready[area] = true
       end

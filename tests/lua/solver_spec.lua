@@ -80,3 +80,39 @@ describe("taylor_model", function()
     end
   end)
 end)
+
+describe("a jump of an angle within the set", function()
+  local pi, atan = math.pi, math.atan
+  -- x' = atan2(x, -1) from x0: pi - atan(x) above 0, -pi - atan(x) below it; Runge and Kutta's method of order 4
+  local function follow(x, t)
+    local function rate(y) return (x >= 0 and pi or -pi) - atan(y) end
+    local n = 100
+    for _ = 1, n do
+      local h = t / n
+      local a = rate(x)
+      local b = rate(x + h / 2 * a)
+      local c = rate(x + h / 2 * b)
+      x = x + h / 6 * (a + 2 * b + 2 * c + rate(x + h * c))
+    end
+    return x
+  end
+
+  for _, solver in ipairs { "lohner", "taylor_model", "valencia", "stiff" } do
+    it(("is not smoothed over by %s"):format(solver), function()
+      local jump = ode(function(x) return ambit.atan2(x, -1) end)
+      for _, start in ipairs { { "-0.1", "0.1" }, { 0, "0.1" }, { "-0.1", 0 }, { "-0.01", "-0.001" } } do
+        local lo, hi = tonumber(start[1]), tonumber(start[2])
+        local run = ambit.simulate { jump, initial = { ambit.between(start[1], start[2]) }, t = { 0, "0.125" },
+          solver = solver, dense = true }
+        for k = 0, 4 do
+          local x0 = lo + (hi - lo) * k / 4
+          for step in run:steps() do
+            local x = follow(x0, step.t)
+            assert.is_true(step.x.x.lo <= x + 1e-9 and x - 1e-9 <= step.x.x.hi)
+          end
+        end
+        if hi < 0 or solver == "valencia" then assert.equal("complete", run.status) end
+      end
+    end)
+  end
+end)

@@ -5,7 +5,7 @@ foreach(test solver_valencia solver_valencia_kinks solver_valencia_figures)
       arithmetic_gradient arithmetic_mpfr)
   endif()
 endforeach()
-# From inside: with the other files of the plugin, verify.c being included.
+# From inside: with the other files of the plugin, verify.c and frame.c being included.
 file(GLOB valencia_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/plugins/solver/valencia/*.c)
-list(FILTER valencia_sources EXCLUDE REGEX "/verify\\.c$")
-target_sources(test.plugins.solver_valencia_start PRIVATE ${valencia_sources})
+list(FILTER valencia_sources EXCLUDE REGEX "/(verify|frame)\\.c$")
+target_sources(test.plugins.solver_valencia_rounding PRIVATE ${valencia_sources})
