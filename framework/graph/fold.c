@@ -20,7 +20,7 @@ bool ambit_fold_exact_power(double a, int32_t n, double *r) {
   return flags == 0 && ambit_interval_is_point(x);
 }
 
-/* Exact constants, then other constants, then the rest in the order in which they were made. */
+/* Exact constants, then other constants, then the rest. */
 static uint32_t rank(const ambit_graph *g, ambit_expr e) {
   if (ambit_is_exact(g, e)) return 0;
   return ambit_at(g, e)->constant ? 1 : 2;
@@ -28,7 +28,7 @@ static uint32_t rank(const ambit_graph *g, ambit_expr e) {
 
 bool ambit_fold_precedes(const ambit_graph *g, ambit_expr a, ambit_expr b) {
   uint32_t p = rank(g, a), q = rank(g, b);
-  return p != q ? p < q : a < b;
+  return p != q ? p < q : ambit_store_order(g, a, b) < 0;
 }
 
 ambit_term ambit_fold_split(const ambit_graph *g, ambit_expr e) {

@@ -4,7 +4,7 @@
 ** values of the leaves at which the node is defined; the node is total if its operands are and the interval function
 ** saw no point outside the domain. A constant whose enclosure is not a point and that has no literal is a new node at
 ** each call: two enclosures that look alike may stand for different numbers. Literals are the numbers they spell, so
-** equal text is an equal node.
+** equal text is an equal node. Symbols are known by their names, which are never forgotten (symbols.h).
 */
 #include "graph/graph.h"
 #include "base/vector.h"
@@ -46,22 +46,39 @@ static bool same_node(const ambit_node *x, const ambit_node *y) {
   return x->value.lo == y->value.lo && x->value.hi == y->value.hi;
 }
 
-static bool grow_table(ambit_graph *g) {
-  size_t size = g->table_size ? 2 * g->table_size : FIRST_TABLE;
+/* Is the node found by what it says? Unknowns and enclosures of numbers that nobody spelt are themselves only. */
+static bool is_shared(const ambit_node *x) {
+  if (x->op == AMBIT_LEAF_CONSTANT) return x->text || x->value.lo == x->value.hi;
+  return !ambit_op_is_leaf(x->op) || x->op == AMBIT_LEAF_SYMBOL;
+}
+
+static void fill_table(ambit_graph *g) {
+  memset(g->table, 0xff, g->table_size * sizeof *g->table);
+  for (size_t e = 0; e < g->count; e++) {
+    if (!is_shared(&g->stored[e].node)) continue;
+    size_t at = g->stored[e].hash & (g->table_size - 1);
+    while (g->table[at] != AMBIT_NO_EXPR) at = (at + 1) & (g->table_size - 1);
+    g->table[at] = (uint32_t)e;
+  }
+}
+
+static bool resize_table(ambit_graph *g, size_t size) {
   uint32_t *table = malloc(size * sizeof *table);
   if (!table) return false;
-  memset(table, 0xff, size * sizeof *table);
-  for (size_t i = 0; i < g->table_size; i++) {
-    uint32_t e = g->table[i];
-    if (e == AMBIT_NO_EXPR) continue;
-    size_t at = g->stored[e].hash & (size - 1);
-    while (table[at] != AMBIT_NO_EXPR) at = (at + 1) & (size - 1);
-    table[at] = e;
-  }
   free(g->table);
   g->table = table;
   g->table_size = size;
+  fill_table(g);
   return true;
+}
+
+void ambit_store_tidy(ambit_graph *g) {
+  size_t size = FIRST_TABLE;
+  while (size < 4 * ((size_t)g->living + 1)) size *= 2;
+  if (size >= g->table_size || !resize_table(g, size)) fill_table(g);
+  size_t room = 2 * g->count;
+  ambit_stored *less = g->capacity > 2 * room ? realloc(g->stored, room * sizeof *less) : NULL;
+  if (less) g->stored = less, g->capacity = room;
 }
 
 /* Where the node is, or would be. */
@@ -75,12 +92,46 @@ static size_t find_place(const ambit_graph *g, const ambit_node *node, uint32_t 
 }
 
 static ambit_expr append(ambit_graph *g, const ambit_stored *stored) {
-  if (g->count >= AMBIT_NO_EXPR) return AMBIT_NO_EXPR;
-  ambit_stored *room = ambit_vector_reserve(g->stored, &g->capacity, g->count + 1, sizeof *room);
-  if (!room) return AMBIT_NO_EXPR;
-  g->stored = room;
-  room[g->count] = *stored;
-  return (ambit_expr)g->count++;
+  ambit_expr e = g->unused;
+  if (e != AMBIT_NO_EXPR) {
+    g->unused = g->stored[e].node.a;
+  } else {
+    if (g->count >= AMBIT_NO_EXPR) return AMBIT_NO_EXPR;
+    ambit_stored *room = ambit_vector_reserve(g->stored, &g->capacity, g->count + 1, sizeof *room);
+    if (!room) return AMBIT_NO_EXPR;
+    g->stored = room;
+    e = (ambit_expr)g->count++;
+  }
+  g->stored[e] = *stored;
+  if (ambit_op_is_leaf(stored->node.op) && !stored->birth) g->stored[e].birth = ++g->births;
+  g->living++;
+  g->made++;
+  return e;
+}
+
+/* Names and units of symbols are the list's, those of time are no copies. */
+static bool owns_texts(uint32_t op) {
+  return op == AMBIT_LEAF_CONSTANT || op == AMBIT_LEAF_UNKNOWN || ambit_op_has_kink(op);
+}
+
+void ambit_store_clear(ambit_stored *x) {
+  if (owns_texts(x->node.op)) {
+    free((char *)(uintptr_t)x->node.text);
+    free((char *)(uintptr_t)x->node.unit);
+  }
+  *x = (ambit_stored) { .node = { .op = AMBIT_LEAF_NONE } };
+}
+
+/* Appends the node with copies of its texts, if nobody else keeps them. */
+static ambit_expr append_copy(ambit_graph *g, ambit_stored *stored) {
+  const char *text = stored->node.text, *unit = stored->node.unit;
+  if (!owns_texts(stored->node.op)) return append(g, stored);
+  stored->node.text = text ? strdup(text) : NULL;
+  stored->node.unit = unit ? strdup(unit) : NULL;
+  bool copied = (stored->node.text || !text) && (stored->node.unit || !unit);
+  ambit_expr e = copied ? append(g, stored) : AMBIT_NO_EXPR;
+  if (e == AMBIT_NO_EXPR) ambit_store_clear(stored);
+  return e;
 }
 
 /* What holds for the node by its operands. */
@@ -93,6 +144,8 @@ static void describe(const ambit_graph *g, ambit_stored *stored) {
                                              : ambit_interval_op(node->op, &node->range, a->range, b->range);
   bool inside = !(flags & AMBIT_F_PARTIAL);
   if (node->op == AMBIT_OP_DIV && ambit_is_nonzero(g, node->b)) inside = true;
+  uint32_t left = g->stored[node->a].height, right = binary ? g->stored[node->b].height : left;
+  stored->height = 1 + (left > right ? left : right);
   node->total = inside && a->total && b->total;
   node->constant = a->constant && b->constant;
   uint64_t angles = 0;
@@ -107,16 +160,16 @@ static void describe(const ambit_graph *g, ambit_stored *stored) {
   stored->angles = angles < ANGLES_MAX ? (uint32_t)angles : ANGLES_MAX;
 }
 
-/* Finds the node or enters it, with a copy of its texts. */
-static ambit_expr intern(ambit_graph *g, ambit_node node) {
-  if (2 * (g->count + 1) > g->table_size && !grow_table(g)) return AMBIT_NO_EXPR;
-  ambit_stored stored = { .node = node, .hash = hash_node(&node) };
+/* Finds the node or enters it; birth: of a symbol. */
+static ambit_expr intern(ambit_graph *g, ambit_node node, uint64_t birth) {
+  size_t size = g->table_size ? 2 * g->table_size : FIRST_TABLE;
+  if (2 * ((size_t)g->living + 1) > g->table_size && !resize_table(g, size)) return AMBIT_NO_EXPR;
+  ambit_stored stored = { .node = node, .hash = hash_node(&node), .birth = birth };
   size_t place = find_place(g, &node, stored.hash);
   if (g->table[place] != AMBIT_NO_EXPR) return g->table[place];
   if (!ambit_op_is_leaf(node.op)) describe(g, &stored);
-  if (node.text && !(stored.node.text = ambit_arena_text(g->arena, node.text))) return AMBIT_NO_EXPR;
-  if (node.unit && !(stored.node.unit = ambit_arena_text(g->arena, node.unit))) return AMBIT_NO_EXPR;
-  ambit_expr e = append(g, &stored);
+  if (ambit_op_has_kink(node.op)) stored.node.text = g->maker;
+  ambit_expr e = append_copy(g, &stored);
   if (e != AMBIT_NO_EXPR) g->table[place] = e;
   return e;
 }
@@ -126,10 +179,9 @@ ambit_expr ambit_store_make(ambit_graph *g, uint32_t op, ambit_expr a, ambit_exp
     if (!(op == AMBIT_OP_POWN && a != AMBIT_NO_EXPR)) return AMBIT_NO_EXPR;
   }
   bool two = ambit_op_is_binary(op) || op == AMBIT_OP_POWN;
-  size_t before = g->count;
-  ambit_expr e = intern(g, (ambit_node) { .op = op, .a = a, .b = two ? b : a });
-  if (g->count == before || !ambit_op_has_kink(op)) return e;
-  return ambit_kinks_note(g, e) ? e : AMBIT_NO_EXPR;
+  ambit_store_expect(g, a);
+  if (ambit_op_is_binary(op)) ambit_store_expect(g, b);
+  return intern(g, (ambit_node) { .op = op, .a = a, .b = two ? b : a }, 0);
 }
 
 static ambit_node constant_node(ambit_interval x, const char *text) {
@@ -140,33 +192,37 @@ static ambit_node constant_node(ambit_interval x, const char *text) {
 ambit_graph *ambit_graph_open(void) {
   ambit_graph *g = calloc(1, sizeof *g);
   if (!g) return NULL;
-  g->pi = g->time = AMBIT_NO_EXPR;
-  g->arena = ambit_arena_open();
+  g->pi = g->time = g->unused = AMBIT_NO_EXPR;
+  g->due = AMBIT_COLLECT_LEAST;
   g->marks = ambit_marks_open();
-  if (g->arena && g->marks && ambit_graph_number(g, 0) == AMBIT_ZERO && ambit_graph_number(g, 1) == AMBIT_ONE) return g;
+  if (g->marks && ambit_graph_number(g, 0) == AMBIT_ZERO && ambit_graph_number(g, 1) == AMBIT_ONE) return g;
   ambit_graph_close(g);
   return NULL;
 }
 
 void ambit_graph_close(ambit_graph *g) {
   if (!g) return;
+  while (g->holders) ambit_graph_release(g->holders);
+  for (size_t i = 0; i < g->count; i++) ambit_store_clear(&g->stored[i]);
   ambit_marks_close(g->marks);
-  ambit_arena_close(g->arena);
+  ambit_symbols_close(&g->symbols);
+  free(g->to_mark);
   free(g->table);
   free(g->stored);
-  free(g->kinks.known);
   free(g);
 }
 
 const ambit_node *ambit_graph_node(const ambit_graph *g, ambit_expr e) { return ambit_at(g, e); }
 uint32_t ambit_graph_count(const ambit_graph *g) { return (uint32_t)g->count; }
+uint64_t ambit_graph_made(const ambit_graph *g) { return g->made; }
+uint64_t ambit_graph_birth(const ambit_graph *g, ambit_expr leaf) { return g->stored[leaf].birth; }
 
 double ambit_graph_sealing_seconds(const ambit_graph *g) { return g->sealing; }
 
 ambit_expr ambit_graph_number(ambit_graph *g, double x) {
   if (!isfinite(x)) return AMBIT_NO_EXPR;
   if (x == 0) x = 0; /* one zero */
-  return intern(g, constant_node((ambit_interval) { x, x }, NULL));
+  return intern(g, constant_node((ambit_interval) { x, x }, NULL), 0);
 }
 
 ambit_expr ambit_graph_interval(ambit_graph *g, ambit_interval x) {
@@ -177,19 +233,19 @@ ambit_expr ambit_graph_interval(ambit_graph *g, ambit_interval x) {
 }
 
 ambit_expr ambit_graph_pi(ambit_graph *g) {
-  if (g->pi == AMBIT_NO_EXPR) g->pi = intern(g, constant_node(ambit_interval_pi(), "pi"));
+  if (g->pi == AMBIT_NO_EXPR) g->pi = intern(g, constant_node(ambit_interval_pi(), "pi"), 0);
   return g->pi;
 }
 
 static bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f'; }
 
-/* The literal without white space and sign around it; *negative: the sign. A copy in the arena. */
-static const char *bare_literal(ambit_graph *g, const char *text, bool *negative) {
+/* The literal without white space and sign around it, to be freed; *negative: the sign. NULL: out of memory. */
+static char *bare_literal(const char *text, bool *negative) {
   while (is_space(*text)) text++;
   *negative = *text == '-';
   if (*text == '-' || *text == '+') text++;
   while (is_space(*text)) text++;
-  char *bare = ambit_arena_text(g->arena, text);
+  char *bare = strdup(text);
   if (!bare) return NULL;
   size_t n = strlen(bare);
   while (n > 0 && is_space(bare[n - 1])) bare[--n] = '\0';
@@ -209,13 +265,14 @@ ambit_expr ambit_graph_decimal(ambit_graph *g, const char *text, ambit_failure *
   }
   if (ambit_interval_is_point(x)) return ambit_graph_number(g, x.lo);
   bool negative;
-  const char *bare = bare_literal(g, text, &negative);
+  char *bare = bare_literal(text, &negative);
   if (!bare) {
     ambit_fail(f, AMBIT_NOMEM, "out of memory for the number \"%s\"", text);
     return AMBIT_NO_EXPR;
   }
   magnitude = negative ? (ambit_interval) { -x.hi, -x.lo } : x;
-  ambit_expr e = strcmp(bare, "pi") == 0 ? ambit_graph_pi(g) : intern(g, constant_node(magnitude, bare));
+  ambit_expr e = strcmp(bare, "pi") == 0 ? ambit_graph_pi(g) : intern(g, constant_node(magnitude, bare), 0);
+  free(bare);
   return negative && e != AMBIT_NO_EXPR ? ambit_graph_op(g, AMBIT_OP_NEG, e, e) : e;
 }
 
@@ -225,9 +282,9 @@ ambit_expr ambit_graph_datum(
   if (ambit_interval_is_empty(outer)) return AMBIT_NO_EXPR;
   inner = ambit_interval_intersect(ambit_interval_of(inner.lo, inner.hi), outer);
   ambit_node node = { .op = AMBIT_LEAF_UNKNOWN, .value = outer, .inner = inner, .range = outer, .total = true };
-  if (name && !(node.text = ambit_arena_text(g->arena, name))) return AMBIT_NO_EXPR;
-  if (place && !(node.unit = ambit_arena_text(g->arena, place))) return AMBIT_NO_EXPR;
-  return append(g, &(ambit_stored) { .node = node });
+  node.text = name;
+  node.unit = place;
+  return append_copy(g, &(ambit_stored) { .node = node });
 }
 
 ambit_expr ambit_graph_unknown(ambit_graph *g, const char *name, ambit_interval range) {
@@ -237,16 +294,16 @@ ambit_expr ambit_graph_unknown(ambit_graph *g, const char *name, ambit_interval 
 bool ambit_graph_name(ambit_graph *g, ambit_expr unknown, const char *name) {
   ambit_node *node = &g->stored[unknown].node;
   if (node->op != AMBIT_LEAF_UNKNOWN || node->text) return true;
-  return (node->text = ambit_arena_text(g->arena, name)) != NULL;
+  return (node->text = strdup(name)) != NULL;
 }
 
 ambit_expr ambit_graph_symbol(ambit_graph *g, const char *name, const char *unit) {
-  return intern(g, (ambit_node) { .op = AMBIT_LEAF_SYMBOL,
-                       .value = AMBIT_ENTIRE,
-                       .range = AMBIT_ENTIRE,
-                       .total = true,
-                       .text = name,
-                       .unit = unit });
+  const ambit_symbol_name *known = ambit_symbols_enter(&g->symbols, name, unit, &g->births);
+  if (!known) return AMBIT_NO_EXPR;
+  ambit_node node = { .op = AMBIT_LEAF_SYMBOL, .value = AMBIT_ENTIRE, .range = AMBIT_ENTIRE, .total = true };
+  node.text = known->name;
+  node.unit = known->unit;
+  return intern(g, node, known->birth);
 }
 
 ambit_expr ambit_graph_time(ambit_graph *g) {

@@ -24,6 +24,7 @@ typedef struct ambit_graph ambit_graph;
 #define AMBIT_LEAF_UNKNOWN 0x101u  /* a fixed but unknown datum in `value`; the same node is the same unknown */
 #define AMBIT_LEAF_SYMBOL 0x102u   /* a named variable of a model (state, parameter, effort): any real number */
 #define AMBIT_LEAF_TIME 0x103u
+#define AMBIT_LEAF_NONE 0x1ffu /* the number of no node: it was freed */
 
 typedef struct ambit_node {
   uint32_t op;          /* AMBIT_OP_* or AMBIT_LEAF_* */
@@ -33,14 +34,17 @@ typedef struct ambit_node {
   ambit_interval range; /* bounds over all reals (UNKNOWN: over its set) */
   bool total;           /* defined for all real values of the leaves */
   bool constant;        /* no UNKNOWN, SYMBOL or TIME below */
-  const char *text;     /* CONSTANT: literal or "pi"; SYMBOL, UNKNOWN: name or NULL */
+  const char *text;     /* CONSTANT: literal or "pi"; SYMBOL, UNKNOWN: name or NULL; ABS, MIN, MAX: writer or NULL */
   const char *unit;     /* SYMBOL: SI unit; UNKNOWN: the line that made it, "scene.lua:12", or NULL */
 } ambit_node;
 
 ambit_graph *ambit_graph_open(void); /* NULL: out of memory; node 0 is the constant 0 */
 void ambit_graph_close(ambit_graph *g);
 const ambit_node *ambit_graph_node(const ambit_graph *g, ambit_expr e); /* valid until the next node is made */
-uint32_t ambit_graph_count(const ambit_graph *g);                       /* nodes ever made */
+uint32_t ambit_graph_count(const ambit_graph *g);                       /* all node numbers are below */
+/* A number that no other leaf of the graph ever has; leaves are in the order of these. */
+uint64_t ambit_graph_birth(const ambit_graph *g, ambit_expr leaf);
+uint64_t ambit_graph_made(const ambit_graph *g);                        /* nodes ever made */
 double ambit_graph_sealing_seconds(const ambit_graph *g);               /* of CPU time, for all tapes so far */
 
 /* exactly this double; NaN or infinite: NO_EXPR */
@@ -94,7 +98,7 @@ size_t ambit_graph_terms(const ambit_graph *g, ambit_expr e, size_t room, ambit_
 ** needs fewer operations than e and never more than `limit` terms, otherwise e itself. An identity on the domain of
 ** e. */
 ambit_expr ambit_graph_simplify(ambit_graph *g, ambit_expr e, size_t limit);
-/* The leaves (UNKNOWN, SYMBOL, TIME) that e[0..ne) reach, in the order of their numbers; returns how many, writes at
+/* The leaves (UNKNOWN, SYMBOL, TIME) that e[0..ne) reach, in the order in which they were made; returns how many, writes at
 ** most room. */
 size_t ambit_graph_leaves(const ambit_graph *g, size_t ne, const ambit_expr *e, size_t room, ambit_expr *leaf);
 size_t ambit_graph_size(const ambit_graph *g, size_t ne, const ambit_expr *e); /* distinct operations below */

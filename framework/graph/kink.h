@@ -9,22 +9,11 @@ static inline bool ambit_op_has_kink(uint32_t op) {
   return op == AMBIT_OP_ABS || op == AMBIT_OP_MIN || op == AMBIT_OP_MAX;
 }
 
-typedef struct ambit_kinks {
-  struct ambit_kink {
-    ambit_expr e;
-    const char *maker;
-  } * known; /* ascending */
-  size_t count, capacity;
-  const char *maker; /* of what is being written, or NULL */
-} ambit_kinks;
-
 /* From now on formulas are written by `maker`, or by nobody known (NULL); returns who it was before. The text must
 ** live until the next call. */
 const char *ambit_graph_written_by(ambit_graph *g, const char *maker);
 /* Who wrote e, if it is a kink that somebody known wrote; else NULL. */
 const char *ambit_graph_writer(const ambit_graph *g, ambit_expr e);
-/* Notes the writer of a node that has just been made; false: out of memory. */
-bool ambit_kinks_note(ambit_graph *g, ambit_expr e);
 /* "abs(v) of joint_friction `knee`", in the arena; NULL: out of memory. */
 const char *ambit_kink_text(const ambit_graph *g, ambit_expr e, ambit_arena *arena);
 #endif

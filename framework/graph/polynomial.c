@@ -23,7 +23,7 @@ static ambit_monomial *new_terms(ambit_ring *ring, size_t n) {
 
 static int compare(const ambit_monomial *a, const ambit_monomial *b) {
   for (uint32_t i = 0; i < a->n && i < b->n; i++) {
-    if (a->power[i].atom != b->power[i].atom) return a->power[i].atom < b->power[i].atom ? -1 : 1;
+    if (a->power[i].atom != b->power[i].atom) return ambit_store_order(a->g, a->power[i].atom, b->power[i].atom);
     if (a->power[i].n != b->power[i].n) return a->power[i].n < b->power[i].n ? -1 : 1;
   }
   return a->n < b->n ? -1 : a->n > b->n;
@@ -82,7 +82,7 @@ ambit_polynomial ambit_polynomial_of(ambit_ring *ring, ambit_expr e) {
   ambit_power *power = ambit_arena_alloc(ring->arena, sizeof *power);
   if (!m || !power) return fail(ring);
   *power = (ambit_power) { t.body, 1 };
-  *m = (ambit_monomial) { ambit_graph_number(ring->g, t.c), t.body != AMBIT_ONE, power };
+  *m = (ambit_monomial) { ring->g, ambit_graph_number(ring->g, t.c), t.body != AMBIT_ONE, power };
   return m->c == AMBIT_NO_EXPR ? fail(ring) : (ambit_polynomial) { 1, m };
 }
 
@@ -101,10 +101,10 @@ ambit_polynomial ambit_polynomial_add(ambit_ring *ring, ambit_polynomial p, ambi
 /* *power: room for a->n + b->n, used for the product's powers and moved on. */
 static ambit_monomial multiply_terms(
     ambit_ring *ring, const ambit_monomial *a, const ambit_monomial *b, ambit_power **power) {
-  ambit_monomial m = { ambit_fold_product(ring->g, a->c, b->c), 0, *power };
+  ambit_monomial m = { ring->g, ambit_fold_product(ring->g, a->c, b->c), 0, *power };
   uint32_t i = 0, j = 0;
   while (i < a->n || j < b->n) {
-    bool left = j == b->n || (i < a->n && a->power[i].atom <= b->power[j].atom);
+    bool left = j == b->n || (i < a->n && ambit_store_order(ring->g, a->power[i].atom, b->power[j].atom) <= 0);
     ambit_power next = left ? a->power[i++] : b->power[j++];
     if (m.n == 0 || m.power[m.n - 1].atom != next.atom)
       m.power[m.n++] = next;
@@ -166,7 +166,7 @@ static ambit_polynomial reduce_term(ambit_ring *ring, const ambit_monomial *m, u
   ambit_monomial *rest = new_terms(ring, 1);
   ambit_power *power = ambit_arena_alloc(ring->arena, (m->n + 1u) * sizeof *power);
   if (!rest || !power) return fail(ring);
-  *rest = (ambit_monomial) { m->c, 0, power };
+  *rest = (ambit_monomial) { m->g, m->c, 0, power };
   ambit_polynomial factor = ambit_polynomial_of(ring, AMBIT_ONE);
   for (uint32_t i = 0; i < m->n; i++) {
     ambit_power p = m->power[i];

@@ -26,9 +26,10 @@ typedef struct ambit_power {
 } ambit_power;
 
 typedef struct ambit_monomial {
-  ambit_expr c; /* not 0 */
+  const ambit_graph *g; /* whose order the atoms have */
+  ambit_expr c;         /* not 0 */
   uint32_t n;
-  ambit_power *power; /* [n] by ascending atom */
+  ambit_power *power; /* [n] by ascending atom (ambit_store_order) */
 } ambit_monomial;
 
 typedef struct ambit_polynomial {

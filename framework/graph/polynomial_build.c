@@ -37,7 +37,8 @@ static int by_atom(const void *p, const void *q) {
   return a->n < b->n ? -1 : a->n > b->n;
 }
 
-/* The atom that occurs in most terms, with the smallest of its powers there; n = 0: none occurs twice. */
+/* The atom that occurs in most terms (of several the first), with the smallest of its powers there; n = 0: none occurs
+** twice. */
 static ambit_power commonest(ambit_ring *ring, ambit_polynomial p) {
   ambit_power best = { 0, 0 };
   size_t n = 0, most = 1;
@@ -53,7 +54,9 @@ static ambit_power commonest(ambit_ring *ring, ambit_polynomial p) {
   qsort(all, n, sizeof *all, by_atom);
   for (size_t first = 0, end; first < n; first = end) {
     for (end = first; end < n && all[end].atom == all[first].atom; end++) {}
-    if (end - first <= most) continue;
+    bool more = end - first > most;
+    bool as_many = end - first == most && best.n > 0;
+    if (!more && !(as_many && ambit_store_order(ring->g, all[first].atom, best.atom) < 0)) continue;
     most = end - first;
     best = all[first];
   }
@@ -71,7 +74,7 @@ static bool divide_term(ambit_ring *ring, const ambit_monomial *m, ambit_power f
     ring->failed = true;
     return false;
   }
-  *quotient = (ambit_monomial) { m->c, 0, power };
+  *quotient = (ambit_monomial) { m->g, m->c, 0, power };
   for (uint32_t i = 0; i < m->n; i++) {
     ambit_power p = m->power[i];
     if (i == at) p.n -= f.n;

@@ -26,9 +26,10 @@ static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOM
 static bool meet(builder *b, uint32_t equation, ambit_expr e, bool *first) {
   if (e >= b->capacity) {
     size_t count = 2 * (size_t)ambit_graph_count(b->g);
-    uint32_t *seen = realloc(b->seen, count * sizeof *seen);
+    uint32_t *seen = calloc(count, sizeof *seen); /* pages of nodes that are never met cost nothing */
     if (!seen) return false;
-    memset(seen + b->capacity, 0, (count - b->capacity) * sizeof *seen);
+    if (b->capacity) memcpy(seen, b->seen, b->capacity * sizeof *seen);
+    free(b->seen);
     b->seen = seen, b->capacity = count;
   }
   *first = b->seen[e] != equation + 1;

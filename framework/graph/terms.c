@@ -58,21 +58,28 @@ size_t ambit_graph_terms(const ambit_graph *g, ambit_expr e, size_t room, ambit_
   return count_terms(g, e);
 }
 
-static int by_number(const void *p, const void *q) {
-  const ambit_expr *a = p, *b = q;
-  return *a < *b ? -1 : *a > *b;
+typedef struct born {
+  uint64_t birth;
+  ambit_expr leaf;
+} born;
+
+static int by_birth(const void *p, const void *q) {
+  const born *a = p, *b = q;
+  return a->birth < b->birth ? -1 : a->birth > b->birth;
 }
 
 size_t ambit_graph_leaves(const ambit_graph *g, size_t ne, const ambit_expr *e, size_t room, ambit_expr *leaf) {
   ambit_walk walk;
   if (!ambit_walk_open(g, ne, e, NULL, &walk)) return 0;
+  born *all = malloc((walk.count + 1) * sizeof *all);
   size_t n = 0;
-  for (size_t i = 0; i < walk.count; i++) { /* the walk's list is reused */
-    uint32_t op = ambit_at(g, walk.node[i])->op;
-    if (ambit_op_is_leaf(op) && op != AMBIT_LEAF_CONSTANT) walk.node[n++] = walk.node[i];
+  for (size_t i = 0; i < walk.count && all; i++) {
+    const ambit_stored *x = &g->stored[walk.node[i]];
+    if (ambit_op_is_leaf(x->node.op) && x->node.op != AMBIT_LEAF_CONSTANT) all[n++] = (born) { x->birth, walk.node[i] };
   }
-  qsort(walk.node, n, sizeof *walk.node, by_number);
-  for (size_t i = 0; i < n && i < room; i++) leaf[i] = walk.node[i];
+  if (n > 0) qsort(all, n, sizeof *all, by_birth);
+  for (size_t i = 0; i < n && i < room; i++) leaf[i] = all[i].leaf;
+  free(all);
   ambit_walk_close(&walk);
   return n;
 }

@@ -79,6 +79,7 @@ static bool search(const ambit_graph *g, ambit_expr root, ambit_walk_stop stop, 
       if (m->position[e] == OPEN && !settle(m, count, e)) return false;
       continue;
     }
+    ambit_store_expect(g, e);
     m->stamp[e] = m->walk;
     m->position[e] = OPEN;
     const ambit_node *x = ambit_at(g, e);

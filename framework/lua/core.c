@@ -3,9 +3,12 @@
 #include "base/meter.h"
 #include "lua/embedded.h"
 #include "num/rounding.h"
+#include <stdlib.h>
 #include <string.h>
 
 static const char state_key = 0; /* its address is the key in the Lua registry */
+
+static int in_standard_environment(lua_State *L);
 
 static int state_close(lua_State *L) {
   ambit_lua *core = lua_touserdata(L, 1);
@@ -36,8 +39,36 @@ static ambit_lua *state_get(lua_State *L) {
   core->graph = ambit_graph_open();
   core->registry = ambit_registry_open(NULL);
   if (!core->arena || !core->graph || !core->registry) luaL_error(L, "ambit: out of memory");
+  if (getenv("AMBIT_COLLECT_ALWAYS")) ambit_graph_collect_always(core->graph); /* for tests */
+  core->holder.mark = ambit_lua_mark_boxes;
+  ambit_graph_hold(core->graph, &core->holder);
   lua_rawsetp(L, LUA_REGISTRYINDEX, &state_key);
   return core;
+}
+
+/* How many functions of the core are running in L, below the one that has just been called. */
+static int running(lua_State *L) {
+  lua_Debug frame;
+  int n = 0;
+  for (int level = 1; lua_getstack(L, level, &frame); level++) {
+    lua_getinfo(L, "f", &frame);
+    n += lua_tocfunction(L, -1) == in_standard_environment;
+    lua_pop(L, 1);
+  }
+  return n;
+}
+
+/* Between two functions of the core all expressions are held (graph/collect.h); while one runs that has called Lua, it
+** may have some in its hands. Errors leave the count of running functions too large; on the main thread, below which
+** no other one runs, it is put right. */
+static void collect(lua_State *L, ambit_lua *core) {
+  bool main = lua_pushthread(L) == 1;
+  lua_pop(L, 1);
+  if (core->depth > 0 && main) core->depth = running(L);
+  if (core->depth == 0)
+    ambit_graph_collect(core->graph);
+  else
+    ambit_graph_postpone(core->graph);
 }
 
 /* A Lua error that passes leaves the standard environment behind. */
@@ -47,7 +78,10 @@ static int in_standard_environment(lua_State *L) {
   core->framed = false;
   lua_CFunction f = lua_tocfunction(L, lua_upvalueindex(2));
   ambit_rounding outside = ambit_round_nearest();
+  if (ambit_graph_is_due(core->graph)) collect(L, core);
+  core->depth++;
   int results = f(L);
+  core->depth--;
   ambit_rounding_restore(outside);
   return results;
 }

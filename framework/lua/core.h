@@ -11,6 +11,7 @@
 #define AMBIT_LUA_CORE_H
 #include "base/arena.h"
 #include "base/status.h"
+#include "graph/collect.h"
 #include "graph/graph.h"
 #include "host/registry.h"
 #include "model/records.h"
@@ -31,6 +32,9 @@ typedef struct ambit_lua {
   double deadline;               /* when runs are stopped, s of CPU time of this process; 0: never */
   const char *text_mode;         /* "ambit", "watched", "lua": whose is arithmetic on texts (text.c); NULL: Lua's */
   char text_rounded[80];         /* "scene.lua:12: " where Lua's arithmetic rounded a text (text.c), or "" */
+  int depth;                     /* functions of the core that are running, at least; an error leaves it too large */
+  ambit_holder holder;           /* of `boxes`, all expressions of this Lua state */
+  struct ambit_lua_box *boxes;
 } ambit_lua;
 
 /* The functions of the core run in the standard floating-point environment, whatever the host program set. Pushes f
@@ -50,6 +54,15 @@ typedef struct ambit_lua_expression {
   ambit_expr e;
   ambit_dimension dimension;
 } ambit_lua_expression;
+
+/* As Lua keeps an expression: a holder of its node. */
+typedef struct ambit_lua_box {
+  ambit_lua_expression x; /* first: what luaL_checkudata gives */
+  struct ambit_lua_box *next, **link;
+} ambit_lua_box;
+
+/* Marks the expressions of core->boxes. */
+void ambit_lua_mark_boxes(ambit_holder *holder, ambit_graph *g);
 
 /* An enclosure; flags: AMBIT_F_PARTIAL if some operation on the way left its domain; or AMBIT_LUA_SAMPLED (sampled.h).
 ** One that a script wrote down, `declared`, is a set of which all of `inner` is known to be meant; of what was computed

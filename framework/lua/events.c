@@ -70,7 +70,7 @@ static int events_new(lua_State *L) {
 
 static bool hold(ambit_lua_events *w, const ambit_record *r) {
   const ambit_held_set *now = &w->to->track->set;
-  if (!w->set.unknown && !ambit_held_set_begin(&w->set, now->nu, now->unknown)) return false;
+  if (!w->set.unknown && !ambit_held_set_begin(&w->set, w->to->graph, now->nu, now->unknown)) return false;
   if (!ambit_held_set_put(&w->set, r->nx, r->set)) return false;
   memcpy(w->lo, r->lo, r->nx * sizeof *w->lo);
   memcpy(w->hi, r->hi, r->nx * sizeof *w->hi);

@@ -5,6 +5,16 @@
 
 static ambit_lua_expression *self(lua_State *L) { return luaL_checkudata(L, 1, AMBIT_TYPE_EXPRESSION); }
 
+/* __gc, not in the standard environment: it only takes the expression off the list. */
+static int forget(lua_State *L) {
+  ambit_lua_box *box = luaL_checkudata(L, 1, AMBIT_TYPE_EXPRESSION);
+  if (!box->link) return 0;
+  *box->link = box->next;
+  if (box->next) box->next->link = box->link;
+  box->link = NULL;
+  return 0;
+}
+
 /* An expression that shares much can stand for a text of astronomical length. */
 #define TEXT_MAX 10000u
 
@@ -122,7 +132,7 @@ static int leaves(lua_State *L) {
     const char *kind = node->op == AMBIT_LEAF_UNKNOWN ? "unknown" : node->op == AMBIT_LEAF_TIME ? "time" : "symbol";
     ambit_interval range = node->op == AMBIT_LEAF_UNKNOWN ? node->value : node->range;
     lua_createtable(L, 0, 9);
-    lua_pushinteger(L, leaf[i]);
+    lua_pushinteger(L, (lua_Integer)ambit_graph_birth(g, leaf[i]));
     lua_setfield(L, -2, "number");
     lua_pushstring(L, node->text);
     lua_setfield(L, -2, "name");
@@ -157,7 +167,7 @@ static int substitute(lua_State *L) {
 }
 
 static int nodes(lua_State *L) {
-  lua_pushinteger(L, ambit_graph_count(AMBIT_LUA(L)->graph));
+  lua_pushinteger(L, (lua_Integer)ambit_graph_made(AMBIT_LUA(L)->graph));
   return 1;
 }
 
@@ -172,6 +182,8 @@ void ambit_lua_open_expression(lua_State *L, ambit_lua *core) {
     { "__div", "div" }, { "__unm", "neg" }, { "__pow", "pow" } };
   ambit_lua_set_functions(L, core, functions);
   ambit_lua_new_type(L, core, AMBIT_TYPE_EXPRESSION, meta);
+  lua_pushcfunction(L, forget);
+  lua_setfield(L, -2, "__gc");
   for (size_t i = 0; i < sizeof operators / sizeof *operators; i++) {
     lua_getfield(L, -2, operators[i][1]);
     lua_setfield(L, -2, operators[i][0]);

@@ -4,7 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool ambit_held_set_begin(ambit_held_set *held, size_t nu, const ambit_expr *unknown) {
+static void mark(ambit_holder *holder, ambit_graph *g) {
+  const ambit_held_set *held = (const ambit_held_set *)(const void *)holder;
+  ambit_graph_mark(g, held->nu, held->unknown);
+}
+
+bool ambit_held_set_begin(ambit_held_set *held, ambit_graph *g, size_t nu, const ambit_expr *unknown) {
   ambit_expr *copy = malloc((nu + 1) * sizeof *copy);
   if (!copy) return false;
   if (nu) memcpy(copy, unknown, nu * sizeof *copy);
@@ -12,10 +17,14 @@ bool ambit_held_set_begin(ambit_held_set *held, size_t nu, const ambit_expr *unk
   held->unknown = copy;
   held->nu = nu;
   held->set = (ambit_set) { 0 };
+  if (held->holder.link) return true;
+  held->holder.mark = mark;
+  ambit_graph_hold(g, &held->holder);
   return true;
 }
 
 void ambit_held_set_clear(ambit_held_set *held) {
+  ambit_graph_release(&held->holder);
   free(held->unknown);
   free(held->number);
   free(held->exponent);

@@ -3,11 +3,13 @@
 */
 #ifndef AMBIT_LUA_HELD_SET_H
 #define AMBIT_LUA_HELD_SET_H
+#include "graph/collect.h"
 #include "graph/graph.h"
 #include <ambit/solver.h>
 #include <stdbool.h>
 
 typedef struct ambit_held_set {
+  ambit_holder holder; /* of `unknown` */
   size_t nu;
   ambit_expr *unknown; /* [nu] what the solver's unknowns are */
   ambit_set set;       /* nterm == 0: none is held */
@@ -16,7 +18,8 @@ typedef struct ambit_held_set {
   size_t room_number, room_exponent;
 } ambit_held_set;
 
-bool ambit_held_set_begin(ambit_held_set *held, size_t nu, const ambit_expr *unknown); /* false: out of memory */
+/* The unknowns of the sets to come, nodes of g; false: out of memory. */
+bool ambit_held_set_begin(ambit_held_set *held, ambit_graph *g, size_t nu, const ambit_expr *unknown);
 /* Takes over the set of a record, or holds none; false: out of memory. */
 bool ambit_held_set_put(ambit_held_set *held, uint32_t nx, const ambit_set *set);
 void ambit_held_set_clear(ambit_held_set *held);

@@ -54,22 +54,15 @@ static ambit_frame *frames_of(lua_State *L, int idx, size_t n) {
   return frame;
 }
 
-/* A text that lives as long as the library: parts keep it. */
-static const char *kept_text(lua_State *L, int idx) {
-  const char *text = ambit_arena_text(AMBIT_LUA(L)->arena, luaL_checkstring(L, idx));
-  if (!text) ambit_lua_error(L, "out of memory");
-  return text;
-}
-
 /* add(mechanism, type, name or nil, where, params, connections) -> part number */
 static int add(lua_State *L) {
   ambit_lua *core = AMBIT_LUA(L);
   ambit_mechanism *m = self(L);
   ambit_failure f = { 0 };
   ambit_part_spec spec = { 0 };
-  spec.type = kept_text(L, 2);
-  spec.name = lua_isnil(L, 3) ? NULL : kept_text(L, 3);
-  spec.where = kept_text(L, 4);
+  spec.type = luaL_checkstring(L, 2);
+  spec.name = lua_isnil(L, 3) ? NULL : luaL_checkstring(L, 3);
+  spec.where = luaL_checkstring(L, 4);
   if (ambit_registry_element(core->registry, spec.type, &spec.element, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
   spec.param = params_of(L, 5, ambit_params_count(spec.element->param));
   spec.connection = frames_of(L, 6, spec.element->nport);
@@ -81,7 +74,10 @@ static int add(lua_State *L) {
 
 /* written_by(mechanism, who or nil): formulas are that element's from now on, for messages about kinks */
 static int written_by(lua_State *L) {
-  ambit_graph_written_by(ambit_mechanism_graph(self(L)), lua_isnoneornil(L, 2) ? NULL : kept_text(L, 2));
+  static const char writer = 0;
+  ambit_graph_written_by(ambit_mechanism_graph(self(L)), luaL_optstring(L, 2, NULL));
+  lua_settop(L, 2);
+  lua_rawsetp(L, LUA_REGISTRYINDEX, &writer); /* the graph needs the text until it is told the next one */
   return 0;
 }
 

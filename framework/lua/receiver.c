@@ -25,13 +25,14 @@ static int32_t progress(ambit_sink *s, double done, const char *message) {
 
 void ambit_receiver_prepared(void *user, size_t nu, const ambit_expr *unknown) {
   ambit_receiver *r = user;
-  if (!ambit_held_set_begin(&r->track->set, nu, unknown))
+  if (!ambit_held_set_begin(&r->track->set, r->graph, nu, unknown))
     ambit_fail(&r->failure, AMBIT_NOMEM, "out of memory for the records of this run");
 }
 
 ambit_receiver ambit_receiver_push(lua_State *L, size_t nx, const char *const *name, uint32_t keep) {
   return (ambit_receiver) { .sink = { sizeof(ambit_sink), emit, progress },
     .track = ambit_track_push(L, nx, keep),
+    .graph = AMBIT_LUA(L)->graph,
     .records = AMBIT_LUA(L)->records,
     .name = name };
 }

@@ -10,6 +10,7 @@
 typedef struct ambit_receiver {
   ambit_sink sink;    /* first: what the solver sees */
   ambit_track *track; /* NULL: records are not kept */
+  ambit_graph *graph; /* of the unknowns of sets that the track keeps */
   ambit_records *records;
   const char *const *name; /* [nx] */
   ambit_progress progress;

@@ -41,7 +41,7 @@ void ambit_lua_push_report(lua_State *L, const ambit_report *r) {
   ambit_lua_set_text(L, "arithmetic", r->arithmetic);
   if (r->solver[0]) ambit_lua_set_text(L, "solver", r->solver);
   ambit_lua_set_count(L, "expressions", r->expressions);
-  ambit_lua_set_count(L, "graph_nodes", r->graph_nodes);
+  set_work(L, "graph_nodes", r->graph_nodes);
   ambit_lua_set_count(L, "tape_slots", r->tape_slots);
   ambit_lua_set_count(L, "tape_constants", r->tape_constants);
   ambit_lua_set_count(L, "tape_instructions", r->tape_instructions);

@@ -48,7 +48,7 @@ static int answers(lua_State *L) {
   const struct {
     const char *name;
     uint64_t count;
-  } field[] = { { "nodes", ambit_graph_count(g) }, { "asked", tally.asked }, { "shared", tally.shared },
+  } field[] = { { "nodes", ambit_graph_made(g) }, { "asked", tally.asked }, { "shared", tally.shared },
     { "folded", tally.folded } };
   lua_createtable(L, 0, 4);
   for (size_t i = 0; i < sizeof field / sizeof *field; i++) {

@@ -2,10 +2,19 @@
 #include "lua/system.h"
 #include <string.h>
 
+static void mark(ambit_holder *holder, ambit_graph *g) {
+  const ambit_system *s = &((const ambit_lua_system *)(const void *)holder)->system;
+  if (s->state) ambit_graph_mark(g, s->nx, s->state);
+  if (s->rate) ambit_graph_mark(g, s->nx, s->rate);
+  if (s->invariant) ambit_graph_mark(g, s->ninvariant, s->invariant);
+}
+
 ambit_lua_system *ambit_lua_push_system(lua_State *L) {
   ambit_lua_system *s = lua_newuserdatauv(L, sizeof *s, 0);
   memset(s, 0, sizeof *s);
   luaL_setmetatable(L, AMBIT_TYPE_SYSTEM);
+  s->holder.mark = mark;
+  ambit_graph_hold(AMBIT_LUA(L)->graph, &s->holder);
   s->arena = ambit_arena_open();
   if (!s->arena) ambit_lua_error(L, "out of memory");
   return s;
@@ -15,6 +24,7 @@ ambit_lua_system *ambit_lua_check_system(lua_State *L, int idx) { return luaL_ch
 
 static int close(lua_State *L) {
   ambit_lua_system *s = ambit_lua_check_system(L, 1);
+  ambit_graph_release(&s->holder);
   ambit_arena_close(s->arena);
   memset(s, 0, sizeof *s);
   return 0;

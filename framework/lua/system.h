@@ -5,6 +5,7 @@
 #include "graph/system.h"
 
 typedef struct ambit_lua_system {
+  ambit_holder holder; /* of the expressions of `system` */
   ambit_arena *arena; /* holds what `system` points to */
   ambit_system system;
 } ambit_lua_system;

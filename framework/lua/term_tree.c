@@ -7,10 +7,25 @@
 #define TYPE "ambit.term_tree"
 #define TEXT_MAX 100u /* of a term, in bytes; a longer one is shown shortened */
 
-static ambit_term_tree *check(lua_State *L) { return luaL_checkudata(L, 1, TYPE); }
+typedef struct held_tree {
+  ambit_holder holder; /* of the expressions of `tree` */
+  ambit_term_tree tree;
+} held_tree;
+
+static ambit_term_tree *check(lua_State *L) { return &((held_tree *)luaL_checkudata(L, 1, TYPE))->tree; }
+
+static void mark(ambit_holder *holder, ambit_graph *g) {
+  const ambit_term_tree *tree = &((const held_tree *)(const void *)holder)->tree;
+  if (tree->rate) ambit_graph_mark(g, tree->nequation, tree->rate);
+  if (tree->expanded) ambit_graph_mark(g, tree->nequation, tree->expanded);
+  for (size_t k = 0; k < tree->nterm; k++) ambit_graph_mark(g, 1, &tree->term[k].e);
+  for (size_t k = 0; k < tree->nsum; k++) ambit_graph_mark(g, 1, &tree->sum[k].node);
+}
 
 static int close(lua_State *L) {
-  ambit_term_tree_close(check(L));
+  held_tree *held = luaL_checkudata(L, 1, TYPE);
+  ambit_graph_release(&held->holder);
+  ambit_term_tree_close(&held->tree);
   return 0;
 }
 
@@ -27,11 +42,12 @@ static int term_tree(lua_State *L) {
   size_t n = (size_t)luaL_len(L, 1);
   uint32_t level = count_at(L, 2, "the greatest level"), limit = count_at(L, 3, "the limit of summands");
   const ambit_expr *rate = ambit_lua_to_array(L, 1, n);
-  ambit_term_tree *tree = lua_newuserdatauv(L, sizeof *tree, 0);
-  memset(tree, 0, sizeof *tree);
+  held_tree *held = lua_newuserdatauv(L, sizeof *held, 0);
+  *held = (held_tree) { .holder = { .mark = mark } };
   luaL_setmetatable(L, TYPE);
+  ambit_graph_hold(AMBIT_LUA(L)->graph, &held->holder);
   ambit_failure f = { 0 };
-  if (ambit_term_tree_open(AMBIT_LUA(L)->graph, n, rate, level, limit, tree, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
+  if (ambit_term_tree_open(AMBIT_LUA(L)->graph, n, rate, level, limit, &held->tree, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
   return 1;
 }
 

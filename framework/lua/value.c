@@ -2,15 +2,24 @@
 #include "lua/core.h"
 #include "num/decimal.h"
 #include <ctype.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
 ambit_lua_expression *ambit_lua_push_expression(lua_State *L, ambit_expr e) {
   if (e == AMBIT_NO_EXPR) ambit_lua_error(L, "out of memory while building an expression");
-  ambit_lua_expression *x = lua_newuserdatauv(L, sizeof *x, 0);
-  *x = (ambit_lua_expression) { .e = e, .dimension.state = AMBIT_DIMENSION_OPEN };
+  ambit_lua *core = AMBIT_LUA(L);
+  ambit_lua_box *box = lua_newuserdatauv(L, sizeof *box, 0);
+  *box = (ambit_lua_box) { .x = { .e = e, .dimension.state = AMBIT_DIMENSION_OPEN }, .next = core->boxes, .link = &core->boxes };
+  if (box->next) box->next->link = &box->next;
+  core->boxes = box;
   luaL_setmetatable(L, AMBIT_TYPE_EXPRESSION);
-  return x;
+  return &box->x;
+}
+
+void ambit_lua_mark_boxes(ambit_holder *holder, ambit_graph *g) {
+  const ambit_lua *core = (const ambit_lua *)(const void *)((const char *)holder - offsetof(ambit_lua, holder));
+  for (const ambit_lua_box *box = core->boxes; box; box = box->next) ambit_graph_mark(g, 1, &box->x.e);
 }
 
 void ambit_lua_push_enclosure(lua_State *L, ambit_interval x, uint32_t flags) {

@@ -4,13 +4,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define NOWHERE UINT32_MAX
+#define UNSEEN 0u /* what memory from calloc says, so that nodes never looked at cost nothing */
+#define FIXED 1u
+#define VARIES 2u
 
 struct ambit_affine {
   ambit_graph *g;
-  uint8_t *varies;    /* [known] does the node depend on one of the symbols? */
-  uint32_t *position; /* [known] in the present search; NOWHERE: not reached */
-  size_t known, capacity;
+  uint8_t *varies;    /* [capacity] does the node depend on one of the symbols: UNSEEN, FIXED, VARIES */
+  uint32_t *position; /* [capacity] 1 + place in the present search; 0: not reached */
+  size_t capacity;
   ambit_expr *stack, *order; /* of the search */
   size_t stack_capacity, order_capacity, reached;
   ambit_expr *row; /* [reached * width] what the search found for each node */
@@ -29,28 +31,64 @@ static bool is_leaf(const ambit_node *x) { return x->op >= AMBIT_LEAF_CONSTANT; 
 static const uint8_t arity[] = { AMBIT_OPS(ARITY) };
 static bool is_binary(const ambit_node *x) { return !is_leaf(x) && arity[x->op] == 2 && x->op != AMBIT_OP_POWN; }
 
-/* -- which nodes vary: operands precede, so one pass over the new nodes does */
+static bool push(ambit_affine *a, size_t *depth, ambit_expr e) {
+  ambit_expr *stack = ambit_vector_reserve(a->stack, &a->stack_capacity, *depth + 1, sizeof *stack);
+  if (!stack) return false;
+  a->stack = stack;
+  stack[(*depth)++] = e;
+  return true;
+}
 
-static bool learn(ambit_affine *a) {
+/* -- which nodes vary: found by going down from those in question, each node once */
+
+/* Room for all nodes of the graph, which grows meanwhile. */
+static bool reserve(ambit_affine *a) {
   size_t count = ambit_graph_count(a->g);
-  if (count > a->capacity) {
-    uint8_t *varies = realloc(a->varies, 2 * count * sizeof *varies);
-    if (varies) a->varies = varies;
-    uint32_t *position = realloc(a->position, 2 * count * sizeof *position);
-    if (position) a->position = position;
-    if (!varies || !position) return false;
-    a->capacity = 2 * count;
+  if (count <= a->capacity) return true;
+  uint8_t *varies = calloc(2 * count, sizeof *varies);
+  uint32_t *position = calloc(2 * count, sizeof *position);
+  if (!varies || !position) {
+    free(varies);
+    free(position);
+    return false;
   }
-  for (; a->known < count; a->known++) {
-    ambit_expr e = (ambit_expr)a->known;
-    const ambit_node *x = ambit_graph_node(a->g, e);
+  if (a->capacity > 0) {
+    memcpy(varies, a->varies, a->capacity * sizeof *varies);
+    memcpy(position, a->position, a->capacity * sizeof *position);
+  }
+  free(a->varies);
+  free(a->position);
+  a->varies = varies, a->position = position, a->capacity = 2 * count;
+  return true;
+}
+
+static bool learn_one(ambit_affine *a, ambit_expr e) {
+  size_t depth = 0;
+  if (!push(a, &depth, e)) return false;
+  while (depth > 0) {
+    ambit_expr top = a->stack[depth - 1];
+    const ambit_node *x = ambit_graph_node(a->g, top);
     bool leaf = is_leaf(x), binary = is_binary(x);
-    a->position[e] = NOWHERE;
-    a->varies[e] = leaf ? bsearch(&e, a->symbol, a->nsymbol, sizeof e, by_number) != NULL
-                        : a->varies[x->a] || (binary && a->varies[x->b]);
+    if (leaf) {
+      a->varies[top] = bsearch(&top, a->symbol, a->nsymbol, sizeof top, by_number) ? VARIES : FIXED;
+    } else if (!a->varies[x->a] || (binary && !a->varies[x->b])) {
+      if (!a->varies[x->a] && !push(a, &depth, x->a)) return false;
+      if (binary && !a->varies[x->b] && !push(a, &depth, x->b)) return false;
+      continue;
+    } else
+      a->varies[top] = a->varies[x->a] == VARIES || (binary && a->varies[x->b] == VARIES) ? VARIES : FIXED;
+    depth--;
   }
   return true;
 }
+
+static bool learn(ambit_affine *a, size_t n, const ambit_expr *e) {
+  bool done = reserve(a);
+  for (size_t i = 0; i < n && done; i++) done = a->varies[e[i]] || learn_one(a, e[i]);
+  return done;
+}
+
+static bool varies(const ambit_affine *a, ambit_expr e) { return a->varies[e] == VARIES; }
 
 ambit_affine *ambit_affine_open(ambit_graph *g, size_t n, const ambit_expr *symbol) {
   ambit_affine *a = calloc(1, sizeof *a);
@@ -61,7 +99,7 @@ ambit_affine *ambit_affine_open(ambit_graph *g, size_t n, const ambit_expr *symb
   if (a->symbol) {
     memcpy(a->symbol, symbol, n * sizeof *symbol);
     qsort(a->symbol, n, sizeof *symbol, by_number);
-    if (learn(a)) return a;
+    return a;
   }
   ambit_affine_close(a);
   return NULL;
@@ -79,50 +117,43 @@ void ambit_affine_close(ambit_affine *a) {
 }
 
 bool ambit_affine_varies(ambit_affine *a, size_t n, const ambit_expr *e) {
-  if (!learn(a)) return true;
-  bool varies = false;
-  for (size_t i = 0; i < n; i++) varies = varies || a->varies[e[i]];
-  return varies;
+  if (!learn(a, n, e)) return true;
+  bool any = false;
+  for (size_t i = 0; i < n; i++) any = any || varies(a, e[i]);
+  return any;
 }
 
 /* -- the search */
 
-static bool push(ambit_affine *a, size_t *depth, ambit_expr e) {
-  if (!a->varies[e] || a->position[e] != NOWHERE) return true;
-  ambit_expr *stack = ambit_vector_reserve(a->stack, &a->stack_capacity, *depth + 1, sizeof *stack);
-  if (!stack) return false;
-  a->stack = stack;
-  stack[(*depth)++] = e;
-  return true;
-}
+static bool is_done(const ambit_affine *a, ambit_expr e) { return !varies(a, e) || a->position[e]; }
 
 static bool settle(ambit_affine *a, ambit_expr e) {
   ambit_expr *order = ambit_vector_reserve(a->order, &a->order_capacity, a->reached + 1, sizeof *order);
   if (!order) return false;
   a->order = order;
-  a->position[e] = (uint32_t)a->reached;
   order[a->reached++] = e;
+  a->position[e] = (uint32_t)a->reached;
   return true;
 }
-
-static bool ready(const ambit_affine *a, ambit_expr e) { return !a->varies[e] || a->position[e] != NOWHERE; }
 
 /* order[0..reached): the varying nodes below e, operands first */
 static bool search(ambit_affine *a, size_t ne, const ambit_expr *e) {
   size_t depth = 0;
   for (size_t i = ne; i-- > 0;)
-    if (!push(a, &depth, e[i])) return false;
+    if (!is_done(a, e[i]) && !push(a, &depth, e[i])) return false;
   while (depth > 0) {
     ambit_expr top = a->stack[depth - 1];
     const ambit_node *x = ambit_graph_node(a->g, top);
     bool leaf = is_leaf(x), binary = is_binary(x);
-    if (a->position[top] != NOWHERE) { /* reached by another way meanwhile */
+    if (a->position[top]) { /* reached by another way meanwhile */
       depth--;
-    } else if (leaf || (ready(a, x->a) && (!binary || ready(a, x->b)))) {
+    } else if (leaf || (is_done(a, x->a) && (!binary || is_done(a, x->b)))) {
       depth--;
       if (!settle(a, top)) return false;
-    } else if (!(push(a, &depth, x->a) && (!binary || push(a, &depth, x->b))))
-      return false;
+    } else {
+      if (!is_done(a, x->a) && !push(a, &depth, x->a)) return false;
+      if (binary && !is_done(a, x->b) && !push(a, &depth, x->b)) return false;
+    }
   }
   return true;
 }
@@ -130,7 +161,7 @@ static bool search(ambit_affine *a, size_t ne, const ambit_expr *e) {
 /* `width` numbers for each node reached */
 static bool begin(ambit_affine *a, size_t ne, const ambit_expr *e, size_t width) {
   a->reached = 0;
-  if (!learn(a)) return false;
+  if (!learn(a, ne, e)) return false;
   bool done = search(a, ne, e);
   ambit_expr *row = done ? ambit_vector_reserve(a->row, &a->row_capacity, (a->reached + 1) * width, sizeof *row) : NULL;
   if (row) a->row = row;
@@ -138,7 +169,7 @@ static bool begin(ambit_affine *a, size_t ne, const ambit_expr *e, size_t width)
 }
 
 static void end(ambit_affine *a) {
-  for (size_t i = 0; i < a->reached; i++) a->position[a->order[i]] = NOWHERE;
+  for (size_t i = 0; i < a->reached; i++) a->position[a->order[i]] = 0;
 }
 
 static size_t find(size_t n, const ambit_expr *symbol, ambit_expr e) {
@@ -155,19 +186,19 @@ typedef struct rules {
   const ambit_expr *symbol;
 } rules;
 
-static ambit_expr *row_of(const rules *r, ambit_expr e) { return r->a->row + (size_t)r->a->position[e] * (r->n + 1); }
+static ambit_expr *row_of(const rules *r, ambit_expr e) { return r->a->row + (size_t)(r->a->position[e] - 1) * (r->n + 1); }
 
 static bool is_constant(const rules *r, ambit_expr e) {
-  if (!r->a->varies[e]) return true;
+  if (!varies(r->a, e)) return true;
   const ambit_expr *row = row_of(r, e);
   size_t k = 0;
   while (k < r->n && row[k] == 0) k++;
   return k == r->n;
 }
 
-static ambit_expr constant_of(const rules *r, ambit_expr e) { return r->a->varies[e] ? row_of(r, e)[r->n] : e; }
+static ambit_expr constant_of(const rules *r, ambit_expr e) { return varies(r->a, e) ? row_of(r, e)[r->n] : e; }
 static ambit_expr coefficient_of(const rules *r, ambit_expr e, size_t k) {
-  return r->a->varies[e] ? row_of(r, e)[k] : 0;
+  return varies(r->a, e) ? row_of(r, e)[k] : 0;
 }
 
 /* A product with 0 is 0 here even where the other factor is not proved to be defined: see affine_in.h. */

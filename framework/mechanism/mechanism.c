@@ -241,9 +241,10 @@ static ambit_status check_element(const ambit_part_spec *spec, ambit_failure *f)
 static ambit_status fill_part(ambit_mechanism *m, ambit_part *p, const ambit_part_spec *spec, ambit_failure *f) {
   p->element = spec->element;
   p->type = ambit_arena_text(m->arena, spec->type);
+  if (!p->type) return no_memory(f);
   p->where = spec->where && *spec->where ? ambit_arena_text(m->arena, spec->where) : NULL;
-  p->name = spec->name ? ambit_arena_text(m->arena, spec->name) : ambit_part_make_name(m, spec->type);
-  if (!p->type || !p->name) return no_memory(f);
+  p->name = spec->name ? ambit_arena_text(m->arena, spec->name) : ambit_part_make_name(m, p->type);
+  if (!p->name) return no_memory(f);
   ambit_status status = ambit_part_check_name(m, p, f);
   if (status == AMBIT_OK) status = ambit_part_take_params(m, p, spec->param, f);
   if (status == AMBIT_OK) status = connect(m, p, spec->connection, f);
@@ -274,6 +275,8 @@ ambit_mechanism *ambit_mechanism_open(ambit_graph *g, const char *name) {
   ambit_mechanism *m = calloc(1, sizeof *m);
   if (!m) return NULL;
   m->graph = g;
+  m->holder.mark = ambit_mechanism_mark;
+  ambit_graph_hold(g, &m->holder);
   m->arena = ambit_arena_open();
   m->name = m->arena ? ambit_arena_text(m->arena, name ? name : "mechanism") : NULL;
   for (uint32_t k = 0; k < AMBIT_COLUMNS; k++)
@@ -286,6 +289,7 @@ ambit_mechanism *ambit_mechanism_open(ambit_graph *g, const char *name) {
 
 void ambit_mechanism_close(ambit_mechanism *m) {
   if (!m) return;
+  ambit_graph_release(&m->holder);
   ambit_arena_close(m->arena);
   free(m->names.table);
   free(m->names.type);

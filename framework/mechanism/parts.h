@@ -6,6 +6,7 @@
 */
 #ifndef AMBIT_PARTS_H
 #define AMBIT_PARTS_H
+#include "graph/collect.h"
 #include "mechanism/mechanism.h"
 
 #define AMBIT_CELL_EMPTY 0u
@@ -63,6 +64,7 @@ typedef struct ambit_loop_choice {
 } ambit_loop_choice;
 
 struct ambit_mechanism {
+  ambit_holder holder; /* first, see mark.c */
   ambit_graph *graph;
   ambit_arena *arena;
   const char *name;
@@ -128,6 +130,8 @@ const ambit_multiplier *ambit_part_multiplier(
     ambit_mechanism *m, uint32_t part, uint32_t i, const char *unit, ambit_failure *f);
 /* In build.c: calls express() of the cell's element. */
 ambit_status ambit_build_express(ambit_mechanism *m, ambit_cell *cell, ambit_expr *out);
+/* In mark.c: marks all expressions of the mechanism that the holder is part of. */
+void ambit_mechanism_mark(ambit_holder *holder, ambit_graph *g);
 /* In build.c: calls check() of a part that is about to be added. */
 ambit_status ambit_build_check(ambit_mechanism *m, uint32_t part, ambit_failure *f);
 #endif

@@ -85,7 +85,7 @@ static void fill_report(const job *j, double ran, ambit_report *report) {
   *report = (ambit_report) { 0 };
   snprintf(report->arithmetic, sizeof report->arithmetic, "%.31s", j->q->arithmetic);
   report->expressions = (uint32_t)j->q->nexpr;
-  report->graph_nodes = ambit_graph_count(j->q->graph);
+  report->graph_nodes = ambit_graph_made(j->q->graph);
   report->tape_slots = j->tape->nslot;
   report->tape_constants = j->tape->nconst;
   report->tape_instructions = j->tape->ninstr;

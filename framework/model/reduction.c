@@ -253,7 +253,7 @@ static void fill_report(const job *j, ambit_report *report) {
     .seconds_run = j->result->cpu_seconds - j->tally.built };
   snprintf(report->arithmetic, sizeof report->arithmetic, "%.31s", j->arithmetic);
   snprintf(report->solver, sizeof report->solver, "%.31s", j->q->solver);
-  report->graph_nodes = ambit_graph_count(j->q->graph);
+  report->graph_nodes = ambit_graph_made(j->q->graph);
   const ambit_tape *const tape[] = { r->effect, r->jacobian, r->output_jacobian, r->rates, r->output_value };
   for (size_t i = 0; i < sizeof tape / sizeof *tape; i++) ambit_report_count(report, tape[i]);
   ambit_tally_report(&j->tally, j->arena, j->lease, 1, &j->context, report);

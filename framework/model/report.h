@@ -7,7 +7,7 @@
 typedef struct ambit_report {
   char arithmetic[32], solver[32];
   uint32_t expressions; /* asked for */
-  uint32_t graph_nodes; /* in the whole graph */
+  uint64_t graph_nodes; /* made so far in the whole graph */
   uint32_t tape_slots, tape_constants, tape_instructions, tape_runs;
   uint32_t states, parameters, unknowns; /* uncertain data that are variables */
   uint32_t constant_slots;               /* degree 0: one Taylor coefficient instead of all */

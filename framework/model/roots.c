@@ -306,7 +306,7 @@ static void fill_report(const job *j, const ambit_roots_result *result, ambit_re
   *report = (ambit_report) { .expressions = (uint32_t)j->q->equations->ne };
   snprintf(report->arithmetic, sizeof report->arithmetic, "%.31s", j->arithmetic);
   snprintf(report->solver, sizeof report->solver, "%.31s", j->q->solver);
-  report->graph_nodes = ambit_graph_count(j->q->equations->graph);
+  report->graph_nodes = ambit_graph_made(j->q->equations->graph);
   ambit_report_count(report, p->rhs);
   ambit_report_count(report, p->jacobian);
   ambit_report_count(report, p->slope);

@@ -210,7 +210,7 @@ static void fill_report(const job *j, double built, ambit_sample_result *result,
   if (!report) return;
   *report = (ambit_report) { .expressions = (uint32_t)j->q->nexpr, .unknowns = (uint32_t)j->bound.nunknown };
   snprintf(report->arithmetic, sizeof report->arithmetic, "%.31s", j->arithmetic);
-  report->graph_nodes = ambit_graph_count(j->q->graph);
+  report->graph_nodes = ambit_graph_made(j->q->graph);
   ambit_report_count(report, j->tape);
   report->seconds_build = built;
   for (uint32_t k = 0; k < j->ndrawer; k++) {

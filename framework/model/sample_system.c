@@ -107,7 +107,7 @@ static void fill_report(
       j->q->solver                        ? j->q->solver
       : ambit_flow_is_one_by_one(j->flow) ? "gsl"
                                           : "lanes");
-  report->graph_nodes = ambit_graph_count(j->q->system->graph);
+  report->graph_nodes = ambit_graph_made(j->q->system->graph);
   report->work = ambit_flow_work(j->flow);
   ambit_report_count(report, p->rhs);
 }

@@ -217,7 +217,7 @@ static void fill_report(const job *j, const ambit_simulate_result *result, ambit
   *report = (ambit_report) { .expressions = (uint32_t)j->q->system->nx };
   snprintf(report->arithmetic, sizeof report->arithmetic, "%.31s", j->arithmetic);
   snprintf(report->solver, sizeof report->solver, "%.31s", j->q->solver);
-  report->graph_nodes = ambit_graph_count(j->q->system->graph);
+  report->graph_nodes = ambit_graph_made(j->q->system->graph);
   ambit_report_count(report, j->problem.rhs);
   ambit_report_count(report, j->problem.jacobian);
   ambit_report_count(report, j->problem.slope);

@@ -3,7 +3,7 @@
 #define AMBIT_UNKNOWNS_H
 #include "graph/graph.h"
 
-/* The leaves of e[0..ne) in the arena, in the order of their numbers. */
+/* The leaves of e[0..ne) in the arena, in the order in which they were made. */
 ambit_status ambit_unknowns_leaves(const ambit_graph *g, ambit_arena *arena, size_t ne, const ambit_expr *e, size_t *n,
     ambit_expr **leaf, ambit_failure *f);
 /* An unknown whose range is one number is that number: replaced in place, so that no arithmetic carries it. */

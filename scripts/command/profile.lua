@@ -69,6 +69,7 @@ function command.run(list)
   scene.note_strays(words, known)
   local files, refusal = open_files(options)
   if not files then return complain(refusal) or 1 end
+  session.verbs = {}
   local p, problem = measure(file, words)
   p.verbs_ended = {}
   for i, verb in ipairs(session.verbs) do p.verbs_ended[i] = { verb = verb.verb, status = verb.status } end

@@ -4,7 +4,8 @@ local core = require "ambit.core"
 local weak = { __mode = "v" }
 
 local session = {
-  verbs = {},                             -- { verb, status, reason, report, settings, cpu_seconds } in order
+  last = nil,                             -- the verb that ended last: { verb, status, reason, report, settings, cpu_seconds }
+  verbs = nil,                            -- a list: a command wants to know all of them, in order
   mechanisms = setmetatable({}, weak),    -- by number; only what is still alive
   odes = setmetatable({}, weak),
   observer = nil,                         -- `ambit explain`: a function that is told of every verb as it ends
@@ -48,14 +49,15 @@ end
 -- A simulation that has ended, and what it was asked.
 function session.remember(run, request)
   if session.runs then session.runs[#session.runs + 1] = { run = run, request = request } end
-  if session.observer then session.verbs[#session.verbs].request = request end
+  if session.observer then session.last.request = request end
 end
 
--- Called once at the end of every verb: remembers it and writes its `result` record.
+-- Called once at the end of every verb: tells of it and writes its `result` record.
 function session.finish(verb, result, report, settings)
   local entry = { verb = verb, status = result.status, reason = result.reason, report = report, settings = settings,
     cpu_seconds = result.cpu_seconds or report.seconds_run or 0 }
-  session.verbs[#session.verbs + 1] = entry
+  session.last = entry
+  if session.verbs then session.verbs[#session.verbs + 1] = entry end
   if session.observer then session.observer(entry) end
   if result.status == "unable" then session.unable = true end
   if not core.recording() then return end

@@ -338,7 +338,7 @@ describe("counted work", function()
     local session = require "ambit.session"
     local f = ambit.ode { states = { "x" }, equations = function(s) return { x = -s.x } end }
     ambit.simulate { f, initial = { x = 1 }, t = { 0, 1 }, solver = settings }
-    return session.verbs[#session.verbs].report
+    return session.last.report
   end
 
   it("is in every report, with its meaning", function()

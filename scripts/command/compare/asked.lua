@@ -79,7 +79,7 @@ local function distinct(requests, same)
 end
 
 -- From now on the scene's questions are remembered.
-function asked.begin() session.asked, session.simulations = {}, {} end
+function asked.begin() session.asked, session.simulations, session.verbs = {}, {}, {} end
 
 -- The questions since then, evaluations first.
 function asked.requests()

@@ -73,6 +73,7 @@ end
 
 -- gather(file, words) -> facts; facts.problem: the error that ended the scene
 function explain.gather(file, words)
+  session.verbs = {}
   local facts = { file = file, verbs = session.verbs }
   session.keep(observe)
   local restore = scene.discard_output()
