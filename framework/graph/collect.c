@@ -4,7 +4,6 @@
 #include "graph/store.h"
 #include <stdlib.h>
 
-
 void ambit_graph_hold(ambit_graph *g, ambit_holder *holder) {
   holder->next = g->holders;
   holder->link = &g->holders;

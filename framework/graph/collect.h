@@ -20,13 +20,13 @@ typedef struct ambit_holder {
 } ambit_holder;
 
 void ambit_graph_hold(ambit_graph *g, ambit_holder *holder);
-void ambit_graph_release(ambit_holder *holder); /* also one that was never given to a graph */
+void ambit_graph_release(ambit_holder *holder);                       /* also one that was never given to a graph */
 void ambit_graph_mark(ambit_graph *g, size_t n, const ambit_expr *e); /* AMBIT_NO_EXPR is passed over */
 
 /* Have enough nodes been made since the last collection that another one pays? Then the work of all collections
 ** together is proportional to the nodes made. */
 bool ambit_graph_is_due(const ambit_graph *g);
-void ambit_graph_collect(ambit_graph *g); /* out of memory: everything stays */
+void ambit_graph_collect(ambit_graph *g);  /* out of memory: everything stays */
 void ambit_graph_postpone(ambit_graph *g); /* one was due, but could not be done */
 /* For tests: one is due whenever a node has been made, and the numbers of freed nodes are never used again: whoever goes
 ** on using one is found, and aborts. */

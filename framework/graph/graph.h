@@ -44,8 +44,8 @@ const ambit_node *ambit_graph_node(const ambit_graph *g, ambit_expr e); /* valid
 uint32_t ambit_graph_count(const ambit_graph *g);                       /* all node numbers are below */
 /* A number that no other leaf of the graph ever has; leaves are in the order of these. */
 uint64_t ambit_graph_birth(const ambit_graph *g, ambit_expr leaf);
-uint64_t ambit_graph_made(const ambit_graph *g);                        /* nodes ever made */
-double ambit_graph_sealing_seconds(const ambit_graph *g);               /* of CPU time, for all tapes so far */
+uint64_t ambit_graph_made(const ambit_graph *g);          /* nodes ever made */
+double ambit_graph_sealing_seconds(const ambit_graph *g); /* of CPU time, for all tapes so far */
 
 /* exactly this double; NaN or infinite: NO_EXPR */
 ambit_expr ambit_graph_number(ambit_graph *g, double x);

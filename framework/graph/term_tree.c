@@ -7,6 +7,7 @@
 #include "graph/term_tree.h"
 #include "base/vector.h"
 #include "graph/expand.h"
+#include "graph/node_map.h"
 #include "graph/summands.h"
 #include <stdlib.h>
 #include <string.h>
@@ -14,8 +15,7 @@
 typedef struct builder {
   ambit_graph *g;
   ambit_term_tree *tree;
-  uint32_t *seen; /* [capacity] equation + 1 that has met the node; the graph grows meanwhile */
-  size_t capacity;
+  ambit_node_map seen; /* equation + 1 that has met the node */
   ambit_expr *stack;
   size_t depth, stack_capacity;
 } builder;
@@ -24,16 +24,10 @@ static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOM
 
 /* Is it the first time that this equation meets e? */
 static bool meet(builder *b, uint32_t equation, ambit_expr e, bool *first) {
-  if (e >= b->capacity) {
-    size_t count = 2 * (size_t)ambit_graph_count(b->g);
-    uint32_t *seen = calloc(count, sizeof *seen); /* pages of nodes that are never met cost nothing */
-    if (!seen) return false;
-    if (b->capacity) memcpy(seen, b->seen, b->capacity * sizeof *seen);
-    free(b->seen);
-    b->seen = seen, b->capacity = count;
-  }
-  *first = b->seen[e] != equation + 1;
-  b->seen[e] = equation + 1;
+  uint32_t *seen = ambit_node_map_at(&b->seen, e);
+  if (!seen) return false;
+  *first = *seen != equation + 1;
+  *seen = equation + 1;
   return true;
 }
 
@@ -146,7 +140,7 @@ ambit_status ambit_term_tree_open(ambit_graph *g, size_t n, const ambit_expr *ra
   if (n) memcpy(tree->rate, rate, n * sizeof *rate);
   builder b = { .g = g, .tree = tree };
   ambit_status status = add_equations(&b, expand_limit, f);
-  free(b.seen);
+  ambit_node_map_close(&b.seen);
   free(b.stack);
   return status;
 }

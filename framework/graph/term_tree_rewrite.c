@@ -5,23 +5,22 @@
 ** belong to the greater one. So a node has two values, by where it stands.
 */
 #include "base/vector.h"
+#include "graph/node_map.h"
 #include "graph/summands.h"
 #include "graph/term_tree.h"
 #include <stdlib.h>
 
 /* A node where it stands: 2 * node, + 1 below a sum. */
-typedef size_t place;
+typedef uint32_t place;
 
 typedef struct rewriter {
   ambit_graph *g;
   const ambit_term_tree *tree;
-  ambit_expr *by;    /* [nterm] the replacement, or NO_EXPR */
-  uint32_t *settled; /* [2 * count] equation + 1 whose value is there */
-  ambit_expr *value; /* [2 * count] */
-  uint32_t *sum;     /* [count] the listed sum that the node is, for `stamped` */
-  uint32_t *stamped; /* [count] equation + 1 */
-  uint32_t equation;
-  ambit_expr *scratch; /* [2 * nterm] */
+  ambit_expr *by; /* [nterm] the replacement, or NO_EXPR */
+  /* of the present equation */
+  ambit_node_map value; /* by place: 1 + the expression */
+  ambit_node_map sum;   /* by node: 1 + the number of the listed sum that it is */
+  ambit_expr *scratch;  /* [2 * nterm] */
   place *stack;
   size_t depth, capacity;
 } rewriter;
@@ -29,7 +28,7 @@ typedef struct rewriter {
 static bool passes(uint32_t op) { return ambit_op_is_sum(op) || op == AMBIT_OP_NEG; }
 
 static place place_of(const ambit_graph *g, ambit_expr e, bool below) {
-  return 2 * (size_t)e + (below && passes(ambit_at(g, e)->op));
+  return 2 * e + (below && passes(ambit_at(g, e)->op));
 }
 
 /* Where the operands of a node stand. */
@@ -39,11 +38,11 @@ static bool is_below(const ambit_graph *g, place p) {
 }
 
 static const ambit_tree_sum *listed(const rewriter *r, place p) {
-  if (p % 2 || r->stamped[p / 2] != r->equation + 1) return NULL;
-  return &r->tree->sum[r->sum[p / 2]];
+  uint32_t sum = p % 2 ? 0 : ambit_node_map_get(&r->sum, p / 2);
+  return sum ? &r->tree->sum[sum - 1] : NULL;
 }
 
-static bool is_settled(const rewriter *r, place p) { return r->settled[p] == r->equation + 1; }
+static bool is_settled(const rewriter *r, place p) { return ambit_node_map_get(&r->value, p) != 0; }
 
 /* Its value is needed. */
 static bool ask(rewriter *r, place p) {
@@ -67,7 +66,9 @@ static bool ask_below(rewriter *r, place p) {
   return ask(r, place_of(r->g, x->a, below));
 }
 
-static ambit_expr value_of(const rewriter *r, ambit_expr e, bool below) { return r->value[place_of(r->g, e, below)]; }
+static ambit_expr value_of(const rewriter *r, ambit_expr e, bool below) {
+  return ambit_node_map_get(&r->value, place_of(r->g, e, below)) - 1;
+}
 
 static ambit_expr term_value(const rewriter *r, uint32_t k) {
   return r->by[k] != AMBIT_NO_EXPR ? r->by[k] : value_of(r, r->tree->term[k].e, false);
@@ -109,11 +110,12 @@ static ambit_expr settle(rewriter *r, ambit_expr root) {
     if (r->depth > depth) continue;
     r->depth--;
     if (is_settled(r, p)) continue;
-    r->value[p] = rebuild(r, p);
-    r->settled[p] = r->equation + 1;
-    if (r->value[p] == AMBIT_NO_EXPR) return AMBIT_NO_EXPR;
+    ambit_expr e = rebuild(r, p);
+    uint32_t *value = e == AMBIT_NO_EXPR ? NULL : ambit_node_map_at(&r->value, p);
+    if (!value) return AMBIT_NO_EXPR;
+    *value = e + 1;
   }
-  return r->value[top];
+  return ambit_node_map_get(&r->value, top) - 1;
 }
 
 /* A right-hand side that is no sum has one term at most, which is all of it. */
@@ -130,11 +132,13 @@ static ambit_expr settle_root(rewriter *r, const ambit_tree_sum *root) {
 static ambit_expr rewrite_equation(rewriter *r, uint32_t i, uint32_t whole) {
   const ambit_term_tree *tree = r->tree;
   if (r->by[whole] != AMBIT_NO_EXPR) return r->by[whole];
-  r->equation = i;
+  ambit_node_map_close(&r->value);
+  ambit_node_map_close(&r->sum);
   for (uint32_t k = tree->first_sum[i]; k < tree->first_sum[i + 1]; k++) {
     if (!ambit_op_is_sum(ambit_at(r->g, tree->sum[k].node)->op)) continue;
-    r->sum[tree->sum[k].node] = k;
-    r->stamped[tree->sum[k].node] = i + 1;
+    uint32_t *sum = ambit_node_map_at(&r->sum, tree->sum[k].node);
+    if (!sum) return AMBIT_NO_EXPR;
+    *sum = k + 1;
   }
   ambit_expr e = settle_root(r, &tree->sum[tree->first_sum[i]]);
   return e == tree->expanded[i] ? tree->rate[i] : e;
@@ -169,25 +173,17 @@ static ambit_status rewrite_equations(rewriter *r, ambit_expr *rate, ambit_failu
 
 ambit_status ambit_term_tree_rewrite(ambit_graph *g, const ambit_term_tree *tree, size_t n, const uint32_t *index,
     const ambit_expr *replacement, ambit_expr *rate, ambit_failure *f) {
-  size_t count = ambit_graph_count(g);
   rewriter r = { .g = g, .tree = tree };
   r.by = malloc((tree->nterm + 1) * sizeof *r.by);
   r.scratch = malloc((2 * tree->nterm + 1) * sizeof *r.scratch);
-  r.settled = calloc(2 * count, sizeof *r.settled);
-  r.value = malloc(2 * count * sizeof *r.value);
-  r.sum = malloc(count * sizeof *r.sum);
-  r.stamped = calloc(count, sizeof *r.stamped);
   ambit_status status = AMBIT_OK;
-  if (!r.by || !r.scratch || !r.settled || !r.value || !r.sum || !r.stamped)
-    status = ambit_fail(f, AMBIT_NOMEM, "out of memory while replacing terms");
+  if (!r.by || !r.scratch) status = ambit_fail(f, AMBIT_NOMEM, "out of memory while replacing terms");
   if (status == AMBIT_OK) status = read_replacements(&r, n, index, replacement, f);
   if (status == AMBIT_OK) status = rewrite_equations(&r, rate, f);
   free(r.by);
   free(r.scratch);
-  free(r.settled);
-  free(r.value);
-  free(r.sum);
-  free(r.stamped);
+  ambit_node_map_close(&r.value);
+  ambit_node_map_close(&r.sum);
   free(r.stack);
   return status;
 }

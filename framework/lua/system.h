@@ -6,7 +6,7 @@
 
 typedef struct ambit_lua_system {
   ambit_holder holder; /* of the expressions of `system` */
-  ambit_arena *arena; /* holds what `system` points to */
+  ambit_arena *arena;  /* holds what `system` points to */
   ambit_system system;
 } ambit_lua_system;
 

@@ -47,7 +47,8 @@ static int term_tree(lua_State *L) {
   luaL_setmetatable(L, TYPE);
   ambit_graph_hold(AMBIT_LUA(L)->graph, &held->holder);
   ambit_failure f = { 0 };
-  if (ambit_term_tree_open(AMBIT_LUA(L)->graph, n, rate, level, limit, &held->tree, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
+  if (ambit_term_tree_open(AMBIT_LUA(L)->graph, n, rate, level, limit, &held->tree, &f) != AMBIT_OK)
+    ambit_lua_raise(L, &f);
   return 1;
 }
 

@@ -1,18 +1,18 @@
 /* affine_in.c -- two searches over the nodes that depend on the symbols, operands first, without recursion. */
 #include "mechanism/affine_in.h"
 #include "base/vector.h"
+#include "graph/node_map.h"
 #include <stdlib.h>
 #include <string.h>
 
-#define UNSEEN 0u /* what memory from calloc says, so that nodes never looked at cost nothing */
+/* What is known of a node: 0 nothing, FIXED, or VARIES: it depends on one of the symbols; then VARIES + 1 + its place in
+** the present search, if it has one. */
 #define FIXED 1u
 #define VARIES 2u
 
 struct ambit_affine {
   ambit_graph *g;
-  uint8_t *varies;    /* [capacity] does the node depend on one of the symbols: UNSEEN, FIXED, VARIES */
-  uint32_t *position; /* [capacity] 1 + place in the present search; 0: not reached */
-  size_t capacity;
+  ambit_node_map known;
   ambit_expr *stack, *order; /* of the search */
   size_t stack_capacity, order_capacity, reached;
   ambit_expr *row; /* [reached * width] what the search found for each node */
@@ -41,25 +41,13 @@ static bool push(ambit_affine *a, size_t *depth, ambit_expr e) {
 
 /* -- which nodes vary: found by going down from those in question, each node once */
 
-/* Room for all nodes of the graph, which grows meanwhile. */
-static bool reserve(ambit_affine *a) {
-  size_t count = ambit_graph_count(a->g);
-  if (count <= a->capacity) return true;
-  uint8_t *varies = calloc(2 * count, sizeof *varies);
-  uint32_t *position = calloc(2 * count, sizeof *position);
-  if (!varies || !position) {
-    free(varies);
-    free(position);
-    return false;
-  }
-  if (a->capacity > 0) {
-    memcpy(varies, a->varies, a->capacity * sizeof *varies);
-    memcpy(position, a->position, a->capacity * sizeof *position);
-  }
-  free(a->varies);
-  free(a->position);
-  a->varies = varies, a->position = position, a->capacity = 2 * count;
-  return true;
+static uint32_t known(const ambit_affine *a, ambit_expr e) { return ambit_node_map_get(&a->known, e); }
+static bool varies(const ambit_affine *a, ambit_expr e) { return known(a, e) >= VARIES; }
+
+static bool note(ambit_affine *a, ambit_expr e, uint32_t what) {
+  uint32_t *value = ambit_node_map_at(&a->known, e);
+  if (value) *value = what;
+  return value;
 }
 
 static bool learn_one(ambit_affine *a, ambit_expr e) {
@@ -68,27 +56,27 @@ static bool learn_one(ambit_affine *a, ambit_expr e) {
   while (depth > 0) {
     ambit_expr top = a->stack[depth - 1];
     const ambit_node *x = ambit_graph_node(a->g, top);
-    bool leaf = is_leaf(x), binary = is_binary(x);
+    bool leaf = is_leaf(x), binary = is_binary(x), any = false;
     if (leaf) {
-      a->varies[top] = bsearch(&top, a->symbol, a->nsymbol, sizeof top, by_number) ? VARIES : FIXED;
-    } else if (!a->varies[x->a] || (binary && !a->varies[x->b])) {
-      if (!a->varies[x->a] && !push(a, &depth, x->a)) return false;
-      if (binary && !a->varies[x->b] && !push(a, &depth, x->b)) return false;
-      continue;
-    } else
-      a->varies[top] = a->varies[x->a] == VARIES || (binary && a->varies[x->b] == VARIES) ? VARIES : FIXED;
+      any = bsearch(&top, a->symbol, a->nsymbol, sizeof top, by_number) != NULL;
+    } else {
+      uint32_t left = known(a, x->a), right = binary ? known(a, x->b) : left;
+      if (!left && !push(a, &depth, x->a)) return false;
+      if (!right && binary && !push(a, &depth, x->b)) return false;
+      if (!left || !right) continue;
+      any = left >= VARIES || right >= VARIES;
+    }
+    if (!note(a, top, any ? VARIES : FIXED)) return false;
     depth--;
   }
   return true;
 }
 
 static bool learn(ambit_affine *a, size_t n, const ambit_expr *e) {
-  bool done = reserve(a);
-  for (size_t i = 0; i < n && done; i++) done = a->varies[e[i]] || learn_one(a, e[i]);
+  bool done = true;
+  for (size_t i = 0; i < n && done; i++) done = known(a, e[i]) || learn_one(a, e[i]);
   return done;
 }
-
-static bool varies(const ambit_affine *a, ambit_expr e) { return a->varies[e] == VARIES; }
 
 ambit_affine *ambit_affine_open(ambit_graph *g, size_t n, const ambit_expr *symbol) {
   ambit_affine *a = calloc(1, sizeof *a);
@@ -107,8 +95,7 @@ ambit_affine *ambit_affine_open(ambit_graph *g, size_t n, const ambit_expr *symb
 
 void ambit_affine_close(ambit_affine *a) {
   if (!a) return;
-  free(a->varies);
-  free(a->position);
+  ambit_node_map_close(&a->known);
   free(a->stack);
   free(a->order);
   free(a->row);
@@ -125,15 +112,15 @@ bool ambit_affine_varies(ambit_affine *a, size_t n, const ambit_expr *e) {
 
 /* -- the search */
 
-static bool is_done(const ambit_affine *a, ambit_expr e) { return !varies(a, e) || a->position[e]; }
+static bool is_reached(const ambit_affine *a, ambit_expr e) { return known(a, e) > VARIES; }
+static bool is_done(const ambit_affine *a, ambit_expr e) { return known(a, e) != VARIES; }
 
 static bool settle(ambit_affine *a, ambit_expr e) {
   ambit_expr *order = ambit_vector_reserve(a->order, &a->order_capacity, a->reached + 1, sizeof *order);
   if (!order) return false;
   a->order = order;
   order[a->reached++] = e;
-  a->position[e] = (uint32_t)a->reached;
-  return true;
+  return note(a, e, VARIES + (uint32_t)a->reached);
 }
 
 /* order[0..reached): the varying nodes below e, operands first */
@@ -145,7 +132,7 @@ static bool search(ambit_affine *a, size_t ne, const ambit_expr *e) {
     ambit_expr top = a->stack[depth - 1];
     const ambit_node *x = ambit_graph_node(a->g, top);
     bool leaf = is_leaf(x), binary = is_binary(x);
-    if (a->position[top]) { /* reached by another way meanwhile */
+    if (is_reached(a, top)) { /* reached by another way meanwhile */
       depth--;
     } else if (leaf || (is_done(a, x->a) && (!binary || is_done(a, x->b)))) {
       depth--;
@@ -169,7 +156,7 @@ static bool begin(ambit_affine *a, size_t ne, const ambit_expr *e, size_t width)
 }
 
 static void end(ambit_affine *a) {
-  for (size_t i = 0; i < a->reached; i++) a->position[a->order[i]] = 0;
+  for (size_t i = 0; i < a->reached; i++) note(a, a->order[i], VARIES);
 }
 
 static size_t find(size_t n, const ambit_expr *symbol, ambit_expr e) {
@@ -186,7 +173,9 @@ typedef struct rules {
   const ambit_expr *symbol;
 } rules;
 
-static ambit_expr *row_of(const rules *r, ambit_expr e) { return r->a->row + (size_t)(r->a->position[e] - 1) * (r->n + 1); }
+static ambit_expr *row_of(const rules *r, ambit_expr e) {
+  return r->a->row + (size_t)(known(r->a, e) - VARIES - 1) * (r->n + 1);
+}
 
 static bool is_constant(const rules *r, ambit_expr e) {
   if (!varies(r->a, e)) return true;
