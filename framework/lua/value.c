@@ -10,7 +10,9 @@ ambit_lua_expression *ambit_lua_push_expression(lua_State *L, ambit_expr e) {
   if (e == AMBIT_NO_EXPR) ambit_lua_error(L, "out of memory while building an expression");
   ambit_lua *core = AMBIT_LUA(L);
   ambit_lua_box *box = lua_newuserdatauv(L, sizeof *box, 0);
-  *box = (ambit_lua_box) { .x = { .e = e, .dimension.state = AMBIT_DIMENSION_OPEN }, .next = core->boxes, .link = &core->boxes };
+  *box = (ambit_lua_box) {
+    .x = { .e = e, .dimension.state = AMBIT_DIMENSION_OPEN }, .next = core->boxes, .link = &core->boxes
+  };
   if (box->next) box->next->link = &box->next;
   core->boxes = box;
   luaL_setmetatable(L, AMBIT_TYPE_EXPRESSION);

@@ -101,7 +101,7 @@ static void languages(void **unused) {
   assert_written(AMBIT_LANGUAGE_LUA, power, &names, "sin(s.x)^-3"); /* a definition */
   assert_written(AMBIT_LANGUAGE_LUA, OP(SQR, power, 0), &names, "sin(s.x)^-6");
   assert_written(AMBIT_LANGUAGE_LUA, x, &names, "s.x");
-  assert_written(AMBIT_LANGUAGE_LUA, OP(MUL, OP(SUB, x, y), power), &names, "z1*(s.x - yaw_rate)");
+  assert_written(AMBIT_LANGUAGE_LUA, OP(MUL, OP(SUB, x, y), power), &names, "(s.x - yaw_rate)*z1");
 }
 
 /* What would be ambiguous, or no Modelica, if it were not bracketed. */
