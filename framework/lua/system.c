@@ -1,5 +1,9 @@
 /* system.c -- x' = f(x, t) as a Lua value, from a mechanism or from equations written in Lua. */
 #include "lua/system.h"
+#include "graph/hull.h"
+#include "graph/tape.h"
+#include "lua/request.h"
+#include "model/unknowns.h"
 #include <string.h>
 
 static void mark(ambit_holder *holder, ambit_graph *g) {
@@ -105,10 +109,66 @@ static int system_invariants(lua_State *L) {
   return 2;
 }
 
+/* -- the rates over a box, without a trace in the graph */
+
+typedef struct over {
+  ambit_system *s;
+  ambit_arena *arena;
+  size_t nin;
+  ambit_expr *input; /* states, unknowns, time */
+  ambit_interval *in;
+} over;
+
+/* {enclosure} of the states at 2, the time at 3 */
+static void collect_inputs(lua_State *L, over *o) {
+  ambit_graph *g = o->s->graph;
+  ambit_failure f = { 0 };
+  ambit_expr *leaf;
+  size_t n;
+  if (ambit_unknowns_leaves(g, o->arena, o->s->nx, o->s->rate, &n, &leaf, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
+  o->input = ambit_arena_alloc(o->arena, (o->s->nx + n + 1) * sizeof *o->input);
+  o->in = ambit_arena_alloc(o->arena, (o->s->nx + n + 1) * sizeof *o->in);
+  if (!o->input || !o->in) ambit_lua_error(L, "out of memory");
+  for (size_t i = 0; i < o->s->nx; i++) {
+    lua_rawgeti(L, 2, (lua_Integer)i + 1);
+    o->input[o->nin] = o->s->state[i];
+    o->in[o->nin++] = ambit_lua_to_enclosure(L, -1, "rates").x;
+    lua_pop(L, 1);
+  }
+  for (size_t i = 0; i < n; i++) {
+    const ambit_node *node = ambit_graph_node(g, leaf[i]);
+    if (node->op != AMBIT_LEAF_UNKNOWN) continue;
+    o->input[o->nin] = leaf[i];
+    o->in[o->nin++] = node->value;
+  }
+  o->input[o->nin] = ambit_graph_time(g);
+  o->in[o->nin++] = ambit_lua_to_enclosure(L, 3, "rates").x;
+}
+
+/* system_rates(system, {enclosure of each state}, time) -> {enclosure}, or nil where some rate is not known to be
+** defined */
+static int system_rates(lua_State *L) {
+  lua_settop(L, 3);
+  over o = { .s = &ambit_lua_check_system(L, 1)->system };
+  o.arena = ambit_lua_push_system(L)->arena;
+  collect_inputs(L, &o);
+  const ambit_tape *t;
+  ambit_failure f = { 0 };
+  if (ambit_tape_seal(o.s->graph, o.arena, o.s->nx, o.s->rate, o.nin, o.input, 0, 0, &t, &f) != AMBIT_OK)
+    ambit_lua_raise(L, &f);
+  ambit_interval *slot = ambit_arena_alloc(o.arena, t->nslot * sizeof *slot),
+                 *rate = ambit_arena_alloc(o.arena, o.s->nx * sizeof *rate);
+  if (!slot || !rate) ambit_lua_error(L, "out of memory");
+  if (ambit_hull(t, o.in, slot) & AMBIT_F_PARTIAL) return 0;
+  for (size_t i = 0; i < o.s->nx; i++) rate[i] = slot[t->out[i]];
+  ambit_lua_push_enclosures(L, o.s->nx, rate, 0);
+  return 1;
+}
+
 void ambit_lua_open_system(lua_State *L, ambit_lua *core) {
   static const luaL_Reg meta[] = { { "__gc", close }, { NULL, NULL } };
   static const luaL_Reg functions[] = { { "system", system_new }, { "system_parts", system_parts },
-    { "system_invariants", system_invariants }, { NULL, NULL } };
+    { "system_invariants", system_invariants }, { "system_rates", system_rates }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
   ambit_lua_new_type(L, core, AMBIT_TYPE_SYSTEM, meta);
   lua_pop(L, 1);

@@ -112,7 +112,7 @@ local function read_start(t, sought)
   return ranges, start
 end
 
-local function around(x, r) return core.interval(x - r, x + r) end
+local function around(x, r) return core.interval(x) + core.interval(-r, r) end
 
 -- The box about the centre for the unknowns that have no range of their own.
 local function fill_ranges(t, sought, ranges, centre)

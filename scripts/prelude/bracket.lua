@@ -38,15 +38,12 @@ end
 
 -- The rates while the states are in `list`, at any of the times; nil: not known, or without a bound.
 local function rates_over(run, list, times)
-  local system = run.system
-  local leaves, values = { core.time() }, { core.expression(times) }
-  for k, x in ipairs(list) do
+  for _, x in ipairs(list) do
     if not x:is_bounded() then return nil end
-    leaves[k + 1], values[k + 1] = system.symbols[k], core.expression(x)
   end
-  local rates = core.evaluate("interval", {}, system.rates, leaves, values)
-  for _, rate in ipairs(rates) do
-    if rate.partial or not rate:is_bounded() then return nil end
+  local rates = core.system_rates(run.system.system, list, times)
+  for _, rate in ipairs(rates or {}) do
+    if not rate:is_bounded() then return nil end
   end
   return rates
 end

@@ -8,17 +8,23 @@ local core = require "ambit.core"
 
 local instant = {}
 
--- { lo, hi, near, e }: a bracket, the double in it that a solver steps on, and the expression of the instant; e nil: the
+-- The numbers that a text or an expression may mean; only those with a unit or an operator need the graph.
+local function enclose(value, what)
+  if type(value) == "string" and tonumber(value) then return core.interval(value) end
+  local e = core.expression(value, "s", what)
+  if not core.is_constant(e) then check.fail("%s: a time cannot be uncertain", what) end
+  return core.interval(e)
+end
+
+-- { lo, hi, near, value }: a bracket, the double in it that a solver steps on, and what was said; value nil: it is the
 -- double lo = hi = near
 function instant.read(value, what)
   if type(value) ~= "number" then
-    local e = core.expression(value, "s", what)
-    if not core.is_constant(e) then check.fail("%s: a time cannot be uncertain", what) end
-    local x = core.interval(e)
+    local x = enclose(value, what)
     if not x:is_bounded() then check.fail("%s: the time must be finite, got %s", what, tostring(value)) end
     if x.lo < x.hi then
       local nearest = type(value) == "string" and tonumber(value) or x:mid()
-      return { lo = x.lo, hi = x.hi, near = math.min(math.max(nearest, x.lo), x.hi), e = e }
+      return { lo = x.lo, hi = x.hi, near = math.min(math.max(nearest, x.lo), x.hi), value = value }
     end
     value = x.lo
   end
@@ -33,11 +39,14 @@ function instant.text(t)
   return t.lo == t.hi and core.literal(t.lo) or core.interval(t.lo, t.hi):text(17)
 end
 
+-- Exactly.
+function instant.expression(t) return core.expression(t.value or t.lo, "s") end
+
 -- On the clock of what was started with this shift.
 function instant.on_clock(t, shift)
   if not shift then return t end
-  local x = core.interval((t.e or core.expression(t.lo)) - shift)
-  return { lo = x.lo, hi = x.hi, near = x:mid(), e = t.e }
+  local x = core.interval(instant.expression(t) - shift)
+  return { lo = x.lo, hi = x.hi, near = x:mid(), value = t.value }
 end
 
 -- The time, an enclosure, at which the clock shows t, an enclosure or a number; as it is without a shift.
@@ -52,7 +61,11 @@ local function is_before(a, b, forward)
   return a.hi > b.lo
 end
 
-local function is_same(a, b) return a.e and b.e and a.e == b.e or a.lo == a.hi and b.lo == b.hi and a.lo == b.lo end
+-- Are they surely the same?
+function instant.is_same(a, b)
+  if a.value == nil or b.value == nil then return a.lo == a.hi and b.lo == b.hi and a.lo == b.lo end
+  return type(a.value) == type(b.value) and a.value == b.value
+end
 
 local function read_all(t, what)
   local list = {}
@@ -69,10 +82,10 @@ local function check_order(list, what)
   local forward = last.lo > first.hi
   if not forward and not (last.hi < first.lo) then
     check.fail("%s: the horizon is zero%s: start and end are both %s", what,
-      is_same(first, last) and "" or ", or less than the spacing of doubles", instant.text(last))
+      instant.is_same(first, last) and "" or ", or less than the spacing of doubles", instant.text(last))
   end
   for i = 2, #list do
-    if is_same(list[i - 1], list[i]) or not is_before(list[i - 1], list[i], forward) then
+    if instant.is_same(list[i - 1], list[i]) or not is_before(list[i - 1], list[i], forward) then
       check.fail("%s: the times must go one way, but %s follows %s", what, instant.text(list[i]),
         instant.text(list[i - 1]))
     end
@@ -88,9 +101,9 @@ function instant.list(t, what)
   local list = read_all(type(t) == "table" and t or { 0, t }, what)
   local forward, start = check_order(list, what), list[1]
   local times = { start.lo }
-  if start.e then
+  if start.value ~= nil then
     times[1] = forward and start.lo or start.hi
-    times.shift, times.start = start.e - core.expression(times[1]), start
+    times.shift, times.start = instant.expression(start) - core.expression(times[1]), start
   end
   local function add(double)
     if (double > times[#times]) == forward and double ~= times[#times] then times[#times + 1] = double end
@@ -133,16 +146,6 @@ function instant.formulas(list, shift)
 end
 
 -- The true start, an expression.
-function instant.start(times) return times.start and times.start.e or core.expression(times[1]) end
-
--- A time that is a double: for what looks at a single moment without a proof about its neighbours.
-function instant.double(value, what)
-  local t = instant.read(value, what)
-  if t.e then
-    check.fail("%s: expected a time that is a double, got `%s`: its neighbours are %s and %s", what, tostring(value),
-      core.literal(t.lo), core.literal(t.hi))
-  end
-  return t.lo
-end
+function instant.start(times) return times.start and instant.expression(times.start) or core.expression(times[1]) end
 
 return instant

@@ -70,7 +70,8 @@ local function flag(_, value, what)
 end
 
 local function integer(_, value, what)
-  local n = type(value) ~= "string" and math.tointeger(value) or math.tointeger(tonumber(value))
+  local n = math.tointeger(tonumber(value))
+  if n and type(value) == "string" and core.interval(value):width() > 0 then n = nil end -- "3.00000000000000000001"
   if not n then check.fail("%s: expected an integer, got %s", what, tostring(value)) end
   return { core.expression(n) }
 end

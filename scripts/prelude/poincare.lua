@@ -45,7 +45,7 @@ local function request(t)
   if t.t ~= nil then check.fail("poincare: unknown key `t`; did you mean `t_max`?") end
   local q = simulate.request(copy, "poincare", "lohner", own_keys)
   if q.times[2] < q.times[1] then check.fail "poincare: t_max must be later than the start" end
-  q.start = start.e or core.expression(start.lo)
+  q.start = instant.expression(start)
   leg.prepare(q, t)
   q.returns = t.returns == nil and 1 or check.count(t.returns, "poincare: returns")
   q.g = event.formula(t.section, q.system, "poincare: section")

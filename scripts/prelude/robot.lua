@@ -7,6 +7,7 @@
 --          mimic = nil or { joint, line, multiplier, offset }, damping, friction; motions: see rbdl.lua }
 -- Numbers are decimals (text) or doubles.
 local check = require "ambit.check"
+local core = require "ambit.core"
 
 local robot = {}
 
@@ -18,9 +19,10 @@ end
 local function of_link(link) return ("link `%s`"):format(link.name) end
 local function of_joint(joint) return ("joint `%s`"):format(joint.name) end
 
+-- By what the texts say: "1e-400" is not zero, although the double next to it is.
 local function is_zero(list)
   for _, value in ipairs(list) do
-    if tonumber(value) ~= 0 then return false end
+    if tonumber(value) ~= 0 or core.interval(value):mag() ~= 0 then return false end
   end
   return true
 end
@@ -112,14 +114,15 @@ local function check_body(self, link, physical)
   if not body then return end
   local mass = tonumber(body.mass)
   if mass < 0 then robot.fail(self, body.line, who, "the mass is negative: %s kg", body.mass) end
-  if mass == 0 and not is_zero(body.inertia) then
+  local massless = is_zero { body.mass }
+  if massless and not is_zero(body.inertia) then
     robot.fail(self, body.line, who, "has moments of inertia but no mass: its mass is zero")
   end
   if physical and not is_physical(body.inertia) then
     robot.fail(self, body.line, who, "no body has this inertia: of its principal moments one is negative, or larger "
       .. "than the sum of the other two; `physical = false` takes it as it is")
   end
-  if mass == 0 then body.massless = true end
+  if massless then body.massless = true end
 end
 
 local moving = { revolute = true, continuous = true, prismatic = true, floating = true, planar = true, motions = true }

@@ -102,7 +102,7 @@ end
 -- The enclosure at a time: tight at the ends of steps and, if the run was made with dense = true, everywhere.
 function methods:at(t)
   local given, start = instant.read(t, "at: t"), self.times.start
-  if start and given.e and given.e == start.e then return strict(self.initial(), self.states) end
+  if start and instant.is_same(given, start) then return strict(self.initial(), self.states) end
   local own = instant.on_clock(given, self.times.shift)
   local values
   if own.lo == own.hi then values = at_double(self, own) else values = at_bracket(self, own) end

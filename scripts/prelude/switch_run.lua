@@ -136,7 +136,7 @@ end
 -- The enclosure at a time: of what is in the one mode or the other while solutions switch.
 function methods:at(t)
   local given, start = instant.read(t, "at: t"), self.times.start
-  if start and given.e and given.e == start.e then return self.initial end
+  if start and instant.is_same(given, start) then return self.initial end
   local own, values = instant.on_clock(given, self.times.shift), nil
   if own.lo == own.hi then
     values = at_double(self, own.lo)

@@ -74,6 +74,10 @@ function ambit.around(c, tolerance) end
 ---@return ambit.expression
 function ambit.between(lo, hi) end
 
+---@param is_exact boolean true: arithmetic on texts is Ambit's, as in the command; false: Lua's, which rounds
+---@return "ambit"|"lua"|"watched" # whose it was
+function ambit.text_arithmetic(is_exact) end
+
 ---@param x ambit.datum
 ---@param unit? string SI unit that it must agree with
 ---@return ambit.expression
@@ -381,8 +385,8 @@ function ambit.ode(t) end
 function ambit.evaluate(t) end
 
 ---@class ambit.step
----@field t_from number
----@field t number
+---@field t_from number|ambit.enclosure an enclosure if the run starts at a text that is no double
+---@field t number|ambit.enclosure
 ---@field order integer
 ---@field x table<string, ambit.enclosure> at t
 ---@field tube table<string, ambit.enclosure>? for all times of the step

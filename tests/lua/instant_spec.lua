@@ -113,7 +113,7 @@ describe("instants as text: simulate", function()
 
   it("refuses what is no instant, or no horizon", function()
     refused("cannot be uncertain", run, one, { 0, "[1, 2]" })
-    refused("largest number", run, one, { 0, "1e400" })
+    refused("finite", run, one, { 0, "1e400" })
     refused("horizon is zero", run, one, { "1/3", "1/3" })
     refused("horizon is zero", run, one, { "0.1", "0.10000000000000000001" })
     refused("one way", run, one, { 0, "1/3", "1/3", 1 })

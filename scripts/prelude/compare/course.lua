@@ -34,7 +34,7 @@ end
 
 -- The same over a bracket (instant.lua).
 function course.over(run, t)
-  local good, x = pcall(run.at, run, t.e)
+  local good, x = pcall(run.at, run, t.value)
   if not good then return nil end
   local lo, hi = {}, {}
   for k, name in ipairs(run.states) do lo[k], hi[k] = x[name].lo, x[name].hi end
