@@ -94,6 +94,8 @@ void ambit_lua_push_expressions(lua_State *L, size_t n, const ambit_expr *e);
 ambit_lua_expression ambit_lua_to_expression(lua_State *L, int idx, const char *wanted, const char *what);
 /* The value at idx as a set: enclosure, number, text, or an expression without unknowns. */
 ambit_lua_enclosure ambit_lua_to_enclosure(lua_State *L, int idx, const char *what);
+/* Raises an error if a script asks for == while it writes down a formula. */
+void ambit_lua_refuse_equality(lua_State *L);
 /* {expression, ...} at idx -> an array of n owned by Lua (pushed as one userdata above the stack). */
 ambit_expr *ambit_lua_to_array(lua_State *L, int idx, size_t n);
 bool ambit_lua_is_constant(lua_State *L, const ambit_lua_expression *x);

@@ -71,6 +71,7 @@ static int to_string(lua_State *L) {
 static int equal(lua_State *L) {
   const ambit_lua_enclosure *a = luaL_testudata(L, 1, AMBIT_TYPE_ENCLOSURE),
                             *b = luaL_testudata(L, 2, AMBIT_TYPE_ENCLOSURE);
+  if (!a || !b) ambit_lua_refuse_equality(L); /* an enclosure and an expression */
   lua_pushboolean(L, a && b && a->x.lo == b->x.lo && a->x.hi == b->x.hi);
   return 1;
 }

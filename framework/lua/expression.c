@@ -1,5 +1,6 @@
 /* expression.c -- expressions as Lua values: operators, text, derivative. */
 #include "lua/core.h"
+#include "lua/embedded.h"
 #include "num/decimal.h"
 #include <string.h>
 
@@ -37,7 +38,27 @@ static int text(lua_State *L) {
   return 1;
 }
 
+/* Is the running metamethod asked by a script, and not by the prelude, while a formula is written (prelude formula.lua)?
+** Then the comparison says nothing about what the expression will be. */
+static bool in_formula(lua_State *L) {
+  lua_Debug frame;
+  for (int level = 1; lua_getstack(L, level, &frame); level++) {
+    lua_getinfo(L, "S", &frame);
+    if (strcmp(frame.source, AMBIT_CHUNK_PREFIX "formula.lua") == 0) return level > 1;
+    if (level == 1 && strncmp(frame.source, AMBIT_CHUNK_PREFIX, sizeof AMBIT_CHUNK_PREFIX - 1) == 0) return false;
+  }
+  return false;
+}
+
+void ambit_lua_refuse_equality(lua_State *L) {
+  if (!in_formula(L)) return;
+  ambit_lua_error(L,
+      "== and ~= do not compare the values of expressions, which have none while the formula is written: "
+      "use ambit.abs, ambit.min and ambit.max, or one mode for each case (ambit.hybrid)");
+}
+
 static int equal(lua_State *L) {
+  ambit_lua_refuse_equality(L);
   const ambit_lua_expression *a = luaL_testudata(L, 1, AMBIT_TYPE_EXPRESSION);
   const ambit_lua_expression *b = luaL_testudata(L, 2, AMBIT_TYPE_EXPRESSION);
   lua_pushboolean(L, a && b && a->e == b->e);

@@ -2,6 +2,7 @@
 -- what is looked for along a run, and what was found. Proofs: docs/numerics/events.md.
 local check = require "ambit.check"
 local core = require "ambit.core"
+local formula = require "ambit.formula"
 local instant = require "ambit.instant"
 local ode = require "ambit.ode"
 
@@ -13,7 +14,7 @@ local names_of_direction = { [1] = "rising", [-1] = "falling" }
 
 -- A formula over the states, data and time of a system, or a function(s, p, t) that returns one; by the system's clock.
 function event.formula(value, system, what)
-  if type(value) == "function" then value = value(ode.arguments(system)) end
+  if type(value) == "function" then value = formula.call(value, what, ode.arguments(system)) end
   if value == nil then check.fail("%s: expected a formula, or a function(s, p, t) that returns one", what) end
   return instant.formulas({ core.expression(value, nil, what) }, system.shift)[1]
 end

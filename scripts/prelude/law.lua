@@ -9,6 +9,7 @@
 -- Their units are soft: -x may stand for -1 N/m * x.
 local check = require "ambit.check"
 local core = require "ambit.core"
+local formula = require "ambit.formula"
 local frame = require "ambit.frame"
 local measure = require "ambit.measure"
 local rotation = require "ambit.rotation"
@@ -74,7 +75,7 @@ function law.record(self, d, t, values, param, value)
   end
   arguments[#arguments + 1] = core.time()
   core.written_by(self.handle, t.name and ("%s `%s`"):format(d.name, t.name) or d.name) -- whose kinks these are
-  local results = table.pack(pcall(value, table.unpack(arguments)))
+  local results = table.pack(pcall(formula.call, value, what, table.unpack(arguments)))
   core.written_by(self.handle)
   if not table.remove(results, 1) then error(results[1], 0) end
   results.n = results.n - 1

@@ -1,6 +1,7 @@
 -- ode.lua -- a first-order system x' = f(x, p, t): from a mechanism, or written down with ambit.ode.
 local check = require "ambit.check"
 local core = require "ambit.core"
+local formula = require "ambit.formula"
 local session = require "ambit.session"
 
 local Ode = { __name = "ode" }
@@ -122,7 +123,7 @@ local function read_rates(result, self, s, p, t)
     local value
     if by_place then value = result[i] else value = result[name] end
     if value == nil then check.fail('ode: equations: the derivative of `%s` is missing', name) end
-    if type(value) == "function" then value = value(s, p, t) end
+    if type(value) == "function" then value = formula.call(value, "ode: derivative of " .. name, s, p, t) end
     rates[i] = core.expression(value, rate_unit(self, i), "ode: derivative of " .. name)
   end
   return rates
@@ -134,7 +135,7 @@ local function write_rates(equations, self, parameters)
   for i, name in ipairs(self.states) do by_name[name] = ode.symbol(self, i) end
   local s, p, time = strict(by_name, "ode: states"), strict(parameters, "ode: parameters"), core.time()
   local result = equations
-  if type(result) == "function" then result = result(s, p, time) end
+  if type(result) == "function" then result = formula.call(result, "ode: equations", s, p, time) end
   return read_rates(result, self, s, p, time)
 end
 

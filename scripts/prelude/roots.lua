@@ -2,6 +2,7 @@
 -- in the box, proved. The first entry may be a function(s) that returns the expressions; s.x is the unknown x.
 local check = require "ambit.check"
 local core = require "ambit.core"
+local formula = require "ambit.formula"
 local evaluate = require "ambit.evaluate"
 local option = require "ambit.option"
 local session = require "ambit.session"
@@ -208,7 +209,7 @@ local function expressions_of(t, names, what)
       return values[key]
     end,
   })
-  return (shape.flatten(t[1](s), what))
+  return (shape.flatten(formula.call(t[1], what, s), what))
 end
 
 function verb.roots(t)

@@ -4,6 +4,7 @@
 local check = require "ambit.check"
 local condense = require "ambit.event.condense"
 local core = require "ambit.core"
+local formula = require "ambit.formula"
 local event = require "ambit.event"
 local instant = require "ambit.instant"
 local leg = require "ambit.event.leg"
@@ -29,7 +30,7 @@ end
 
 local function read_reset(guard, place, source, target)
   local given = guard.entry.reset
-  if type(given) == "function" then given = given(ode.arguments(source, true)) end
+  if type(given) == "function" then given = formula.call(given, place .. ".reset", ode.arguments(source, true)) end
   given = given == nil and {} or check.table(given, place .. ".reset")
   check.keys(given, target.states, place .. ".reset")
   local list = {}

@@ -6,6 +6,7 @@
 -- gives, system: the ambit.ode it comes from, with those symbols in it }
 local check = require "ambit.check"
 local core = require "ambit.core"
+local formula = require "ambit.formula"
 local mechanism = require "ambit.mechanism"
 local ode = require "ambit.ode"
 
@@ -62,7 +63,7 @@ local function check_leaves(m, expression, what)
 end
 
 local function written_output(m, value, what)
-  if type(value) == "function" then value = value(ode.arguments(m.system, true)) end
+  if type(value) == "function" then value = formula.call(value, what, ode.arguments(m.system, true)) end
   value = core.expression(value, nil, what)
   local unit, expression = core.unit_of(value, true) or "1", in_motion(m, value)
   expression = ode.as_instance(m.system, { expression })[1] -- m:position(frame) is written with the data of m

@@ -5,6 +5,7 @@
 -- { expression of unknowns and time } }. The same unknown in initial values and equations is the same datum.
 local check = require "ambit.check"
 local core = require "ambit.core"
+local formula = require "ambit.formula"
 local instant = require "ambit.instant"
 local simulate = require "ambit.simulate"
 
@@ -74,7 +75,7 @@ end
 
 -- unit: that of what the value stands for; nil: not known
 local function value_of(value, unit, what)
-  if type(value) == "function" then value = value(core.time()) end
+  if type(value) == "function" then value = formula.call(value, what, core.time()) end
   local e = core.expression(value, unit, what)
   for _, leaf in ipairs(core.leaves { e }) do
     if leaf.kind == "symbol" then check.fail("%s depends on `%s`: expected data and time only", what, leaf.name) end
@@ -107,7 +108,7 @@ local function initial_of(value, m, s, what)
     for key, v in pairs(s.by_key) do
       if type(key) == "string" then p[key] = v end
     end
-    value = value(strict(p, what .. ": initial"))
+    value = formula.call(value, what .. ": initial", strict(p, what .. ": initial"))
   end
   local list = simulate.initial(value, m.start, what)
   list = core.substitute(list, { core.time() }, { instant.start(s.times) })

@@ -64,7 +64,11 @@ end
 
 -- The coordinate at which a joint is to stand still.
 local function reference_of(m, c, at)
-  if at ~= nil then return core.expression(at, c.unit, ("%s: `%s`: at"):format(WHAT, c.name)) end
+  if at ~= nil then
+    local what = ("%s: `%s`: at"):format(WHAT, c.name)
+    local e = core.expression(at, nil, what)
+    return rest.moves(e) and e or core.expression(at, c.unit, what) -- what moves is refused whatever its unit
+  end
   local given = rawget(m, "has_reference") and m:reference()[c.name]
   return given and core.expression(given) or zero
 end

@@ -5,6 +5,7 @@
 -- as those of the original. What an output says of a joint that is locked has the joint's motion in its place.
 local check = require "ambit.check"
 local core = require "ambit.core"
+local formula = require "ambit.formula"
 local ode = require "ambit.ode"
 local certify = require "ambit.certify.model"
 
@@ -35,7 +36,7 @@ end
 local function written(value, copy, still, states, what)
   return function(s, p, t)
     local result = value
-    if type(value) == "function" then result = value(states_of(s, still, states), p, t, copy.mechanism) end
+    if type(value) == "function" then result = formula.call(value, what, states_of(s, still, states), p, t, copy.mechanism) end
     local e = core.expression(result, nil, what)
     if #copy.leaves == 0 then return e end
     return core.in_unit(core.substitute({ e }, copy.leaves, copy.motions)[1], (core.unit_of(e, true)))

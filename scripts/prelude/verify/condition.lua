@@ -2,6 +2,7 @@
 -- `reach` (at some time), each an expression, a function(s, p, t) that returns one, or a table of them.
 local check = require "ambit.check"
 local core = require "ambit.core"
+local formula = require "ambit.formula"
 local event = require "ambit.event"
 local ode = require "ambit.ode"
 
@@ -31,7 +32,7 @@ local function arguments(system)
 end
 
 local function add(list, kind, name, value, system, depth)
-  if type(value) == "function" then value = value(arguments(system)) end
+  if type(value) == "function" then value = formula.call(value, "verify: " .. name, arguments(system)) end
   if check.kind(value) ~= "table" then
     list[#list + 1] = { kind = kind, name = name, g = event.formula(value, system, "verify: " .. name) }
     return
