@@ -32,7 +32,7 @@ static void enclose(uint32_t op, double x, double y, double *lo, double *hi) {
   MPFR_DECL_INIT(a, 53);
   MPFR_DECL_INIT(b, 53);
   MPFR_DECL_INIT(v, 53);
-  mpfr_set_d(a, x, MPFR_RNDN);
+  mpfr_set_d(a, x == 0 ? 0 : x, MPFR_RNDN); /* the reals have one zero: the angle of (-1, -0) is pi */
   mpfr_set_d(b, y, MPFR_RNDN);
   int inexact = evaluate(v, op, a, b);
   *lo = mpfr_get_d(v, MPFR_RNDD);

@@ -2,10 +2,12 @@
 #include "kit/conformance.h"
 #include "host/services.h"
 #include "kit/arithmetic_kit.h"
+#include "kit/conduct.h"
 #include "kit/element_kit.h"
+#include "kit/service_kit.h"
 #include "kit/solver_kit.h"
-#include "kit/solver_kit_problems.h"
 #include "oracle.h"
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -110,12 +112,33 @@ static bool open_arithmetic(
   return !a->open || a->open(&lease->host, option, 0, &kit->actx) == AMBIT_OK;
 }
 
+/* Random systems: one of each size in the usual check. */
+#define SYSTEMS 12
+
+static size_t check_flow(const conformance *c, const solver_kit *kit) {
+  char text[200];
+  solver_kit_counts n = { 0 };
+  tell(c, "begin", "problems", "");
+  size_t first = solver_kit_run(kit, &n), seen = n.compared;
+  tell_done(c, "problems", seen, first);
+  tell(c, "begin", "random systems", "");
+  size_t second = solver_kit_run_random(kit, (size_t)fmax(1, SYSTEMS * c->effort), &n);
+  tell_done(c, "random systems", n.compared - seen, second);
+  snprintf(text, sizeof text,
+      "%zu runs, %zu complete; %zu enclosures, %zu tubes, %zu dense enclosures and %zu sets compared; %zu stops", n.runs,
+      n.complete, n.enclosures, n.tubes, n.dense, n.sets, n.stops);
+  tell(c, "note", "", text);
+  return first + second;
+}
+
 static int check_solver(const conformance *c, ambit_registry *r, const char *name) {
   ambit_failure f = { 0 };
   solver_kit kit = { .name = name,
     .tolerance = 1e-3,
     .noption = c->noption,
     .option = c->option,
+    .allocations = conduct_allocations,
+    .seed = c->seed,
     .finding = tell_finding,
     .user = (void *)(uintptr_t)c };
   ambit_lease *lease;
@@ -128,13 +151,8 @@ static int check_solver(const conformance *c, ambit_registry *r, const char *nam
     return CONFORMS;
   }
   bool ready = found && open_arithmetic(r, lease, option, &kit, &f);
-  size_t broken = 0;
-  if (ready) {
-    tell(c, "begin", "problems", "");
-    broken = solver_kit_run(&kit);
-    tell_done(c, "problems", kit_problem_count, broken);
-    if (kit.actx && kit.arithmetic->close) kit.arithmetic->close(kit.actx);
-  }
+  size_t broken = ready ? check_flow(c, &kit) : 0;
+  if (ready && kit.actx && kit.arithmetic->close) kit.arithmetic->close(kit.actx);
   ambit_lease_close(lease);
   if (!ready) {
     ambit_fail(&f, AMBIT_UNABLE, "no arithmetic for it could be opened"); /* unless something else is said already */
@@ -145,12 +163,37 @@ static int check_solver(const conformance *c, ambit_registry *r, const char *nam
 
 /* -- services: functions for Lua, or interfaces that only their users know */
 
+static double judge_elementary(uint32_t op, double x, double y, int32_t n, int up) { return judge(op, x, y, n, up); }
+
+/* one section for each interface that it offers */
+static void check_interface(const conformance *c, service_kit *k, const char *section, const void *offered,
+    void (*check)(service_kit *k, const void *offered)) {
+  size_t judged = k->judged, findings = k->findings;
+  if (!offered) return;
+  tell(c, "begin", section, "");
+  check(k, offered);
+  tell_done(c, section, k->judged - judged, k->findings - findings);
+}
+
+static void check_exports(service_kit *k, const void *s) { service_kit_exports(k, s); }
+static void check_eigen(service_kit *k, const void *s) { service_kit_eigen(k, s); }
+static void check_quasi_random(service_kit *k, const void *s) { service_kit_quasi_random(k, s); }
+static void check_elementary(service_kit *k, const void *s) { service_kit_elementary(k, s); }
+
 static int check_service(const conformance *c, ambit_registry *r, const ambit_plugin *p) {
   ambit_failure f = { 0 };
   const ambit_exports *exports;
   if (ambit_registry_exports(r, p, &exports, &f) != AMBIT_OK) return refuse(c, &f);
-  tell(c, "note", "", "there is no kit for services: it loads, and its tables are well-formed");
-  return CONFORMS;
+  service_kit k = { .seed = c->seed,
+    .effort = c->effort,
+    .oracle = judge_elementary,
+    .finding = tell_finding,
+    .user = (void *)(uintptr_t)c };
+  check_interface(c, &k, "exports", exports, check_exports);
+  check_interface(c, &k, "eigen", p->get(AMBIT_EIGEN_SERVICE), check_eigen);
+  check_interface(c, &k, "quasi_random", p->get(AMBIT_QUASI_RANDOM_SERVICE), check_quasi_random);
+  check_interface(c, &k, "elementary", p->get(AMBIT_ELEMENTARY_SERVICE), check_elementary);
+  return k.findings ? BROKEN : CONFORMS;
 }
 
 static void note_file_name(const conformance *c, const char *name) {
@@ -162,7 +205,7 @@ static void note_file_name(const conformance *c, const char *name) {
   tell(c, "note", "", text);
 }
 
-static int check_plugin(const conformance *c, ambit_registry *r, const ambit_plugin *p) {
+static int check_kind(const conformance *c, ambit_registry *r, const ambit_plugin *p) {
   const char *dot = strchr(p->id, '.'), *name = dot ? dot + 1 : "";
   size_t kind = dot ? (size_t)(dot - p->id) : 0;
   tell(c, "plugin", p->id, p->doc ? p->doc : "");
@@ -177,6 +220,46 @@ static int check_plugin(const conformance *c, ambit_registry *r, const ambit_plu
       "service.NAME",
       p->id);
   return refuse(c, &f);
+}
+
+/* Adds up what the sections judged on their way to the one who listens. */
+typedef struct counter {
+  const conformance *outer;
+  size_t judged, broken;
+} counter;
+
+static void count(void *user, const char *what, const char *name, const char *text) {
+  counter *n = user;
+  size_t judged = 0;
+  if (strcmp(what, "done") == 0 && sscanf(text, "%zu", &judged) == 1) n->judged += judged;
+  if (strcmp(what, "finding") == 0) n->broken++;
+  n->outer->tell(n->outer->user, what, name, text);
+}
+
+/* The rules of its kind, then those of every kind. What nothing was checked of does not conform. */
+static int check_plugin(const conformance *c, ambit_registry *r, const ambit_plugin *p) {
+  counter n = { c, 0, 0 };
+  conformance counted = *c;
+  counted.tell = count, counted.user = &n;
+  conduct *watch = conduct_open((const void *)(uintptr_t)p->get);
+  if (!watch) {
+    tell(c, "refused", "", "out of memory");
+    return NOT_LOADED;
+  }
+  int verdict = check_kind(&counted, r, p);
+  if (verdict != NOT_LOADED && n.judged == 0) {
+    tell(&counted, "finding", "kit", "nothing could be checked: it offers no interface that the kit knows");
+    verdict = BROKEN;
+  }
+  if (verdict != NOT_LOADED) {
+    size_t before = n.broken;
+    tell(c, "begin", "conduct", "");
+    size_t judged = conduct_judge(watch, tell_finding, &counted);
+    tell_done(c, "conduct", judged, n.broken - before);
+    if (n.broken > before) verdict = BROKEN;
+  }
+  conduct_close(watch);
+  return verdict;
 }
 
 int conformance_run(const conformance *c) {

@@ -14,6 +14,7 @@ typedef struct conformance {
   uint64_t seed;
   double effort; /* times the usual one */
   bool isotonic; /* of an arithmetic: demanded */
+  bool first;    /* apart: end at the first broken promise */
   /* what happens, as it happens:
   **   "plugin"    id, its sentence              "refused"  "", why it cannot be loaded
   **   "begin"     section, ""                   "done"     section, "judged broken"

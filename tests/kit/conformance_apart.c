@@ -32,19 +32,45 @@ static void write_line(void *user, const char *what, const char *name, const cha
   }
 }
 
-static _Noreturn void be_child(const conformance *c, int out) {
+/* ends at the first broken promise */
+static void write_first(void *user, const char *what, const char *name, const char *text) {
+  char verdict[16];
+  write_line(user, what, name, text);
+  if (strcmp(what, "finding") != 0) return;
+  snprintf(verdict, sizeof verdict, "%d", BROKEN);
+  write_line(user, "end", verdict, "");
+  _exit(0);
+}
+
+static _Noreturn void be_child(const conformance *c, int out, int printed) {
   static const int usual[] = { SIGINT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGPIPE };
   char verdict[16];
   conformance own = *c;
   for (size_t i = 0; i < sizeof usual / sizeof *usual; i++) signal(usual[i], SIG_DFL);
   setrlimit(RLIMIT_CORE, &(struct rlimit) { 0, 0 });
-  own.tell = write_line, own.user = &out;
-  snprintf(verdict, sizeof verdict, "%d", conformance_run(&own));
+  dup2(printed, STDOUT_FILENO), dup2(printed, STDERR_FILENO);
+  own.tell = c->first ? write_first : write_line, own.user = &out;
+  int result = conformance_run(&own);
+  fflush(NULL);
+  snprintf(verdict, sizeof verdict, "%d", result);
   write_line(&out, "end", verdict, "");
   _exit(0);
 }
 
 /* -- the parent */
+
+/* What it has printed so far, in one line; false: nothing. */
+static bool was_printed(int file, char *text, size_t room) {
+  char start[80];
+  off_t bytes = lseek(file, 0, SEEK_END);
+  if (bytes <= 0) return false;
+  ssize_t n = pread(file, start, sizeof start - 1, 0);
+  start[n > 0 ? n : 0] = '\0';
+  for (char *c = start; *c; c++)
+    if ((unsigned char)*c < ' ') *c = ' ';
+  snprintf(text, room, "it prints %lld bytes: `%s`", (long long)bytes, start);
+  return true;
+}
 
 typedef struct reader {
   const conformance *c;
@@ -96,12 +122,8 @@ static int died(const reader *r, const char *how) {
   return BROKEN;
 }
 
-static int be_parent(reader *r, pid_t child, int in, double patience) {
+static int judge_end(reader *r, int status, bool in_time, double patience) {
   char how[128];
-  int status = 0;
-  bool in_time = read_all(r, in, patience);
-  if (!in_time) kill(child, SIGKILL);
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {}
   if (r->verdict >= 0 && in_time) return r->verdict;
   if (!in_time)
     snprintf(how, sizeof how, "no end within %g s", patience);
@@ -112,17 +134,39 @@ static int be_parent(reader *r, pid_t child, int in, double patience) {
   return died(r, how);
 }
 
+static int be_parent(reader *r, pid_t child, int in, int printed, double patience) {
+  char text[200];
+  int status = 0;
+  bool in_time = read_all(r, in, patience);
+  if (!in_time) kill(child, SIGKILL);
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {}
+  int verdict = judge_end(r, status, in_time, patience);
+  if (!was_printed(printed, text, sizeof text)) return verdict;
+  if (verdict != CONFORMS) {
+    r->c->tell(r->c->user, "note", "", text);
+    return verdict;
+  }
+  r->c->tell(r->c->user, "finding", "conduct", text);
+  return BROKEN;
+}
+
 int conformance_run_apart(const conformance *c, double patience) {
   int ends[2];
   reader r = { .c = c, .section = "loading", .verdict = -1 };
-  if (pipe(ends) != 0) return died(&r, strerror(errno));
+  FILE *printed = tmpfile();
+  if (!printed || pipe(ends) != 0) {
+    if (printed) fclose(printed);
+    return died(&r, strerror(errno));
+  }
+  fflush(NULL); /* else the child has a copy of what is not written yet */
   pid_t child = fork();
   if (child == 0) {
     close(ends[0]);
-    be_child(c, ends[1]);
+    be_child(c, ends[1], fileno(printed));
   }
   close(ends[1]);
-  int verdict = child < 0 ? died(&r, strerror(errno)) : be_parent(&r, child, ends[0], patience);
+  int verdict = child < 0 ? died(&r, strerror(errno)) : be_parent(&r, child, ends[0], fileno(printed), patience);
   close(ends[0]);
+  fclose(printed);
   return verdict;
 }

@@ -20,6 +20,7 @@ static void forward(void *user, const char *what, const char *name, const char *
 }
 
 enum { OPTIONS_MAX = 64 };
+enum { CHECK_ISOTONIC = 1, CHECK_FIRST = 2 };
 
 /* "degree=5\nsymbols=10", cut up in place */
 static size_t split_options(char *text, ambit_option *option) {
@@ -34,7 +35,7 @@ static size_t split_options(char *text, ambit_option *option) {
 }
 
 static int32_t check(const char *file, const char *options, double seed, double effort, double patience,
-    int32_t isotonic, tell_fn call, void *user) {
+    int32_t flags, tell_fn call, void *user) {
   ambit_option option[OPTIONS_MAX];
   listener l = { call, user };
   char *text = strdup(options);
@@ -44,7 +45,8 @@ static int32_t check(const char *file, const char *options, double seed, double 
     .option = option,
     .seed = (uint64_t)seed,
     .effort = effort,
-    .isotonic = isotonic != 0,
+    .isotonic = (flags & CHECK_ISOTONIC) != 0,
+    .first = (flags & CHECK_FIRST) != 0,
     .tell = forward,
     .user = &l };
   int verdict = conformance_run_apart(&c, patience);
@@ -54,8 +56,8 @@ static int32_t check(const char *file, const char *options, double seed, double 
 
 static const ambit_function functions[] = {
   { "check", "i(ssdddi(v(sss)))", (void (*)(void))check,
-      "runs the kit on FILE with OPTIONS (lines name=value), seed, effort, patience in s, and whether isotonicity is "
-      "demanded; tells what happens; 0 conforms, 1 cannot be loaded, 3 broken promises" },
+      "runs the kit on FILE with OPTIONS (lines name=value), seed, effort, patience in s, and flags (1: "
+      "isotonicity is demanded, 2: end at the first broken promise); tells what happens; 0 conforms, 1 cannot be loaded, 3 broken promises" },
 };
 static const ambit_exports exports = { sizeof exports, sizeof functions / sizeof *functions, functions };
 

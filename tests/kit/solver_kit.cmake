@@ -1,6 +1,6 @@
 # The conformance kit of solvers, and the tests that put ours through it.
-add_library(solver_kit STATIC ${PROJECT_SOURCE_DIR}/tests/kit/solver_kit.c
-  ${PROJECT_SOURCE_DIR}/tests/kit/solver_kit_problems.c ${PROJECT_SOURCE_DIR}/tests/kit/solver_kit_values.c)
+file(GLOB solver_kit_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/kit/solver_kit*.c ${PROJECT_SOURCE_DIR}/tests/kit/conduct*.c)
+add_library(solver_kit STATIC ${solver_kit_sources})
 target_include_directories(solver_kit PRIVATE ${PROJECT_SOURCE_DIR}/tests)
 target_link_libraries(solver_kit PRIVATE ambit_flags PUBLIC libambit m)
 foreach(name lohner gsl taylor_model stiff valencia)

@@ -6,12 +6,21 @@
 ** that enclosures contain the solutions: bounds, tubes, dense enclosures (which meet the bounds at both ends) and sets
 ** as functions of the unknowns (which lie within the bounds). It knows no test framework: what it finds goes to a
 ** callback.
+**
+** Problems are of two kinds: some by hand, each for one thing that a solver may get wrong, and random systems of 1 to
+** 12 states with closed solutions (solver_kit_random.h). The solution is judged at every corner of the data.
 */
 #ifndef AMBIT_SOLVER_KIT_H
 #define AMBIT_SOLVER_KIT_H
 #include "host/registry.h"
 #include "host/services.h"
 #include <ambit/solver.h>
+
+/* what was tried: runs, those that came to the end, records with bounds, tubes, dense enclosures and sets, stops, and
+** single comparisons */
+typedef struct solver_kit_counts {
+  size_t runs, complete, enclosures, tubes, dense, sets, stops, compared;
+} solver_kit_counts;
 
 typedef struct solver_kit {
   const ambit_solver *plugin;
@@ -28,8 +37,12 @@ typedef struct solver_kit {
   /* a broken promise: on which problem, and one sentence with the numbers; at most 5 for each problem */
   void (*finding)(void *user, const char *problem, const char *message);
   void *user;
+  uint64_t seed; /* of the random systems */
 } solver_kit;
 
-/* Runs every problem; returns the number of broken promises (also those not reported one by one). */
-size_t solver_kit_run(const solver_kit *kit);
+/* Runs every problem; returns the number of broken promises (also those not reported one by one). counts: added to; may
+** be NULL */
+size_t solver_kit_run(const solver_kit *kit, solver_kit_counts *counts);
+/* The same with so many random systems; ends at the first that breaks a promise. */
+size_t solver_kit_run_random(const solver_kit *kit, size_t systems, solver_kit_counts *counts);
 #endif

@@ -1,5 +1,6 @@
 /* solver_kit_problems.c -- small problems, each for one thing that a solver may get wrong. */
 #include "kit/solver_kit_problems.h"
+#include "kit/solver_kit_random.h"
 
 static ambit_expr op(kit_model *m, uint32_t code, ambit_expr a, ambit_expr b) {
   return ambit_graph_op(m->graph, code, a, b);
@@ -17,7 +18,7 @@ static size_t state(kit_model *m, const char *name, ambit_expr initial) {
 }
 
 static ambit_expr datum(kit_model *m, double lo, double hi) {
-  return ambit_graph_unknown(m->graph, "u", (ambit_interval) { lo, hi });
+  return m->datum[m->ndatum++] = ambit_graph_unknown(m->graph, "u", (ambit_interval) { lo, hi });
 }
 
 static ambit_interval point(double x) { return (ambit_interval) { x, x }; }
@@ -132,21 +133,24 @@ static void truth_edge(double t, double u, ambit_interval *x) {
 }
 
 const kit_problem kit_problems[] = {
-  { "decay", build_decay, truth_decay, 0, 0, INFINITY, 5, { 0, 0x1p-30, 0.1, 0.7, 3 }, INFINITY },
-  { "oscillator backwards", build_oscillator, truth_oscillator, 0, 0, INFINITY, 4, { 2, 1.3, 0x1.1p-40, -5 },
-      INFINITY },
-  { "logistic", build_logistic, truth_logistic, 1, 1.25, INFINITY, 3, { 0, 1, 2 }, INFINITY },
-  { "explicit time", build_bell, truth_bell, 0, 0, INFINITY, 5, { -1, -0.3, 0x1p-60, 0.5, 2 }, INFINITY },
-  { "shared datum", build_shared, truth_shared, 1, 3, INFINITY, 3, { 0, 0.5, 1 }, 1e-12 },
-  { "circle with an invariant", build_circle, truth_circle, 0.5, 0.75, INFINITY, 3, { 0, 1, 7 }, 0.26 },
-  { "finite escape", build_escape, truth_escape, 0, 0, 1, 3, { 0, 0.5, 2 }, INFINITY },
-  { "edge of the domain", build_edge, truth_edge, 0, 0, 1, 3, { 0, 0.5, 2 }, INFINITY },
+  { "decay", build_decay, truth_decay, 0, { 0 }, { 0 }, INFINITY, 5, { 0, 0x1p-30, 0.1, 0.7, 3 }, INFINITY, NULL },
+  { "oscillator backwards", build_oscillator, truth_oscillator, 0, { 0 }, { 0 }, INFINITY, 4, { 2, 1.3, 0x1.1p-40, -5 },
+      INFINITY, NULL },
+  { "logistic", build_logistic, truth_logistic, 1, { 1 }, { 1.25 }, INFINITY, 3, { 0, 1, 2 }, INFINITY, NULL },
+  { "explicit time", build_bell, truth_bell, 0, { 0 }, { 0 }, INFINITY, 5, { -1, -0.3, 0x1p-60, 0.5, 2 }, INFINITY, NULL },
+  { "shared datum", build_shared, truth_shared, 1, { 1 }, { 3 }, INFINITY, 3, { 0, 0.5, 1 }, 1e-12, NULL },
+  { "circle with an invariant", build_circle, truth_circle, 1, { 0.5 }, { 0.75 }, INFINITY, 3, { 0, 1, 7 }, 0.26, NULL },
+  { "finite escape", build_escape, truth_escape, 0, { 0 }, { 0 }, 1, 3, { 0, 0.5, 2 }, INFINITY, NULL },
+  { "edge of the domain", build_edge, truth_edge, 0, { 0 }, { 0 }, 1, 3, { 0, 0.5, 2 }, INFINITY, NULL },
 };
 const size_t kit_problem_count = sizeof kit_problems / sizeof *kit_problems;
 
 void kit_model_open(kit_model *m, const kit_problem *p) {
   *m = (kit_model) { .graph = ambit_graph_open() };
-  p->build(m);
+  if (p->random)
+    kit_random_build(m, p->random);
+  else
+    p->build(m);
   m->system = (ambit_system) { .graph = m->graph,
     .nx = m->nx,
     .name = m->name,
@@ -159,3 +163,21 @@ void kit_model_open(kit_model *m, const kit_problem *p) {
 }
 
 void kit_model_close(kit_model *m) { ambit_graph_close(m->graph); }
+
+void kit_truth(const kit_problem *p, double t, const double *u, ambit_interval *x) {
+  if (p->random)
+    kit_random_truth(p->random, t, u, x);
+  else
+    p->truth(t, p->nu ? u[0] : 0, x);
+}
+
+/* One datum: its ends and four between. Several: all corners. */
+bool kit_sample(const kit_problem *p, size_t k, double *u) {
+  size_t corners = (size_t)1 << p->nu;
+  if (k >= corners + (p->nu ? 4 : 0)) return false;
+  for (uint32_t j = 0; j < p->nu; j++) {
+    double share = (double)(k + 1 - corners) / 5, between = p->u_lo[j] + share * (p->u_hi[j] - p->u_lo[j]);
+    u[j] = k >= corners ? between : k >> j & 1 ? p->u_hi[j] : p->u_lo[j];
+  }
+  return true;
+}

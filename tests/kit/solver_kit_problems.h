@@ -3,8 +3,9 @@
 #define AMBIT_SOLVER_KIT_PROBLEMS_H
 #include "model/problem.h"
 
-#define KIT_STATES 4
+#define KIT_STATES 12
 #define KIT_TIMES 8
+#define KIT_DATA 3
 
 typedef struct kit_model {
   ambit_graph *graph;
@@ -14,6 +15,8 @@ typedef struct kit_model {
   size_t ninvariant;
   ambit_expr invariant[KIT_STATES];
   const char *invariant_name[KIT_STATES];
+  size_t ndatum;
+  ambit_expr datum[KIT_DATA];
   ambit_system system;
 } kit_model;
 
@@ -22,11 +25,13 @@ typedef struct kit_problem {
   void (*build)(kit_model *m);
   /* x[nx] encloses the solution at t that started with the uncertain datum at u, tightly */
   void (*truth)(double t, double u, ambit_interval *x);
-  double u_lo, u_hi; /* of the one uncertain datum; equal: there is none */
-  double ends;       /* no solution exists from here on; infinite: the run must be complete */
+  uint32_t nu;                         /* uncertain data */
+  double u_lo[KIT_DATA], u_hi[KIT_DATA];
+  double ends; /* no solution exists from here on; infinite: the run must be complete */
   size_t ntime;
   double time[KIT_TIMES];
   double widest; /* at the end, for a solver that wants the initial set as a tape; infinite: no matter */
+  const struct kit_random_system *random; /* instead of build and truth: solver_kit_random.h */
 } kit_problem;
 
 extern const kit_problem kit_problems[];
@@ -34,4 +39,9 @@ extern const size_t kit_problem_count;
 
 void kit_model_open(kit_model *m, const kit_problem *p);
 void kit_model_close(kit_model *m);
+
+/* x[nx] encloses the solution at t for the data u[nu], tightly */
+void kit_truth(const kit_problem *p, double t, const double *u, ambit_interval *x);
+/* The data of sample k; false: there is none. Corners come first, the middle last. */
+bool kit_sample(const kit_problem *p, size_t k, double *u);
 #endif

@@ -52,7 +52,7 @@ static inline size_t case_findings(solver_case *c, const char *name, const char 
   ambit_option option = { name, text };
   c->kit.noption = name ? 1 : 0;
   c->kit.option = &option;
-  return solver_kit_run(&c->kit);
+  return solver_kit_run(&c->kit, NULL);
 }
 
 /* The kit passes with each of these options. */

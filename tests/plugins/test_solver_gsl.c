@@ -25,7 +25,7 @@ static void every_method_passes_the_kit(void **unused) {
       c.kit.allocations = NULL;
     else
       c.kit.allocations = SOLVER_ALLOCATIONS;
-    size_t findings = solver_kit_run(&c.kit);
+    size_t findings = solver_kit_run(&c.kit, NULL);
     if (findings) fail_msg("method %s: %zu findings", m->name, findings);
   }
   case_close(&c);
@@ -38,7 +38,7 @@ static void the_kit_has_teeth(void **unused) {
   case_open(&c, "gsl", "real");
   const ambit_option option[] = { { "method", "rk2" }, { "relative", "1e-2" }, { "absolute", "1e-2" } };
   c.kit.noption = 3, c.kit.option = option, c.kit.tolerance = 1e-9, c.kit.finding = case_hide;
-  assert_true(solver_kit_run(&c.kit) > 5);
+  assert_true(solver_kit_run(&c.kit, NULL) > 5);
   case_close(&c);
 }
 

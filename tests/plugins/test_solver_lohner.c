@@ -66,9 +66,9 @@ static void the_kit_has_teeth(void **unused) {
   static const ambit_option coarse[] = { { "step", "hermite_obreschkoff" }, { "jacobian_order", "4" } };
   c.kit.noption = 2, c.kit.option = coarse;
   lying = truthful;
-  assert_int_equal(solver_kit_run(&c.kit), 0);
+  assert_int_equal(solver_kit_run(&c.kit, NULL), 0);
   lying.get = no_error_get;
-  assert_true(solver_kit_run(&c.kit) > 0);
+  assert_true(solver_kit_run(&c.kit, NULL) > 0);
   case_close(&c);
 }
 
