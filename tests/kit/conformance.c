@@ -4,6 +4,7 @@
 #include "kit/arithmetic_kit.h"
 #include "kit/conduct.h"
 #include "kit/element_kit.h"
+#include "kit/roots_kit.h"
 #include "kit/service_kit.h"
 #include "kit/solver_kit.h"
 #include "oracle.h"
@@ -114,6 +115,7 @@ static bool open_arithmetic(
 
 /* Random systems: one of each size in the usual check. */
 #define SYSTEMS 12
+#define ROOT_SYSTEMS 36
 
 static size_t check_flow(const conformance *c, const solver_kit *kit) {
   char text[200];
@@ -129,6 +131,31 @@ static size_t check_flow(const conformance *c, const solver_kit *kit) {
       n.complete, n.enclosures, n.tubes, n.dense, n.sets, n.stops);
   tell(c, "note", "", text);
   return first + second;
+}
+
+static int check_roots(const conformance *c, ambit_registry *r, const char *name) {
+  char text[200];
+  roots_kit k = { .registry = r,
+    .name = name,
+    .seed = c->seed,
+    .noption = c->noption,
+    .option = c->option,
+    .allocations = conduct_allocations,
+    .finding = tell_finding,
+    .user = (void *)(uintptr_t)c };
+  tell(c, "begin", "equations", "");
+  size_t broken = roots_kit_run(&k, (size_t)fmax(6, ROOT_SYSTEMS * c->effort));
+  tell_done(c, "equations", k.judged, broken);
+  snprintf(text, sizeof text, "%zu searches, %zu complete; %zu boxes, %zu planted roots looked for", k.searches,
+      k.complete, k.boxes, k.roots);
+  tell(c, "note", "", text);
+  return broken ? BROKEN : CONFORMS;
+}
+
+static int check_reduction(const conformance *c, ambit_registry *r, const char *name) {
+  (void)r, (void)name;
+  tell(c, "note", "", "no kit");
+  return CONFORMS;
 }
 
 static int check_solver(const conformance *c, ambit_registry *r, const char *name) {
@@ -147,8 +174,7 @@ static int check_solver(const conformance *c, ambit_registry *r, const char *nam
   bool found = !f.message[0] && ambit_registry_solver(r, name, &kit.plugin, &f) == AMBIT_OK;
   if (found && kit.plugin->solves != AMBIT_SOLVES_FLOW) {
     ambit_lease_close(lease);
-    tell(c, "note", "", "the kit of solvers is for those that advance in time: it loads, and its table is well-formed");
-    return CONFORMS;
+    return kit.plugin->solves == AMBIT_SOLVES_ROOTS ? check_roots(c, r, name) : check_reduction(c, r, name);
   }
   bool ready = found && open_arithmetic(r, lease, option, &kit, &f);
   size_t broken = ready ? check_flow(c, &kit) : 0;
