@@ -100,7 +100,8 @@ size_t conduct_judge(conduct *c, void (*finding)(void *user, const char *rule, c
   look_around(&is);
   size_t changed = conduct_object_changed(&c->object);
   if (changed) {
-    snprintf(text, sizeof text, "%zu bytes of its global data have changed: what a context needs belongs to it", changed);
+    snprintf(
+        text, sizeof text, "%zu bytes of its global data have changed: what a context needs belongs to it", changed);
     finding(user, "globals", text);
   }
   if (is.floating != was->floating) finding(user, "environment", "the rounding mode or flushing was left changed");

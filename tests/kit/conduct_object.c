@@ -62,7 +62,8 @@ static bool is_import(size_t type) {
 }
 
 static void write_address(ElfW(Addr) at, void (*call)(void)) {
-  uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE), from = at / page * page, to = (at + sizeof call + page - 1) / page * page;
+  uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE), from = at / page * page,
+            to = (at + sizeof call + page - 1) / page * page;
   /* the page may be read-only since it was relocated; it stays writable */
   if (mprotect((void *)from, to - from, PROT_READ | PROT_WRITE) != 0) return;
   memcpy((void *)(uintptr_t)at, &call, sizeof call);

@@ -4,6 +4,7 @@
 #include "kit/arithmetic_kit.h"
 #include "kit/conduct.h"
 #include "kit/element_kit.h"
+#include "kit/reduction_kit.h"
 #include "kit/roots_kit.h"
 #include "kit/service_kit.h"
 #include "kit/solver_kit.h"
@@ -116,6 +117,7 @@ static bool open_arithmetic(
 /* Random systems: one of each size in the usual check. */
 #define SYSTEMS 12
 #define ROOT_SYSTEMS 36
+#define MODELS 24
 
 static size_t check_flow(const conformance *c, const solver_kit *kit) {
   char text[200];
@@ -127,8 +129,8 @@ static size_t check_flow(const conformance *c, const solver_kit *kit) {
   size_t second = solver_kit_run_random(kit, (size_t)fmax(1, SYSTEMS * c->effort), &n);
   tell_done(c, "random systems", n.compared - seen, second);
   snprintf(text, sizeof text,
-      "%zu runs, %zu complete; %zu enclosures, %zu tubes, %zu dense enclosures and %zu sets compared; %zu stops", n.runs,
-      n.complete, n.enclosures, n.tubes, n.dense, n.sets, n.stops);
+      "%zu runs, %zu complete; %zu enclosures, %zu tubes, %zu dense enclosures and %zu sets compared; %zu stops",
+      n.runs, n.complete, n.enclosures, n.tubes, n.dense, n.sets, n.stops);
   tell(c, "note", "", text);
   return first + second;
 }
@@ -153,9 +155,21 @@ static int check_roots(const conformance *c, ambit_registry *r, const char *name
 }
 
 static int check_reduction(const conformance *c, ambit_registry *r, const char *name) {
-  (void)r, (void)name;
-  tell(c, "note", "", "no kit");
-  return CONFORMS;
+  char text[120];
+  reduction_kit k = { .registry = r,
+    .name = name,
+    .seed = c->seed,
+    .noption = c->noption,
+    .option = c->option,
+    .allocations = conduct_allocations,
+    .finding = tell_finding,
+    .user = (void *)(uintptr_t)c };
+  tell(c, "begin", "models", "");
+  size_t broken = reduction_kit_run(&k, (size_t)fmax(6, MODELS * c->effort));
+  tell_done(c, "models", k.judged, broken);
+  snprintf(text, sizeof text, "%zu reductions, %zu proofs", k.runs, k.proofs);
+  tell(c, "note", "", text);
+  return broken ? BROKEN : CONFORMS;
 }
 
 static int check_solver(const conformance *c, ambit_registry *r, const char *name) {

@@ -34,8 +34,8 @@ static size_t split_options(char *text, ambit_option *option) {
   return n;
 }
 
-static int32_t check(const char *file, const char *options, double seed, double effort, double patience,
-    int32_t flags, tell_fn call, void *user) {
+static int32_t check(const char *file, const char *options, double seed, double effort, double patience, int32_t flags,
+    tell_fn call, void *user) {
   ambit_option option[OPTIONS_MAX];
   listener l = { call, user };
   char *text = strdup(options);
@@ -57,7 +57,8 @@ static int32_t check(const char *file, const char *options, double seed, double 
 static const ambit_function functions[] = {
   { "check", "i(ssdddi(v(sss)))", (void (*)(void))check,
       "runs the kit on FILE with OPTIONS (lines name=value), seed, effort, patience in s, and flags (1: "
-      "isotonicity is demanded, 2: end at the first broken promise); tells what happens; 0 conforms, 1 cannot be loaded, 3 broken promises" },
+      "isotonicity is demanded, 2: end at the first broken promise); tells what happens; 0 conforms, 1 cannot be "
+      "loaded, 3 broken promises" },
 };
 static const ambit_exports exports = { sizeof exports, sizeof functions / sizeof *functions, functions };
 

@@ -9,14 +9,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BOXES = 2048, MESSAGES = 5, PATIENCE = 10000 }; /* calls of progress, then a search is too long for the kit */
+enum { BOXES = 2048, MESSAGES = 5, PATIENCE = 2000 }; /* calls of progress, then a search is too long for the kit */
 
 typedef struct search {
   ambit_sink sink; /* first */
   roots_kit *kit;
   const roots_system *s;
   uint32_t count, calls, stop_after, stop_progress_after;
-  bool stopped;
+  bool stopped, over; /* over: all was searched */
   double done;
   size_t first_count, last_count;
   uint32_t kind[BOXES];
@@ -48,7 +48,8 @@ static int32_t emit(ambit_sink *sink, const ambit_record *record) {
   note_allocations(r);
   k->judged++, k->boxes++;
   if (r->stopped) find(k, r->s, "a record after the sink asked to stop");
-  if (record->kind != AMBIT_REC_ROOT || record->nx != r->s->n || record->rigorous != 1 || record->event > AMBIT_ROOT_PARTLY) {
+  if (record->kind != AMBIT_REC_ROOT || record->nx != r->s->n || record->rigorous != 1 ||
+      record->event > AMBIT_ROOT_PARTLY) {
     find(k, r->s, "a record of kind %u with %u unknowns, rigorous %u, that says %u", record->kind, record->nx,
         record->rigorous, record->event);
     return 1;
@@ -124,7 +125,8 @@ static void judge_box(search *r, uint32_t b, const double *u) {
   ambit_interval x[ROOTS_UNKNOWNS];
   uint32_t certain = 0, possible = 0;
   const roots_system *s = r->s;
-  for (size_t k = 0; roots_system_root(s, k, u, x); k++) certain += holds(r, b, x, true), possible += holds(r, b, x, false);
+  for (size_t k = 0; roots_system_root(s, k, u, x); k++)
+    certain += holds(r, b, x, true), possible += holds(r, b, x, false);
   r->kit->judged++;
   if (r->kind[b] == AMBIT_ROOT_UNIQUE && (possible == 0 || s->twice))
     find(r->kit, s, "box %u says it has one root: %s", b, s->twice ? "it is a double one" : "there is none");
@@ -138,7 +140,7 @@ static void judge_data(search *r, const double *u) {
     bool found = false;
     for (uint32_t b = 0; b < r->count; b++) found = found || holds(r, b, x, false);
     r->kit->judged++, r->kit->roots++;
-    if (!found && is_inside(r->s, x))
+    if (r->over && !found && is_inside(r->s, x))
       find(r->kit, r->s, "the root at (%.9g, ...), for data (%a, ...), is in no box", x[0].lo, u[0]);
   }
   for (uint32_t b = 0; b < r->count; b++) judge_box(r, b, u);
@@ -149,7 +151,7 @@ static void judge(search *r) {
   double u[ROOTS_DATA] = { 0 };
   uint32_t undecided = 0;
   for (uint32_t b = 0; b < r->count; b++) undecided += r->kind[b] == AMBIT_ROOT_UNDECIDED;
-  bool over = r->result.status == AMBIT_OK || (undecided && r->result.status == AMBIT_UNABLE);
+  r->over = r->result.status == AMBIT_OK || r->result.status == AMBIT_UNABLE;
   if (r->result.status == AMBIT_OK && undecided) find(r->kit, s, "it says OK with %u boxes undecided", undecided);
   if (r->result.status == AMBIT_OK && s->twice) find(r->kit, s, "a double root is decided");
   bool too_long = r->calls == PATIENCE && r->result.status == AMBIT_STOPPED;
@@ -160,12 +162,12 @@ static void judge(search *r) {
   if (r->result.status == AMBIT_OK && r->result.boxes == 0) find(r->kit, s, "it has looked at no box");
   r->kit->complete += r->result.status == AMBIT_OK;
   r->kit->judged += 5;
-  for (uint32_t corner = 0; over && corner < 1u << s->nu; corner++) {
+  for (uint32_t corner = 0; corner < 1u << s->nu; corner++) {
     for (uint32_t j = 0; j < s->nu; j++) u[j] = corner >> j & 1 ? s->u[j].hi : s->u[j].lo;
     judge_data(r, u);
   }
   for (uint32_t j = 0; j < s->nu; j++) u[j] = 0.5 * s->u[j].lo + 0.5 * s->u[j].hi;
-  if (over && s->nu) judge_data(r, u);
+  if (s->nu) judge_data(r, u);
 }
 
 static void search_all(roots_kit *k, const roots_system *s, search *r, search *again) {
@@ -173,17 +175,18 @@ static void search_all(roots_kit *k, const roots_system *s, search *r, search *a
   run(r);
   judge(r);
   k->judged += 2;
-  if (r->last_count != r->first_count)
-    find(k, s, "%zu allocations during the search", r->last_count - r->first_count);
+  if (r->last_count != r->first_count) find(k, s, "%zu allocations during the search", r->last_count - r->first_count);
   if (s->twice) return; /* long enough */
   run(again);
-  if (again->count != r->count || memcmp(again->box, r->box, sizeof r->box) != 0 || memcmp(again->kind, r->kind, sizeof r->kind) != 0)
+  if (again->count != r->count || memcmp(again->box, r->box, sizeof r->box) != 0 ||
+      memcmp(again->kind, r->kind, sizeof r->kind) != 0)
     find(k, s, "another result the second time");
   bool boxes = r->count > 0;
   *again = (search) { .kit = k, .s = s, .stop_progress_after = 1 };
   run(again);
   if (again->calls == 0) find(k, s, "no progress");
-  if (again->calls && again->result.status != AMBIT_STOPPED) find(k, s, "stopped by progress: status %d", again->result.status);
+  if (again->calls && again->result.status != AMBIT_STOPPED)
+    find(k, s, "stopped by progress: status %d", again->result.status);
   *again = (search) { .kit = k, .s = s, .stop_after = 1 };
   if (boxes) run(again);
   if (boxes && again->result.status != AMBIT_STOPPED) find(k, s, "stopped at a box: status %d", again->result.status);

@@ -10,8 +10,8 @@ typedef struct roots_system {
   uint32_t n, nu;
   uint32_t factors[ROOTS_UNKNOWNS]; /* of equation i: (y_i - root[i][0]) (y_i - root[i][1]) ... */
   double root[ROOTS_UNKNOWNS][ROOTS_FACTORS], weight[ROOTS_UNKNOWNS];
-  int32_t datum[ROOTS_UNKNOWNS]; /* root[i][0] is this datum; -1: none */
-  uint32_t a[ROOTS_UNKNOWNS];    /* phi_i = weight sin x_a or weight x_a^2 */
+  int32_t datum[ROOTS_UNKNOWNS];   /* root[i][0] is this datum; -1: none */
+  uint32_t a[ROOTS_UNKNOWNS];      /* phi_i = weight sin x_a or weight x_a^2 */
   bool sine[ROOTS_UNKNOWNS], wave; /* wave: one equation, sin(x) = 0 */
   bool twice, never;               /* the last equation is a square; has + 1 */
   ambit_interval box[ROOTS_UNKNOWNS], u[ROOTS_DATA];

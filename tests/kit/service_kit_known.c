@@ -63,8 +63,10 @@ static void judge_eigen(service_kit *k, const eigen_case *c, const double *given
       !(fabs(squares - square_trace) <= RESIDUAL * n * n * (1 + scale * scale)))
     service_kit_find(k, "eigen", "the trace of %u x %u is %g, the sum of the eigenvalues %g", n, n, trace, sum);
   for (uint32_t j = 0; j < n; j++) {
-    bool pair = c->im[j] != 0, whole = !pair || (c->im[j] > 0 && j + 1 < n && c->im[j + 1] == -c->im[j] && c->re[j + 1] == c->re[j]);
-    if (!whole) service_kit_find(k, "eigen", "%g + %g i of %u x %u is not the first of a pair", c->re[j], c->im[j], n, n);
+    bool pair = c->im[j] != 0,
+         whole = !pair || (c->im[j] > 0 && j + 1 < n && c->im[j + 1] == -c->im[j] && c->re[j + 1] == c->re[j]);
+    if (!whole)
+      service_kit_find(k, "eigen", "%g + %g i of %u x %u is not the first of a pair", c->re[j], c->im[j], n, n);
     if (!whole) return;
     double worst = residual(c, j, pair, &size);
     if (!(worst <= RESIDUAL * n * (1 + scale) * size) || !(size > 0 && size < INFINITY))

@@ -174,7 +174,8 @@ static void run_all(state *s) {
   guard(&s->problem, false);
 }
 
-static size_t run_problem(const solver_kit *kit, solver_kit_counts *counts, const kit_problem *p, const double *option) {
+static size_t run_problem(
+    const solver_kit *kit, solver_kit_counts *counts, const kit_problem *p, const double *option) {
   kit_model m;
   ambit_failure f = { 0 };
   const ambit_expr *unknown = NULL;

@@ -137,9 +137,11 @@ const kit_problem kit_problems[] = {
   { "oscillator backwards", build_oscillator, truth_oscillator, 0, { 0 }, { 0 }, INFINITY, 4, { 2, 1.3, 0x1.1p-40, -5 },
       INFINITY, NULL },
   { "logistic", build_logistic, truth_logistic, 1, { 1 }, { 1.25 }, INFINITY, 3, { 0, 1, 2 }, INFINITY, NULL },
-  { "explicit time", build_bell, truth_bell, 0, { 0 }, { 0 }, INFINITY, 5, { -1, -0.3, 0x1p-60, 0.5, 2 }, INFINITY, NULL },
+  { "explicit time", build_bell, truth_bell, 0, { 0 }, { 0 }, INFINITY, 5, { -1, -0.3, 0x1p-60, 0.5, 2 }, INFINITY,
+      NULL },
   { "shared datum", build_shared, truth_shared, 1, { 1 }, { 3 }, INFINITY, 3, { 0, 0.5, 1 }, 1e-12, NULL },
-  { "circle with an invariant", build_circle, truth_circle, 1, { 0.5 }, { 0.75 }, INFINITY, 3, { 0, 1, 7 }, 0.26, NULL },
+  { "circle with an invariant", build_circle, truth_circle, 1, { 0.5 }, { 0.75 }, INFINITY, 3, { 0, 1, 7 }, 0.26,
+      NULL },
   { "finite escape", build_escape, truth_escape, 0, { 0 }, { 0 }, 1, 3, { 0, 0.5, 2 }, INFINITY, NULL },
   { "edge of the domain", build_edge, truth_edge, 0, { 0 }, { 0 }, 1, 3, { 0, 0.5, 2 }, INFINITY, NULL },
 };

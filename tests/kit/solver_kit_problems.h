@@ -25,7 +25,7 @@ typedef struct kit_problem {
   void (*build)(kit_model *m);
   /* x[nx] encloses the solution at t that started with the uncertain datum at u, tightly */
   void (*truth)(double t, double u, ambit_interval *x);
-  uint32_t nu;                         /* uncertain data */
+  uint32_t nu; /* uncertain data */
   double u_lo[KIT_DATA], u_hi[KIT_DATA];
   double ends; /* no solution exists from here on; infinite: the run must be complete */
   size_t ntime;

@@ -160,10 +160,8 @@ static ambit_interval solve(const kit_random_system *r, size_t i, double t, cons
   ambit_interval sine = apply(AMBIT_OP_SIN, angle), cosine = apply(AMBIT_OP_COS, angle);
   switch (b->kind) {
   case DECAY: return ambit_interval_mul(y0, apply(AMBIT_OP_EXP, apply(AMBIT_OP_NEG, angle)));
-  case TURN:
-    return ambit_interval_add(ambit_interval_mul(y0, cosine), ambit_interval_mul(start_of(b + 1, u), sine));
-  case TURNED:
-    return ambit_interval_sub(ambit_interval_mul(y0, cosine), ambit_interval_mul(start_of(b - 1, u), sine));
+  case TURN: return ambit_interval_add(ambit_interval_mul(y0, cosine), ambit_interval_mul(start_of(b + 1, u), sine));
+  case TURNED: return ambit_interval_sub(ambit_interval_mul(y0, cosine), ambit_interval_mul(start_of(b - 1, u), sine));
   case FORCED: {
     ambit_interval change = ambit_interval_sub(apply(AMBIT_OP_SIN, point(t)), apply(AMBIT_OP_SIN, point(r->t0)));
     return ambit_interval_add(y0, ambit_interval_mul(k, change));

@@ -15,12 +15,15 @@ bool kit_is_rigorous(const state *s) { return s->kit->plugin->needs_rigorous != 
 static void check_header(watcher *w, const ambit_record *r) {
   state *s = w->s;
   bool backwards = s->problem.time[s->problem.ntime - 1] < s->problem.time[0];
-  if (r->size < sizeof *r || r->nx != s->problem.nx) kit_find_solver(s, "a record of size %u with %u states", r->size, r->nx);
+  if (r->size < sizeof *r || r->nx != s->problem.nx)
+    kit_find_solver(s, "a record of size %u with %u states", r->size, r->nx);
   if (r->t_from != w->t) kit_find_solver(s, "a step from t = %a after one to %a", r->t_from, w->t);
-  if (!(backwards ? r->t_to < r->t_from : r->t_to > r->t_from)) kit_find_solver(s, "a step from t = %a to %a", r->t_from, r->t_to);
+  if (!(backwards ? r->t_to < r->t_from : r->t_to > r->t_from))
+    kit_find_solver(s, "a step from t = %a to %a", r->t_from, r->t_to);
   if ((r->rigorous != 0) != kit_is_rigorous(s)) kit_find_solver(s, "a record that says rigorous = %u", r->rigorous);
   double ahead = w->next < s->problem.ntime ? s->problem.time[w->next] : s->problem.time[s->problem.ntime - 1];
-  if (backwards ? r->t_to < ahead : r->t_to > ahead) kit_find_solver(s, "a step over the instant %a, to %a", ahead, r->t_to);
+  if (backwards ? r->t_to < ahead : r->t_to > ahead)
+    kit_find_solver(s, "a step over the instant %a, to %a", ahead, r->t_to);
   if (r->t_to == ahead) w->next++;
 }
 
@@ -44,8 +47,8 @@ static void check_point(state *s, double t, const double *u, const double *lo, c
   for (uint32_t i = 0; i < s->problem.nx; i++) {
     double slack = kit_is_rigorous(s) ? 0 : s->kit->tolerance * (1 + fabs(truth[i].hi));
     if (!(lo[i] <= truth[i].hi + slack && hi[i] >= truth[i].lo - slack))
-      kit_find_solver(s, "%s at t = %a misses state %u of the solution for u = (%a, ...): [%a, %a], truth in [%a, %a]", what, t, i,
-          u[0], lo[i], hi[i], truth[i].lo, truth[i].hi);
+      kit_find_solver(s, "%s at t = %a misses state %u of the solution for u = (%a, ...): [%a, %a], truth in [%a, %a]",
+          what, t, i, u[0], lo[i], hi[i], truth[i].lo, truth[i].hi);
   }
 }
 
@@ -78,7 +81,8 @@ static void check_truth(state *s, const ambit_record *r) {
 
 static void check_meets(state *s, double t, uint32_t i, ambit_interval x, double lo, double hi, const char *what) {
   if (!(x.lo <= hi && x.hi >= lo))
-    kit_find_solver(s, "%s of state %u at t = %a, [%a, %a], does not meet the bounds [%a, %a]", what, i, t, x.lo, x.hi, lo, hi);
+    kit_find_solver(
+        s, "%s of state %u at t = %a, [%a, %a], does not meet the bounds [%a, %a]", what, i, t, x.lo, x.hi, lo, hi);
 }
 
 static void check_dense(watcher *w, const ambit_record *r) {
@@ -106,8 +110,8 @@ static void check_hull(state *s, const ambit_record *r, uint32_t i, ambit_interv
   double slack = BESIDE * (r->hi[i] - r->lo[i]) + ROUNDED * fmax(fabs(r->lo[i]), fabs(r->hi[i]));
   check_meets(s, r->t_to, i, x, r->lo[i], r->hi[i], "the set");
   if (s->problem.ninvariant == 0 && !(x.lo >= r->lo[i] - slack && x.hi <= r->hi[i] + slack))
-    kit_find_solver(s, "the set of state %u at t = %a, [%a, %a], sticks out of [%a, %a]", i, r->t_to, x.lo, x.hi, r->lo[i],
-        r->hi[i]);
+    kit_find_solver(s, "the set of state %u at t = %a, [%a, %a], sticks out of [%a, %a]", i, r->t_to, x.lo, x.hi,
+        r->lo[i], r->hi[i]);
 }
 
 static void check_set(state *s, const ambit_record *r) {
@@ -172,4 +176,3 @@ int32_t kit_progress(ambit_sink *sink, double done, const char *message) {
   w->stopped = ++w->calls == w->stop_progress_after;
   return w->stopped;
 }
-

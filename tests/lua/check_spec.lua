@@ -95,10 +95,13 @@ describe("ambit check", function()
     has(stdout, "element.revolute: ", "balances of power closed", "conforms: ")
     code, stdout = run "check lohner"
     assert.equal(0, code, stdout)
-    has(stdout, "problems", "conforms: ")
-    code, stdout = run "check elementary"
-    assert.equal(0, code, stdout)
-    has(stdout, "there is no kit for services")
+    has(stdout, "problems", "random systems", "conduct", "conforms: ")
+    for name, section in pairs { elementary = "elementary", quasi_random = "quasi_random", eigen = "eigen",
+      krawczyk = "equations", reduction = "models" } do
+      code, stdout = run("check " .. name)
+      assert.equal(0, code, stdout)
+      has(stdout, section, " checks\n", "conduct", "conforms: ")
+    end
   end)
 
   it("passes options on", function()

@@ -234,30 +234,30 @@ static void reads_start(liar *l, ambit_problem *p) { l->time[15] = p->x0_hi[p->n
 
 /* -- series */
 
-static ambit_status no_tail(ambit_jet *jet, uint32_t K, double h, const double *in, const double *din, double *out,
-    double *dout) {
+static ambit_status no_tail(
+    ambit_jet *jet, uint32_t K, double h, const double *in, const double *din, double *out, double *dout) {
   ambit_status status = chosen->honest->tail(jet, K, h, in, din, out, dout);
   if (status == AMBIT_OK) out[0] = 0;
   return status;
 }
-static ambit_status small_tail(ambit_jet *jet, uint32_t K, double h, const double *in, const double *din, double *out,
-    double *dout) {
+static ambit_status small_tail(
+    ambit_jet *jet, uint32_t K, double h, const double *in, const double *din, double *out, double *dout) {
   ambit_status status = chosen->honest->tail(jet, K, h, in, din, out, dout);
   if (status == AMBIT_OK) out[0] *= 0x1p-20;
   return status;
 }
-static void get_off(const ambit_jet *jet, uint32_t slot, uint32_t k, double *mid, double *rad, double *dmid,
-    double *drad) {
+static void get_off(
+    const ambit_jet *jet, uint32_t slot, uint32_t k, double *mid, double *rad, double *dmid, double *drad) {
   chosen->honest->get(jet, slot, k, mid, rad, dmid, drad);
   if (k >= 4) *mid *= 1 + 1e-6;
 }
-static void get_low(const ambit_jet *jet, uint32_t slot, uint32_t k, double *mid, double *rad, double *dmid,
-    double *drad) {
+static void get_low(
+    const ambit_jet *jet, uint32_t slot, uint32_t k, double *mid, double *rad, double *dmid, double *drad) {
   chosen->honest->get(jet, slot, k, mid, rad, dmid, drad);
   if (k == 1) *mid *= 1 + 1e-9;
 }
-static void get_slope(const ambit_jet *jet, uint32_t slot, uint32_t k, double *mid, double *rad, double *dmid,
-    double *drad) {
+static void get_slope(
+    const ambit_jet *jet, uint32_t slot, uint32_t k, double *mid, double *rad, double *dmid, double *drad) {
   chosen->honest->get(jet, slot, k, mid, rad, dmid, drad);
   if (dmid && k >= 1) dmid[0] *= 0.5;
 }

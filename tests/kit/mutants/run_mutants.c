@@ -64,7 +64,10 @@ static bool try_fault(check_fn check, row *r, const char *file, const char *faul
   }
   if (all || !found)
     printf("%s: %s: %s in %.2f s: %s\n", r->kind, fault,
-        o.verdict != 3 ? "SURVIVES" : found ? "found" : "FOUND TOO LATE", o.seconds, o.why);
+        o.verdict != 3 ? "SURVIVES"
+        : found        ? "found"
+                       : "FOUND TOO LATE",
+        o.seconds, o.why);
   return found;
 }
 

@@ -153,8 +153,7 @@ static void export(void) {
   if (is("exports a function that is none")) f.call = NULL;
   if (is("exports no sentence")) f.doc = NULL;
   if (is("exports a function that changes its mind")) f.call = (void (*)(void))changing;
-  if (is("exports a function that reads beyond its array"))
-    f.call = (void (*)(void))beyond, f.signature = "d(D)";
+  if (is("exports a function that reads beyond its array")) f.call = (void (*)(void))beyond, f.signature = "d(D)";
   if (is("exports a function that aborts at NaN")) f.call = (void (*)(void))divides;
   chosen->function[0] = chosen->function[1] = f;
   if (is("exports two functions of one name")) chosen->exports.count = 2;
@@ -175,13 +174,13 @@ static const char *const faults[] = { "one call of 1000 one ulp narrow", "bounds
   "writes beyond the eigenvalues", "writes beyond the vectors", "reads beyond the matrix", "writes into the matrix",
   "a NaN among the vectors", "one dimension more than it has", "knows every name", "opens every name",
   "knows no sequence", "gives more points than it has", "a coordinate that is 1", "a negative coordinate",
-  "a point of NaN", "the same point twice", "two coordinates are one", "fills a half only",
-  "writes one point too many", "the last point is left out", "other points in parts",
-  "exports a function without a name", "exports a name with a blank", "exports no signature",
-  "exports a signature that does not end", "exports a signature of unknown letters",
-  "exports a function that is none", "exports no sentence", "exports a function that changes its mind",
-  "exports a function that reads beyond its array", "exports a function that aborts at NaN",
-  "exports two functions of one name", "exports nothing", "offers no interface that anybody knows" };
+  "a point of NaN", "the same point twice", "two coordinates are one", "fills a half only", "writes one point too many",
+  "the last point is left out", "other points in parts", "exports a function without a name",
+  "exports a name with a blank", "exports no signature", "exports a signature that does not end",
+  "exports a signature of unknown letters", "exports a function that is none", "exports no sentence",
+  "exports a function that changes its mind", "exports a function that reads beyond its array",
+  "exports a function that aborts at NaN", "exports two functions of one name", "exports nothing",
+  "offers no interface that anybody knows" };
 enum { FAULTS = sizeof faults / sizeof *faults };
 
 AMBIT_EXPORT const char *ambit_mutant_name(size_t i);
