@@ -25,7 +25,8 @@ typedef struct entry {
 struct ambit_registry {
   ambit_arena *arena;
   ambit_path path;
-  entry *first;
+  entry *first; /* the latest */
+  size_t count;
   void (*note)(void *user, const char *line);
   void *user;
 };
@@ -79,6 +80,7 @@ static entry *keep(ambit_registry *r, const ambit_loaded *loaded, const char *ki
     if (!e->kind || !e->name) return NULL;
   }
   r->first = e;
+  r->count++;
   return e;
 }
 
@@ -264,6 +266,16 @@ ambit_status ambit_registry_exports(
   }
   *exports = e->exports;
   return AMBIT_OK;
+}
+
+size_t ambit_registry_count(const ambit_registry *r) { return r->count; }
+
+const ambit_loaded *ambit_registry_loaded(const ambit_registry *r, size_t i, const char **kind, const char **name) {
+  const entry *e = r->first;
+  for (size_t k = r->count; k > i + 1; k--) e = e->next;
+  *kind = e->kind ? e->kind : "";
+  *name = e->name ? e->name : e->loaded.plugin.id;
+  return &e->loaded;
 }
 
 size_t ambit_registry_list(ambit_registry *r, size_t room, ambit_listing *out) {

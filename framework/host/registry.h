@@ -33,6 +33,11 @@ ambit_status ambit_registry_exports(
 void ambit_registry_set_note(ambit_registry *r, void (*note)(void *user, const char *line), void *user);
 void ambit_registry_note(ambit_registry *r, const char *line);
 
+/* How many plugins are loaded, and the i-th of them, oldest first. */
+size_t ambit_registry_count(const ambit_registry *r);
+const struct ambit_loaded *ambit_registry_loaded(
+    const ambit_registry *r, size_t i, const char **kind, const char **name);
+
 typedef struct ambit_listing {
   const char *kind, *name, *file;
   int loaded;

@@ -15,9 +15,10 @@ static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static ambit_registry *owner; /* whose notes tell of a failure; may be NULL */
 static char *search;          /* its path; NULL: the default one */
 static ambit_elementary_point loaded_point;
+static ambit_loaded plugin; /* whose it is */
 
-static ambit_elementary_point point_of(const ambit_plugin *plugin, ambit_failure *f) {
-  const void *theirs = plugin->get(AMBIT_ELEMENTARY_SERVICE);
+static ambit_elementary_point point_of(const ambit_plugin *entry, ambit_failure *f) {
+  const void *theirs = entry->get(AMBIT_ELEMENTARY_SERVICE);
   ambit_elementary_service service;
   if (theirs && ambit_load_struct(&service, sizeof service, sizeof service, theirs) && service.point)
     return service.point;
@@ -25,17 +26,25 @@ static ambit_elementary_point point_of(const ambit_plugin *plugin, ambit_failure
   return NULL;
 }
 
+/* Under the lock. The plugin is never unloaded, see slow.h, so its file name is kept too. */
 static ambit_elementary_point load(ambit_failure *f) {
   ambit_arena *arena = ambit_arena_open();
   ambit_path path;
-  ambit_loaded loaded;
   ambit_elementary_point point = NULL;
   if (!arena || ambit_path_open(arena, search, &path) != AMBIT_OK)
     ambit_fail(f, AMBIT_NOMEM, "out of memory");
-  else if (ambit_load_named(arena, &path, "service", "elementary", &loaded, f) == AMBIT_OK)
-    point = point_of(&loaded.plugin, f); /* never unloaded, see slow.h */
+  else if (ambit_load_named(arena, &path, "service", "elementary", &plugin, f) == AMBIT_OK)
+    point = point_of(&plugin.plugin, f);
+  if (point) plugin.file = strdup(plugin.file);
   ambit_arena_close(arena);
   return point;
+}
+
+const ambit_loaded *ambit_slow_loaded(void) {
+  pthread_mutex_lock(&lock);
+  const ambit_loaded *found = loaded_point && plugin.file ? &plugin : NULL;
+  pthread_mutex_unlock(&lock);
+  return found;
 }
 
 static void note_failure(const ambit_failure *f) {

@@ -2,6 +2,7 @@
 ** that needs it. */
 #ifndef AMBIT_SLOW_H
 #define AMBIT_SLOW_H
+#include "host/load.h"
 #include "host/registry.h"
 
 /* From now on the plugin service/elementary is looked for on this registry's path (NULL: as for
@@ -9,6 +10,8 @@
 ** thread may be inside it. */
 void ambit_slow_offer(ambit_registry *r, const char *path);
 void ambit_slow_withdraw(ambit_registry *r); /* the registry is about to close */
+/* The plugin, once it is loaded; else NULL. [any] */
+const ambit_loaded *ambit_slow_loaded(void);
 /* BROKEN if the plugin ever gave NaN or reversed bounds; what was computed is sound nevertheless: such bounds are
 ** replaced by the function's whole range. */
 ambit_status ambit_slow_sound(ambit_failure *f);

@@ -25,6 +25,8 @@ typedef struct ambit_lua {
   ambit_graph *graph;
   ambit_registry *registry;
   ambit_records *records;        /* JSON lines of `ambit run --json`, or NULL */
+  size_t recorded;               /* plugins of the registry that are in them */
+  bool recorded_slow;            /* the slow path of the elementary functions is */
   ambit_arena *arena;            /* texts that must live as long as the state */
   bool progress;                 /* draw a progress bar on stderr */
   struct ambit_profile *profile; /* of `ambit profile`, or NULL */

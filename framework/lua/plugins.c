@@ -1,7 +1,10 @@
 /* plugins.c -- plugins as Lua tables: the listing, and what each declares about itself (ports, parameters, options). */
 #include "lua/core.h"
 #include "base/names.h"
+#include "host/provenance.h"
+#include "host/slow.h"
 #include "host/trust.h"
+#include <stdlib.h>
 #include <string.h>
 
 static void set_text(lua_State *L, const char *key, const char *value) {
@@ -123,6 +126,79 @@ static int list(lua_State *L) {
   return 1;
 }
 
+static void push_identity(lua_State *L, const ambit_identity *id) {
+  lua_createtable(L, 0, 6);
+  set_text(L, "kind", id->kind);
+  set_text(L, "name", id->name);
+  set_text(L, "version", id->version);
+  set_text(L, "file", id->file);
+  set_text(L, "sha256", id->sha256);
+  if (id->shadows) set_text(L, "shadows", "yes");
+}
+
+static void add_folder(void *user, const char *folder) {
+  lua_State *L = user;
+  lua_pushstring(L, folder);
+  lua_rawseti(L, -2, luaL_len(L, -2) + 1);
+}
+
+/* provenance() -> the plugins that are loaded, each { kind, name, version, file, sha256, shadows }, and folders that
+** are trusted */
+static int provenance(lua_State *L) {
+  ambit_registry *r = AMBIT_LUA(L)->registry;
+  ambit_failure f = { 0 };
+  ambit_identity id;
+  lua_newtable(L);
+  for (size_t i = 0; i < ambit_registry_count(r); i++) {
+    if (ambit_provenance_plugin(r, i, &id, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
+    push_identity(L, &id);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  ambit_status status = ambit_provenance_slow(r, &id, &f);
+  if (status != AMBIT_OK && status != AMBIT_UNABLE) ambit_lua_raise(L, &f);
+  if (status == AMBIT_OK) {
+    push_identity(L, &id);
+    lua_rawseti(L, -2, luaL_len(L, -2) + 1);
+  }
+  lua_newtable(L);
+  ambit_trust_each(add_folder, L);
+  return 2;
+}
+
+/* loaded() -> "kind.name" of each plugin that is loaded */
+static int loaded(lua_State *L) {
+  ambit_registry *r = AMBIT_LUA(L)->registry;
+  lua_newtable(L);
+  for (size_t i = 0; i < ambit_registry_count(r); i++) {
+    const char *kind, *name;
+    ambit_registry_loaded(r, i, &kind, &name);
+    lua_pushfstring(L, "%s.%s", kind, name);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  if (ambit_slow_loaded()) {
+    lua_pushliteral(L, "service.elementary");
+    lua_rawseti(L, -2, luaL_len(L, -2) + 1);
+  }
+  return 1;
+}
+
+/* sha256([file]) -> of a file as it lies there, and its name; without a file: of the kernel's */
+static int sha256(lua_State *L) {
+  char text[AMBIT_DIGEST_TEXT];
+  ambit_failure f = { 0 };
+  if (lua_isnoneornil(L, 1)) {
+    char *kernel = ambit_trust_kernel();
+    lua_settop(L, 0);
+    lua_pushstring(L, kernel ? kernel : "");
+    free(kernel);
+  }
+  const char *file = luaL_checkstring(L, 1);
+  if (ambit_provenance_file(AMBIT_LUA(L)->registry, file, text, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
+  lua_pushstring(L, text);
+  lua_pushvalue(L, 1);
+  return 2;
+}
+
 /* trust(folder): what lies there may be loaded, whoever may write there */
 static int trust(lua_State *L) {
   ambit_failure f = { 0 };
@@ -153,6 +229,7 @@ static int nearest(lua_State *L) {
 
 void ambit_lua_open_plugins(lua_State *L, ambit_lua *core) {
   static const luaL_Reg functions[] = { { "plugin", plugin }, { "list", list }, { "nearest", nearest },
-    { "trust", trust }, { "allow_shadow", allow_shadow }, { NULL, NULL } };
+    { "trust", trust }, { "provenance", provenance }, { "loaded", loaded }, { "sha256", sha256 },
+    { "allow_shadow", allow_shadow }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
 }

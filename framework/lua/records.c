@@ -1,6 +1,43 @@
 /* records.c -- JSON lines from Lua: values and results; the steps of a run are written by its sink. */
 #include "lua/core.h"
+#include "host/provenance.h"
+#include "host/slow.h"
 #include <string.h>
+
+/* -- the plugins that a record rests on stand before it */
+
+static ambit_status write_plugin(ambit_records *r, const ambit_identity *id, ambit_failure *f) {
+  ambit_records_begin(r, "plugin");
+  ambit_records_text(r, "kind", id->kind);
+  ambit_records_text(r, "name", id->name);
+  ambit_records_text(r, "version", id->version);
+  ambit_records_text(r, "file", id->file);
+  ambit_records_text(r, "sha256", id->sha256);
+  if (id->shadows) ambit_records_text(r, "shadows", "yes");
+  return ambit_records_end(r, f);
+}
+
+static ambit_status write_plugins(void *user, ambit_failure *f) {
+  ambit_lua *core = user;
+  ambit_identity id;
+  ambit_status status = AMBIT_OK;
+  for (; core->recorded < ambit_registry_count(core->registry) && status == AMBIT_OK; core->recorded++) {
+    status = ambit_provenance_plugin(core->registry, core->recorded, &id, f);
+    if (status == AMBIT_OK) status = write_plugin(core->records, &id, f);
+  }
+  if (core->recorded_slow || status != AMBIT_OK || !ambit_slow_loaded()) return status;
+  core->recorded_slow = true;
+  status = ambit_provenance_slow(core->registry, &id, f);
+  return status == AMBIT_OK ? write_plugin(core->records, &id, f) : status;
+}
+
+/* provenance_begin(): from now on each plugin is recorded before the first record that rests on it */
+static int begin_provenance(lua_State *L) {
+  ambit_lua *core = AMBIT_LUA(L);
+  core->recorded = 0, core->recorded_slow = false;
+  if (core->records) ambit_records_watch(core->records, write_plugins, core);
+  return 0;
+}
 
 /* records_open(path): "-" is stdout */
 static int open_records(lua_State *L) {
@@ -79,6 +116,7 @@ static int record_shift(lua_State *L) {
 
 void ambit_lua_open_records(lua_State *L, ambit_lua *core) {
   static const luaL_Reg functions[] = { { "records_open", open_records }, { "records_close", close_records },
-    { "record", record }, { "recording", recording }, { "record_shift", record_shift }, { NULL, NULL } };
+    { "record", record }, { "provenance_begin", begin_provenance }, { "recording", recording },
+    { "record_shift", record_shift }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
 }

@@ -20,6 +20,10 @@ struct ambit_records {
   yajl_gen generator;
   char *path;
   bool failed; /* a write failed and was reported */
+  ambit_status (*before)(void *user, ambit_failure *f);
+  void *user;
+  bool inside;           /* `before` is writing */
+  ambit_failure trouble; /* what it failed with */
   ambit_interval shift;
 };
 
@@ -110,7 +114,20 @@ static void put_interval(ambit_records *r, ambit_interval x) {
   yajl_gen_array_close(r->generator);
 }
 
+void ambit_records_watch(ambit_records *r, ambit_status (*before)(void *user, ambit_failure *f), void *user) {
+  r->before = before, r->user = user;
+}
+
+static void write_before(ambit_records *r) {
+  if (!r->before || r->inside || r->failed) return;
+  r->inside = true;
+  if (r->before(r->user, &r->trouble) != AMBIT_OK && r->trouble.status == AMBIT_OK)
+    ambit_fail(&r->trouble, AMBIT_STOPPED, "what a record rests on could not be written");
+  r->inside = false;
+}
+
 void ambit_records_begin(ambit_records *r, const char *kind) {
+  write_before(r);
   yajl_gen_reset(r->generator, NULL);
   yajl_gen_clear(r->generator);
   yajl_gen_map_open(r->generator);
@@ -174,6 +191,10 @@ static int write_line(const ambit_records *r, const unsigned char *text, size_t 
 
 ambit_status ambit_records_end(ambit_records *r, ambit_failure *f) {
   if (r->failed) return AMBIT_STOPPED; /* said once */
+  if (r->trouble.status != AMBIT_OK && !r->inside) {
+    r->failed = true;
+    return ambit_fail(f, AMBIT_STOPPED, "%s", r->trouble.message);
+  }
   yajl_gen_map_close(r->generator);
   const unsigned char *text;
   size_t length;

@@ -1,7 +1,8 @@
 /* records.h -- JSON lines: one object a line, flushed as it is written, so that what is there stays valid if the
 ** process dies.
 **
-** Every object has "record" ("step", "event", "value", "root", "term", "note", "result"); times and enclosures are
+** Every object has "record" ("provenance", "plugin", "step", "event", "value", "root", "term", "note",
+** "result"); times and enclosures are
 ** [lo, hi] doubles that round-trip exactly; infinite bounds are the strings "inf", "-inf"; an empty enclosure is [].
 ** A failed write (full disk) is reported once and stops the run.
 */
@@ -16,6 +17,10 @@ typedef struct ambit_records ambit_records;
 ambit_status ambit_records_open(const char *path, ambit_records **r, ambit_failure *f); /* "-": stdout */
 /* STOPPED if a write failed, now or earlier */
 ambit_status ambit_records_close(ambit_records *r, ambit_failure *f);
+
+/* `before` is called at the beginning of each line and may write lines of its own: of what the line rests on. If it
+** fails, the line is not written, and no other. */
+void ambit_records_watch(ambit_records *r, ambit_status (*before)(void *user, ambit_failure *f), void *user);
 
 /* Building one line: begin, any fields, end. Keys in a begin/end pair; `end` writes and flushes. No allocation
 ** after the first lines. */

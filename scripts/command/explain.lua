@@ -56,6 +56,7 @@ function command.run(list)
   if options.json then
     require("ambit.command.explain.json").write(facts)
   elseif options.dot ~= "-" then
+    io.stdout:write(require "ambit.provenance".lines "", "\n")
     require("ambit.command.explain.text").write(function(f, ...) io.stdout:write(f:format(...)) end, facts)
   end
   if options.dot or options.svg then code = write_graphs(options, facts) end

@@ -1,5 +1,6 @@
 -- main.lua -- the command line: `ambit <command> ...` -> exit code. Data goes to stdout, everything else to stderr.
 local core = require "ambit.core"
+local provenance = require "ambit.provenance"
 
 local commands = {
   { "run", "run a scene" },
@@ -80,6 +81,7 @@ return function(argv)
   for _, entry in ipairs(commands) do
     if entry[1] == name then
       local command = require("ambit.command." .. name)
+      provenance.begin(name)
       local arguments = table.move(argv, 2, #argv, 1, {})
       for _, word in ipairs(arguments) do
         if word == "--" or (command.scene and word:sub(1, 1) ~= "-" and word ~= "-") then break end

@@ -1,6 +1,7 @@
 -- profile.lua -- `ambit profile`: where the time of a scene goes.
 local core = require "ambit.core"
 local json = require "ambit.view.json"
+local provenance = require "ambit.provenance"
 local scene = require "ambit.command.scene"
 local session = require "ambit.session"
 local sums = require "ambit.command.profile.sums"
@@ -56,8 +57,11 @@ end
 local function write_all(files, p)
   local function writer(file) return function(...) return assert(file:write(...)) end end
   if files.folded then text.fold(writer(files.folded), p.frames) end
-  if files.json then writer(files.json)(json.encode(p), "\n") end
-  if files.json ~= io.stdout and files.folded ~= io.stdout then text.print(writer(io.stdout), p) end
+  if files.json then writer(files.json)(provenance.json(json.encode(p)), "\n") end
+  if files.json ~= io.stdout and files.folded ~= io.stdout then
+    writer(io.stdout)(provenance.lines "", "\n")
+    text.print(writer(io.stdout), p)
+  end
   for _, name in ipairs { "json", "folded" } do
     if files[name] and files[name] ~= io.stdout then assert(files[name]:close()) end
   end

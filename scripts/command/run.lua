@@ -1,5 +1,6 @@
 -- run.lua -- `ambit run`.
 local core = require "ambit.core"
+local provenance = require "ambit.provenance"
 local scene = require "ambit.command.scene"
 local session = require "ambit.session"
 
@@ -31,7 +32,8 @@ function command.run(list)
   core.notes(not options.quiet)
   if not options.quiet then scene.note_strays(words, known) end
   if options.json then
-    local good, problem = pcall(core.records_open, options.json)
+    provenance.begin(nil, file)
+    local good, problem = pcall(provenance.records, options.json)
     if not good then return complain(problem) or 1 end
     if options.json == "-" then scene.print_to_stderr() end
   end

@@ -1,6 +1,7 @@
 -- scene.lua -- running a script the way `lua` would: its words in `arg`, errors with a traceback of the script's own
 -- lines.
 local core = require "ambit.core"
+local provenance = require "ambit.provenance"
 
 local scene = {
   leave = {}, -- raised where os.exit may not end the process
@@ -29,6 +30,7 @@ end
 
 -- Loads and runs file with the given words; false and the message with traceback if that fails.
 function scene.run(file, words)
+  provenance.begin(nil, file)
   _G.arg = table.move(words, 1, #words, 1, { [0] = file })
   local chunk, problem = loadfile(file)
   if not chunk then return false, problem end

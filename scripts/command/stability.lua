@@ -1,5 +1,6 @@
 -- stability.lua -- `ambit stability`: the suite of stiff, chaotic and extreme cases, held against what is expected.
 local core = require "ambit.core"
+local provenance = require "ambit.provenance"
 local files = require "ambit.command.stability.files"
 local scene = require "ambit.command.scene"
 local select_cases = require "ambit.suite.select"
@@ -81,6 +82,7 @@ function command.run(list)
   end
   local problem = files.problem(options)
   if problem then return complain(problem) or 1 end
+  if file then provenance.begin(nil, file) end
   local good, selected = pcall(function()
     return select_cases.of(file and select_cases.file(file) or select_cases.own(), options)
   end)

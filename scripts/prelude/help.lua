@@ -103,6 +103,8 @@ of a mechanism; otherwise nothing happens.]],
   plugin = "plugin(kind, name): one plugin, loaded; its exported functions are in .fn.",
   trust = "trust { folder, ..., shadow = true }: load plugins from these folders although others may write there;\n"
     .. "shadow: a plugin may have the kind and name of one of Ambit's own, which it replaces.",
+  provenance = "provenance(): what results rest on so far: version, scene, kernel and every loaded plugin, with files\n"
+    .. "and their SHA-256.",
   help = "help([name]): this text; name of a function or a plugin.",
   version = "version: of Ambit.",
 }

@@ -36,6 +36,7 @@ local ambit = {
   plugins = later("plugin", "plugins"),
   plugin = later("plugin", "plugin"),
   trust = later("plugin", "trust"),
+  provenance = later("provenance", "now"),
   help = function(...) return require "ambit.help"(...) end,
 }
 

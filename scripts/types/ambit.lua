@@ -931,6 +931,11 @@ function ambit.plugins(kind) end
 ---@return { kind: string, name: string, version: string, doc: string, fn: table<string, function> }
 function ambit.plugin(kind, name) end
 
+---What results rest on so far. The files are hashed when this is called; a plugin whose file was changed since it was
+---loaded is an error.
+---@return { ambit: string, command: string?, scene: { file: string, sha256: string }?, kernel: { file: string, sha256: string }, plugins: { kind: string, name: string, version: string, file: string, sha256: string, shadows: string? }[], trusted: string[]? }
+function ambit.provenance() end
+
 ---Loads plugins from these folders although others may write there. It holds for the whole process, and for plugins that
 ---are loaded from then on: what `ambit --trust FOLDER --allow-shadow` says on the command line.
 ---@param t { [integer]: string, shadow?: boolean } shadow: a plugin may replace one of Ambit's own by its kind and name

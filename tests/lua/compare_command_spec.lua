@@ -84,11 +84,11 @@ describe("ambit compare on what a scene simulates", function()
       ("--quick --csv %s --html %s --json %s%s"):format(csv, html, json, drawn and " --svg " .. svg or ""))
     assert.equal(0, code, stderr)
     local text = read(csv)
-    assert.equal(1 + 3, count(text, "\r\n"))
+    assert.equal(1 + 3, count(text:gsub("#[^\n]*\n", ""), "\r\n"))
     has(text, "1,simulate,", ",lohner,interval,order=12,yes,complete,,1,x,0.3678794", ",gsl,real,,no,complete,,1,x,")
     has(read(html), "<html", "lohner order=12")
     text = read(json)
-    assert.equal(4, count(text, "\n"))
+    assert.equal(4, count(text:gsub('{"record":"p[rl][ou][vg][^\n]*\n', ""), "\n")) -- without provenance, plugins
     has(text, '"solver":"lohner"', '"error":', '"t_reached":1', '"verb":"compare"')
     text = read(svg)
     if drawn then has(text, "<svg", "largest distance from the reference", "lohner, by order") end

@@ -4,6 +4,7 @@ local compare_records = require "ambit.compare.records"
 local core = require "ambit.core"
 local outputs = require "ambit.command.outputs"
 local picture = require "ambit.compare.picture"
+local provenance = require "ambit.provenance"
 
 local files = {}
 
@@ -12,7 +13,9 @@ local function complain(message) io.stderr:write("ambit: ", tostring(message), "
 -- Said before anything is computed: the file that cannot be written.
 function files.problem(options) return outputs.problem(options, { "csv", "svg", "html", "json" }, { json = true }) end
 
-local function write_csv(list, name) outputs.write(name, compare_csv.text(list)) end
+local function write_csv(list, name) 
+  outputs.write(name, provenance.lines("# ", "\r\n") .. compare_csv.text(list))
+end
 
 -- -- JSON lines
 
@@ -27,7 +30,7 @@ local function status_of(list)
 end
 
 local function write_json(list, name, file, settings)
-  core.records_open(name)
+  provenance.records(name)
   for number, comparison in ipairs(list) do compare_records.write(comparison, number) end
   local status, seconds = status_of(list)
   core.record("result", { "verb", "compare", "scene", file, "status", status, "comparisons", #list, "cpu_seconds",

@@ -81,7 +81,7 @@ local function write_datum(datum)
 end
 
 function explain.write(facts)
-  core.records_open "-"
+  require "ambit.provenance".records "-"
   write_process(facts)
   for _, tree in ipairs(facts.mechanisms) do write_mechanism(tree) end
   for _, datum in ipairs(facts.data) do write_datum(datum) end

@@ -1,6 +1,7 @@
 -- stability/files.lua -- what `ambit stability` writes besides its table: a page, JSON, CSV, Markdown.
 local json = require "ambit.view.json"
 local outputs = require "ambit.command.outputs"
+local provenance = require "ambit.provenance"
 local suite_table = require "ambit.suite.table"
 
 local files = {}
@@ -26,9 +27,11 @@ end
 
 local text_of = {
   html = function(result) return require "ambit.page.stability".of(result) end,
-  json = function(result) return json.encode(exact(result)) .. "\n" end,
-  csv = suite_table.csv,
-  markdown = suite_table.markdown,
+  json = function(result) return provenance.json(json.encode(exact(result))) .. "\n" end,
+  csv = function(result) return provenance.lines("# ", "\r\n") .. suite_table.csv(result) end,
+  markdown = function(result)
+    return ("<!--\n%s-->\n"):format(provenance.lines(""):gsub("%-%-", "- -")) .. suite_table.markdown(result)
+  end,
 }
 
 function files.write(result, options)

@@ -5,6 +5,7 @@
 -- Ctrl-C at any time ends the child that runs; what was not run by then is a row that says so. What ran stays, wherever
 -- in here the Ctrl-C comes.
 local core = require "ambit.core"
+local provenance = require "ambit.provenance"
 local wire = require "ambit.wire"
 
 local Engine = {}
@@ -56,14 +57,14 @@ end
 function Engine:child(f)
   if self.interrupted then return nil end
   local s = self.settings
-  local child = core.child(function() return wire.write(f()) end,
+  local child = core.child(function() return provenance.with(wire.write(f())) end,
     { cpu = s.limit, wall = s.wall or 3 * s.limit + 10, memory = s.memory })
   local good, result = pcall(wait, self, child)
   core.child_kill(child)
   if not good then error(result, 0) end
   self.cpu_seconds = self.cpu_seconds + (result and result.cpu_seconds or 0)
   if result and result.outcome == "done" then
-    local readable, data = pcall(wire.read, result.value)
+    local readable, data = pcall(wire.read, provenance.take(result.value))
     if readable then
       result.data = data
     else

@@ -3,6 +3,7 @@ local html = require "ambit.page.html"
 local json = require "ambit.view.json"
 local machine = require "ambit.page.machine"
 local parts = require "ambit.page.parts"
+local provenance = require "ambit.provenance"
 
 local document = {}
 
@@ -22,6 +23,7 @@ end
 function document.of(page)
   local facts = table.move(page.facts, 1, #page.facts, 1, {})
   local fill = { TITLE = html.text(page.title), SUBTITLE = html.text(page.subtitle), BODY = page.body,
+    PROVENANCE = provenance.html(),
     STYLE = joined(page.styles), DARK = parts["dark.css"], SCHEME = parts["scheme.js"],
     LIBRARY = library(page.library), SCRIPT = joined(page.scripts), DATA = json.encode(page.data or {}),
     FACTS = html.facts(table.move(machine.facts(), 1, 3, #facts + 1, facts)) }

@@ -4,6 +4,7 @@
 local check = require "ambit.check"
 local core = require "ambit.core"
 local encoder = require "ambit.view.json"
+local provenance = require "ambit.provenance"
 local scenarios = require "ambit.reduce.report_scenario"
 local source_lua = require "ambit.source.lua"
 
@@ -139,7 +140,7 @@ function json.text(self)
     detailed = model_of(self.detailed, data, "detailed"), reduced = model_of(self.model, data, "reduced"),
     data = ranges_of(data), scenarios = scenarios_of(self), settings = settings_of(self.settings) }
   for _, key in ipairs(facts) do whole[key] = plain(self[key]) end
-  return encoder.encode(whole) .. "\n"
+  return provenance.json(encoder.encode(whole)) .. "\n"
 end
 
 -- The result in memory is not touched: what could not be written can be written elsewhere.

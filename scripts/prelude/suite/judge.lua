@@ -1,6 +1,7 @@
 -- suite/judge.lua -- what a child process brought back, held against what is expected of its combination.
 local case_of = require "ambit.suite.case"
 local option = require "ambit.option"
+local provenance = require "ambit.provenance"
 local wire = require "ambit.wire"
 
 local judge = {}
@@ -49,7 +50,7 @@ local function one_line(text) return (text:gsub("%s*\n%s*", "; ")) end
 -- What core.child_wait says -> a row, not yet judged.
 local function row_of(ended, case)
   if ended.outcome == "done" then
-    local row = wire.read(ended.value)
+    local row = wire.read(provenance.take(ended.value))
     if row.reason then row.reason = one_line(row.reason) end
     return row
   end

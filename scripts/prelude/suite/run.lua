@@ -10,6 +10,7 @@ local core = require "ambit.core"
 local judge = require "ambit.suite.judge"
 local measure = require "ambit.suite.measure"
 local over = require "ambit.suite.over"
+local provenance = require "ambit.provenance"
 local wire = require "ambit.wire"
 
 local suite = {}
@@ -23,7 +24,7 @@ local function wall(case) return case.wall or 10 * case.cpu + 60 end
 -- budget: a factor on the times, for slow machines and checked builds
 local function start(job, budget)
   local case, c = job.case, job.combination
-  return core.child(function() return wire.write(measure.row(case, c)) end,
+  return core.child(function() return provenance.with(wire.write(measure.row(case, c))) end,
     { cpu = budget * case.cpu, wall = budget * wall(case), memory = case.memory })
 end
 

@@ -3,6 +3,7 @@ local core = require "ambit.core"
 local html = require "ambit.page.html"
 local json = require "ambit.view.json"
 local parts = require "ambit.view.parts"
+local provenance = require "ambit.provenance"
 
 local page = {}
 
@@ -16,8 +17,9 @@ end
 
 -- views: what view_data makes, in order
 function page.of(views, scene)
-  local content = json.encode { ambit = core.version, scene = scene, views = views }
-  local fill = { TITLE = html.text(views[1].title), STYLE = parts["view.css"], SCRIPT = script(), DATA = content }
+  local content = json.encode { ambit = core.version, provenance = provenance.now(), scene = scene, views = views }
+  local fill = { TITLE = html.text(views[1].title), STYLE = parts["view.css"], SCRIPT = script(), DATA = content,
+    PROVENANCE = provenance.html() }
   return (parts["page.html"]:gsub("@(%u+)@", fill))
 end
 

@@ -1,0 +1,2 @@
+pkg_check_modules(NETTLE REQUIRED IMPORTED_TARGET nettle)
+set(AMBIT_PLUGIN_LIBRARIES PkgConfig::NETTLE)
