@@ -22,7 +22,7 @@ local summed = { "tape_slots", "tape_instructions", "unknowns", "coefficients", 
 
 local read = {}
 
-function read.plugin(m, record)
+function read.available(m, record)
   if record.loaded == 0 then return end
   m.plugins = m.plugins + 1
   m.here[#m.here + 1] = record.kind .. "." .. record.name

@@ -51,7 +51,7 @@ end
 
 local function loaded(by)
   local set = {}
-  for _, plugin in ipairs(by.plugin) do
+  for _, plugin in ipairs(by.available) do
     if plugin.loaded == 1 then set[plugin.kind .. "." .. plugin.name] = plugin end
   end
   for _, library in ipairs(by.library) do set[library.name] = library end
@@ -212,7 +212,7 @@ describe("ambit explain --json", function()
     assert.is_true(here["libc.so.6"].mapped >= here["libc.so.6"].resident)
     assert.is_true(here["libc.so.6"].resident > 100000)
     assert.is_true(here["arithmetic.affine"].bytes > 10000)
-    assert.is_true(#by.plugin > 50)
+    assert.is_true(#by.available > 50)
     assert.is_true(by.memory[1].peak >= by.memory[1]["end"])
   end)
 

@@ -32,7 +32,7 @@ local function write_process(facts)
   core.record("plugins", { "loaded", table.concat(loaded, " "), "left", table.concat(left, " "), "libraries",
     table.concat(libraries, " ") })
   for _, plugin in ipairs(facts.plugins) do
-    core.record("plugin", { "kind", plugin.kind, "name", plugin.name, "loaded", plugin.loaded and 1 or 0, "bytes",
+    core.record("available", { "kind", plugin.kind, "name", plugin.name, "loaded", plugin.loaded and 1 or 0, "bytes",
       plugin.bytes })
   end
   for _, library in ipairs(facts.libraries) do
