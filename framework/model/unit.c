@@ -253,7 +253,7 @@ static bool read_sixtieths(reader *r, int *power) {
   if (bracket && *r->at == '/') {
     r->at++;
     if (!read_integer(r, &below) || below == 0) return false;
-  } else if (*r->at == '.') {
+  } else if (*r->at == '.' && r->at[1] >= '0' && r->at[1] <= '9') { /* m^2.kg is a product */
     for (r->at++; *r->at >= '0' && *r->at <= '9' && below < 1000; r->at++, below *= 10)
       above = 10 * above + *r->at - '0';
   }

@@ -7,6 +7,7 @@
 -- for all of them with stability = true.
 local check = require "ambit.check"
 local core = require "ambit.core"
+local ode = require "ambit.ode"
 local roots = require "ambit.roots"
 local simulate = require "ambit.simulate"
 local stability = require "ambit.stability"
@@ -77,7 +78,9 @@ function verb.equilibria(t)
     check.fail("equilibria: stability: expected true or false, got %s", check.kind(t.stability))
   end
   local speeds = find_speeds(system)
-  local names, ranges = roots.read_box(t.box, "equilibria")
+  local units = {}
+  for i, name in ipairs(system.states) do units[name] = ode.unit(system, i) end
+  local names, ranges = roots.read_box(t.box, "equilibria", units)
   local searched = check_box(names, system, speeds, "equilibria")
   local list, leaves, values = equations(system, speeds)
   local symbols, allowed = roots.symbols(list), {}

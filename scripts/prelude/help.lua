@@ -13,7 +13,7 @@ mag(), mig(), contains(x), hull(x), intersect(x), text(digits), is_empty(), is_b
   text_arithmetic = [[
 text_arithmetic(true): "1" / "3" means a third, as it always does in the command; text_arithmetic(false): it is Lua's,
 which rounds. For scripts that a stock lua5.4 runs; returns what it was: "ambit", "lua" or "watched".]],
-  degrees = "degrees(x): x pi/180, exact.",
+  degrees = 'degrees(x): x pi/180, exact, of a number without a unit; "60 deg" is converted already.',
   pi = "pi: the constant itself, enclosed by each arithmetic.",
   time = "time: the time t of a simulation, for given motions and forces.",
   mechanism = [[
@@ -32,7 +32,8 @@ chain { "leg", doc = "...", ports = { from = "frame" }, parameters = { thigh = {
 build = function(m, p) ... return { foot = frame } end }: from then on m:leg { name = "left", from = f } is an element;
 its parts are left.knee, ..., what build returns is left.foot.]],
   ode = [[
-ode { states = { "x" }, parameters = { a = 1 }, equations = function(s, p, t) return { x = -p.a * s.x } end }]],
+ode { states = { "x" }, parameters = { a = 1 }, equations = function(s, p, t) return { x = -p.a * s.x } end }; with
+units, states = { x = "m" }, derivatives must be in them by s, unless check_units = false.]],
   evaluate = [[
 evaluate { expression or table of them, at = { name = value }, arithmetic = "interval" }: enclosures, in the same
 shape.]],

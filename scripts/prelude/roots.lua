@@ -45,18 +45,20 @@ function verb.range(value, what, unit)
   if kind == "function" or kind == "boolean" or kind == "nil" then
     check.fail("%s: expected { lo, hi }, an enclosure or a text, got %s", what, kind)
   end
+  local own = unit and core.unit_of(value)
+  if own then core.expression(core.in_unit(core.expression(0), own), unit, what) end
   return interval(what, value)
 end
 
--- The ranges of the unknowns by sorted name.
-function verb.read_box(box, what)
+-- The ranges of the unknowns by sorted name; units: { [name] = its unit } where they are known
+function verb.read_box(box, what, units)
   if box == nil then check.fail("%s: box is missing: { x = { lo, hi }, ... } for every unknown", what) end
   check.table(box, what .. ": box")
   local names, ranges = {}, {}
   if next(box) == nil then check.fail("%s: box is empty: { x = { lo, hi }, ... } for every unknown", what) end
   for i, name in ipairs(check.sorted(box)) do
     names[i] = check.text(name, what .. ": box: name of an unknown")
-    ranges[i] = verb.range(box[name], ("%s: box.%s"):format(what, name))
+    ranges[i] = verb.range(box[name], ("%s: box.%s"):format(what, name), units and units[name])
   end
   return names, ranges
 end
@@ -78,7 +80,7 @@ function verb.bind(at, symbols, allowed, what)
     local leaf = symbols[name]
     if leaf then
       leaves[#leaves + 1] = leaf.expression
-      values[#values + 1] = core.expression(at[name], leaf.unit, ("%s: at.%s"):format(what, name))
+      values[#values + 1] = core.expression(at[name], leaf.unit ~= "1" and leaf.unit or nil, ("%s: at.%s"):format(what, name))
     elseif not allowed[name] then
       check.fail("%s: at: there is no variable `%s`%s", what, tostring(name),
         check.suggest(name, check.sorted(symbols)))

@@ -79,7 +79,7 @@ function ambit.between(lo, hi) end
 function ambit.text_arithmetic(is_exact) end
 
 ---@param x ambit.datum
----@param unit? string SI unit that it must agree with
+---@param unit? string unit that it must agree with, and that of x if it has none
 ---@return ambit.expression
 function ambit.number(x, unit) end
 
@@ -90,7 +90,7 @@ function ambit.number(x, unit) end
 function ambit.interval(lo, hi) end
 
 ---@generic T: ambit.expression|ambit.enclosure
----@param x ambit.datum degrees
+---@param x ambit.datum degrees, without a unit
 ---@return ambit.expression|ambit.enclosure # rad
 function ambit.degrees(x) end
 
@@ -348,7 +348,7 @@ function ode:latex() end
 ---@return string # a model ... end
 function ode:modelica() end
 
----@param t { states: string[]|table<string, string>, parameters: table<string, ambit.datum>?, equations: (fun(s: table<string, ambit.expression>, p: table<string, ambit.expression>, t: ambit.expression): table<string, ambit.datum>)|table<string, ambit.datum|function>, name: string? }
+---@param t { states: string[]|table<string, string>, parameters: table<string, ambit.datum>?, equations: (fun(s: table<string, ambit.expression>, p: table<string, ambit.expression>, t: ambit.expression): table<string, ambit.datum>)|table<string, ambit.datum|function>, name: string?, check_units: boolean? }
 ---@return ambit.ode
 function ambit.ode(t) end
 

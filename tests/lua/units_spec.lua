@@ -88,6 +88,48 @@ describe("units", function()
   end)
 end)
 
+describe("docs/units.md", function()
+  local function rows()
+    local list = {}
+    for line in io.lines "docs/units.md" do
+      local cells = {}
+      for cell in line:gmatch "|([^|]*)" do cells[#cells + 1] = cell:match "^%s*(.-)%s*$" end
+      if #cells > 0 then list[#list + 1] = cells end
+    end
+    return list
+  end
+
+  it("lists every unit with its value, and every prefix", function()
+    local core = require "ambit.core"
+    local units, prefixes = core.units()
+    local unit_of, prefix_of = {}, {}
+    for _, cells in ipairs(rows()) do
+      local name, value = (cells[1] or ""):match "^`([^`]+)`$", (cells[2] or ""):match "^`([^`]+)`$"
+      if name and value and cells[3] then unit_of[name] = { value = value, prefix = cells[3] == "yes" } end
+      for prefix in (cells[1] or ""):gmatch "`([^`]+)`" do
+        if tonumber(cells[2]) then prefix_of[prefix] = tonumber(cells[2]) end
+      end
+    end
+    for _, unit in ipairs(units) do
+      local row = unit_of[unit.name]
+      assert.is_truthy(row, unit.name)
+      assert.equal(unit.prefix, row.prefix, unit.name)
+      local angle, rest = row.value:match "^([%d*]*pi[/%d]*)%s*(.*)$"
+      local value = angle and number(load("local pi = ... return " .. angle)(ambit.pi), rest ~= "" and rest or nil)
+        or number(row.value)
+      local off = range(number("1 " .. unit.name) - value) -- refused if the dimensions differ
+      assert.is_true(off:mag() <= 1e-15 * range(value):mag(), unit.name)
+      unit_of[unit.name] = nil
+    end
+    assert.is_nil(next(unit_of))
+    for _, prefix in ipairs(prefixes) do
+      assert.equal(10.0 ^ prefix.decimal, prefix_of[prefix.name], prefix.name)
+      prefix_of[prefix.name] = nil
+    end
+    assert.is_nil(next(prefix_of))
+  end)
+end)
+
 describe("numbers without a unit", function()
   it("take that of the other terms", function()
     assert.is_truthy(number "1 m" + 1 + "1 m")
@@ -141,6 +183,7 @@ describe("an ode", function()
     fails(function() ambit.simulate { fall, initial = { y = number "1 m" / "1 s", v = 0 }, t = 1 } end, "initial.y",
       "a length (m)", "a speed (m/s)")
     fails(function() ambit.simulate { fall, initial = initial, t = "1 m" } end, "m")
+    fails(function() ambit.evaluate { fall:rate "v" + "1 m/s" } end, "a speed (m/s)")
     fails(function()
       ambit.simulate { fall, initial = initial, t = 1, events = { { g = function(s) return s.y - s.v end } } }
     end, "a length (m)", "a speed (m/s)")
@@ -199,6 +242,9 @@ describe("a mechanism", function()
       m:applied_force { at = tip, force = function(_, v) return { number "3 N/m" * v.x, 0, 0 } end }
     end, "force[1]", "a force (N)")
     fails(function() m:point_mass { at = tip, mass = m:distance(tip, m.world) } end, "mass", "a mass (kg)", "a length (m)")
+    for _, box in ipairs { { "1 m", "2 m" }, "[1, 2] m", { 0, m:distance(tip, m.world) } } do
+      fails(function() ambit.equilibria { m:dynamics(), box = { q = box } } end, "box.q")
+    end
     local function safe(s) return s.q - "1 m" end
     fails(function() ambit.verify { m:dynamics(), initial = { q = 0, ["q'"] = 0 }, t = 1, safe = safe } end,
       "a number or angle (rad)", "a length (m)")

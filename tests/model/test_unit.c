@@ -94,6 +94,7 @@ static void factors_are_exact(void **state) {
   check("9.81 m/s^2", "m/s^2", "981", "100", 0, 1);
   check("9.81 m s^-2", "m/s^2", "981", "100", 0, 1);
   check("4 J/(kg.K)", "m^2/(s^2 K)", "4", "1", 0, 0);
+  check("4 m^2.kg", "kg m^2", "4", "1", 0, 0);
   check("4 m/s/s", "m/s^2", "4", "1", 0, 0);
   check("1 V", "kg*m^2/s^3/A", "1", "1", 0, 0);
   check("  2\tm ", "m", "2", "1", 0, 0);

@@ -14,6 +14,7 @@ end
 
 -- "kg*m^2/s^2/A" as "kg.m2/(s2.A)"; nil if it is written in another way than by factors.
 local function unit(value)
+  if value:find "%^[-+]?%d+%.%d" or value:find "%^%(" then return nil end -- Modelica has whole powers only
   local above, below, rest = {}, {}, "*" .. value:gsub("^%s+", ""):gsub("%s+$", "")
   while rest ~= "" do
     local sign, factor, power, after = rest:match "^%s*([*./ ]?)%s*([%a%d]+)%^?(-?%d*)(.*)$"
