@@ -68,18 +68,6 @@ static ambit_expr differential(ambit_graph *g, ambit_expr e, ambit_node x, ambit
   }
 }
 
-/* The sign of a where it is not 0; undefined there. */
-static ambit_expr side(ambit_graph *g, ambit_expr a) { return over(g, a, unary(g, AMBIT_OP_ABS, a)); }
-
-/* d f(a, b) of ABS, MIN and MAX off the places where they switch, on which it is undefined:
-** max(a, b) = (a + b + |a - b|) / 2 */
-static ambit_expr kink_differential(ambit_graph *g, ambit_node x, ambit_expr da, ambit_expr db) {
-  if (x.op == AMBIT_OP_ABS) return times(g, side(g, x.a), da);
-  ambit_expr apart = times(g, side(g, subtract(g, x.a, x.b)), subtract(g, da, db));
-  ambit_expr both = ambit_fold_sum(g, add(g, da, db), apart, x.op == AMBIT_OP_MIN);
-  return times(g, ambit_graph_number(g, 0.5), both);
-}
-
 static const char *not_smooth(uint32_t op) {
   return op == AMBIT_OP_ABS ? "abs" : op == AMBIT_OP_MIN ? "min" : op == AMBIT_OP_MAX ? "max" : NULL;
 }
@@ -90,7 +78,7 @@ static ambit_expr no_memory(ambit_failure *f) {
 }
 
 /* d [walk->count]: at the leaves given, elsewhere computed here. */
-static ambit_expr chain(ambit_graph *g, const ambit_walk *walk, ambit_expr *d, bool off_kinks, ambit_failure *f) {
+static ambit_expr chain(ambit_graph *g, const ambit_walk *walk, ambit_expr *d, ambit_failure *f) {
   ambit_expr last = AMBIT_ZERO;
   for (size_t i = 0; i < walk->count; i++) {
     ambit_expr e = walk->node[i];
@@ -99,13 +87,13 @@ static ambit_expr chain(ambit_graph *g, const ambit_walk *walk, ambit_expr *d, b
     if (!ambit_op_is_leaf(x.op)) {
       const char *kink = not_smooth(x.op);
       bool fixed = da == AMBIT_ZERO && db == AMBIT_ZERO;
-      if (kink && !fixed && !off_kinks) {
+      if (kink && !fixed) {
         const char *writer = ambit_graph_writer(g, e);
         ambit_fail(f, AMBIT_INVALID, "%s%s%s has no derivative where it switches: it cannot be differentiated", kink,
             writer ? " of " : "", writer ? writer : "");
         return AMBIT_NO_EXPR;
       }
-      d[i] = fixed ? AMBIT_ZERO : kink ? kink_differential(g, x, da, db) : differential(g, e, x, da, db);
+      d[i] = fixed ? AMBIT_ZERO : differential(g, e, x, da, db);
       if (d[i] == AMBIT_NO_EXPR) return no_memory(f);
     }
     last = d[i];
@@ -114,7 +102,7 @@ static ambit_expr chain(ambit_graph *g, const ambit_walk *walk, ambit_expr *d, b
 }
 
 static ambit_expr differentiate(ambit_graph *g, ambit_expr e, size_t n, const ambit_expr *leaf, const ambit_expr *rate,
-    ambit_expr time_rate, bool off_kinks, ambit_failure *f) {
+    ambit_expr time_rate, ambit_failure *f) {
   if (e >= g->count) {
     ambit_fail(f, AMBIT_INVALID, "there is no expression to differentiate");
     return AMBIT_NO_EXPR;
@@ -128,7 +116,7 @@ static ambit_expr differentiate(ambit_graph *g, ambit_expr e, size_t n, const am
     for (size_t k = 0; k < n; k++)
       if ((at = ambit_walk_find(g, leaf[k])) != UINT32_MAX) d[at] = rate[k];
   }
-  ambit_expr r = d ? chain(g, &walk, d, off_kinks, f) : no_memory(f);
+  ambit_expr r = d ? chain(g, &walk, d, f) : no_memory(f);
   free(d);
   ambit_walk_close(&walk);
   return r;
@@ -136,15 +124,16 @@ static ambit_expr differentiate(ambit_graph *g, ambit_expr e, size_t n, const am
 
 ambit_expr ambit_graph_derivative(ambit_graph *g, ambit_expr e, ambit_expr x, ambit_failure *f) {
   ambit_expr one = AMBIT_ONE;
-  return differentiate(g, e, 1, &x, &one, AMBIT_ZERO, false, f);
+  return differentiate(g, e, 1, &x, &one, AMBIT_ZERO, f);
 }
 
 ambit_expr ambit_graph_time_derivative(
     ambit_graph *g, ambit_expr e, size_t n, const ambit_expr *leaf, const ambit_expr *rate, ambit_failure *f) {
-  return differentiate(g, e, n, leaf, rate, AMBIT_ONE, false, f);
+  return differentiate(g, e, n, leaf, rate, AMBIT_ONE, f);
 }
 
 ambit_expr ambit_graph_rate_off_kinks(
     ambit_graph *g, ambit_expr e, size_t n, const ambit_expr *leaf, const ambit_expr *rate, ambit_failure *f) {
-  return differentiate(g, e, n, leaf, rate, AMBIT_ONE, true, f);
+  e = e < g->count ? ambit_graph_kinks_as_roots(g, e) : e;
+  return e == AMBIT_NO_EXPR ? no_memory(f) : differentiate(g, e, n, leaf, rate, AMBIT_ONE, f);
 }

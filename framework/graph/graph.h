@@ -86,12 +86,15 @@ ambit_expr ambit_graph_derivative(ambit_graph *g, ambit_expr e, ambit_expr x, am
 ** has 1). Valid where the derivative is. */
 ambit_expr ambit_graph_time_derivative(
     ambit_graph *g, ambit_expr e, size_t n, const ambit_expr *leaf, const ambit_expr *rate, ambit_failure *f);
-/* The same where ABS, MIN and MAX do not switch; where they do, it is undefined. */
+/* The same where ABS, MIN and MAX do not switch; where they do, it is undefined. There is none of them in it, so that it
+** has derivatives itself. */
 ambit_expr ambit_graph_rate_off_kinks(
     ambit_graph *g, ambit_expr e, size_t n, const ambit_expr *leaf, const ambit_expr *rate, ambit_failure *f);
 /* e[i] with leaf from[k] replaced by to[k], in place; shared work. */
 ambit_status ambit_graph_substitute(
     ambit_graph *g, size_t ne, ambit_expr *e, size_t n, const ambit_expr *from, const ambit_expr *to, ambit_failure *f);
+/* e with |a| as sqrt(a^2) and min, max by |a - b|: equal everywhere, but its derivatives are undefined at the kinks. */
+ambit_expr ambit_graph_kinks_as_roots(ambit_graph *g, ambit_expr e);
 /* Additive terms of e: e = sum of term[i]; returns their number, writes at most `room`. */
 size_t ambit_graph_terms(const ambit_graph *g, ambit_expr e, size_t room, ambit_expr *term, bool *negative);
 /* e as a polynomial in its non-polynomial subexpressions, expanded, sin^2 -> 1 - cos^2, collected; returned if it

@@ -143,9 +143,19 @@ local function fail(number, event, c, why)
   print(("system %d: g = %s, zero at %.17g: %s"):format(number, event.name, c, why))
 end
 
+-- Did the run end before c, by itself or with an event of those that stop it?
+local function ended_before(run, stops, c, way)
+  if (run.t_reached - c) * way < 0 then return true end
+  for _, found in ipairs(run.events) do
+    local last = way > 0 and found.t.hi or found.t.lo
+    if stops[found.name] and (last - c) * way < 0 then return true end
+  end
+  return false
+end
+
 -- Of the events called `name`, is the one that holds c there?
-local function judge(number, run, event, name, c, way, start)
-  if c == start then return end -- where g is 0 at the start, that is no event
+local function judge(number, run, event, name, c, way, stops)
+  if c == 0 then return end -- where g is 0 at the start, that is no event
   counts.zeros = counts.zeros + 1
   for _, found in ipairs(run.events) do
     if found.name == name and found.t:contains(c) then
@@ -155,22 +165,22 @@ local function judge(number, run, event, name, c, way, start)
       return
     end
   end
-  local last = run.ended_by and run.events[#run.events]
-  if (run.t_reached - c) * way < 0 or last and (last.t.hi - c) * way < 0 then
+  if ended_before(run, stops, c, way) then
     counts.unable = counts.unable + 1
-  elseif run.status ~= "complete" and run.events[1] and (run.events[#run.events].t.hi - c) * way < 0 then
-    counts.unable = counts.unable + 1 -- an event that stops the run ended it before
   else
     fail(number, event, c, ("%s at %.17g (%s), %d events"):format(run.status, run.t_reached, run.reason, #run.events))
   end
 end
 
 local function simulate(number, q, list, times, way)
-  local events = {}
-  for k, event in ipairs(list) do events[k] = { g = event.g, name = tostring(k), stop = random(4) == 1 } end
+  local events, stops = {}, {}
+  for k, event in ipairs(list) do
+    events[k] = { g = event.g, name = tostring(k), stop = random(4) == 1 }
+    stops[tostring(k)] = events[k].stop
+  end
   local run = ambit.simulate { q.ode, initial = q.initial, t = times, solver = q.solver, events = events }
   for k, event in ipairs(list) do
-    for _, c in ipairs(event.zeros) do judge(number, run, event, tostring(k), c, way, 0) end
+    for _, c in ipairs(event.zeros) do judge(number, run, event, tostring(k), c, way, stops) end
   end
 end
 
