@@ -36,7 +36,9 @@ function instant.read(value, what)
 end
 
 function instant.text(t)
-  return t.lo == t.hi and core.literal(t.lo) or core.interval(t.lo, t.hi):text(17)
+  if t.lo == t.hi then return core.literal(t.lo) end
+  local between = ("between %s and %s"):format(core.literal(t.lo), core.literal(t.hi))
+  return type(t.value) == "string" and ("`%s`, %s"):format(t.value, between) or between
 end
 
 -- Exactly.

@@ -83,10 +83,10 @@ local function by_name(self, list)
 end
 
 -- At an instant with a bracket on the clock.
-local function at_bracket(self, t)
+local function at_bracket(self, t, given)
   local first, last = self.times[1], self.t_reached
   local forward = last >= first
-  if t.lo < math.min(first, last) or t.hi > math.max(first, last) then not_within(self, t) end
+  if t.lo < math.min(first, last) or t.hi > math.max(first, last) then not_within(self, given or t) end
   local list = bracket.values(self, forward and t.lo or t.hi, forward and t.hi or t.lo, t.near)
   return list and by_name(self, list)
 end
@@ -105,7 +105,7 @@ function methods:at(t)
   if start and instant.is_same(given, start) then return strict(self.initial(), self.states) end
   local own = instant.on_clock(given, self.times.shift)
   local values
-  if own.lo == own.hi then values = at_double(self, own) else values = at_bracket(self, own) end
+  if own.lo == own.hi then values = at_double(self, own) else values = at_bracket(self, own, given) end
   if not values then
     check.fail('at: solver `%s` says nothing between its steps; put t into the list of times', self.solver)
   end

@@ -94,9 +94,11 @@ Sample.__index = Sample
 
 -- Which of the listed times t is.
 local function number_of(self, t)
-  t = instant.read(t, "at: t")
-  for k, time in ipairs(self.t) do if t.lo <= time and time <= t.hi then return k end end
-  check.fail("at: t = %s is not one of the listed times", instant.text(t))
+  local given = instant.read(t, "at: t")
+  if self.start and instant.is_same(given, self.start) then return 1 end
+  local own = instant.on_clock(given, self.shift)
+  for k, time in ipairs(self.t) do if own.lo <= time and time <= own.hi then return k end end
+  check.fail("at: t = %s is not one of the listed times", instant.text(given))
 end
 
 local function named(self, k, list)
@@ -134,6 +136,7 @@ local function solve(q, draws, seed, plan)
   local values, facts, report = core.sample_system(q.system.system, q.solver or "", q.arithmetic, q.options or {},
     q.arithmetic_options, q.initial, q.times, draws, seed, plan)
   facts.values, facts.states, facts.t, facts.report = values, q.system.states, q.times, report
+  facts.shift, facts.start = q.times.shift, q.times.start
   return setmetatable(facts, Sample), report
 end
 
@@ -145,7 +148,10 @@ local function of_system(t)
   if plan.relative == 0 and (plan.absolute or 0) == 0 then
     check.fail("sample: one of relative and absolute must be greater than 0")
   end
-  if q.times.last and q.times.last ~= q.times[1] then q.times[#q.times] = nil end -- a double next to the end will do
+  if q.times.final then -- a double next to the end will do
+    q.times[#q.times] = nil
+    q.times[math.max(2, #q.times)] = q.times.final.near
+  end
   local result, report = solve(q, draws, seed, plan)
   local k = #q.times
   result.x, result.error = named(result, k, result.values), named(result, k, result.errors)

@@ -175,6 +175,11 @@ describe("instants as text: other verbs", function()
     assert.is_true(math.abs(s.x.x.hi - 1 / 3) < 1e-9)
     local r = run(one, { 0, "0.1", "1/3" })
     assert.is_nil(r:overestimation(s).contradiction)
+    s = ambit.sample { ramp, initial = { x = 0 }, t = { "1/3", "0.5", "2/3" }, n = 2 }
+    for t, x in pairs { ["1/3"] = 0, ["0.5"] = 5 / 36, ["2/3"] = 1 / 3 } do
+      assert.is_true(math.abs(s:at(t).x.lo - x) < 1e-9)
+    end
+    assert.is_true(math.abs(ambit.sample { one, initial = { x = 0 }, t = { 0, "0.1" }, n = 2 }:at(0.1).x.lo - 0.1) < 1e-9)
   end)
 
   it("poincare", function()
