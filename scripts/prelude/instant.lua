@@ -95,14 +95,22 @@ local function check_order(list, what)
   return forward
 end
 
+-- Doubles as numbers, others as they were said.
+local function said(list)
+  local values = {}
+  for i, t in ipairs(list) do values[i] = t.value == nil and t.lo or tostring(t.value) end
+  return values
+end
+
 -- t = { t0, ..., t1 }, ascending or descending; t = 10 means { 0, 10 } -> the doubles that a solver steps on. Of an
--- instant that is no double it is one next to it, of the last one both ends of the bracket. Besides (nil where all is
--- double): .start, as read, and .shift, as above; .final, the last bracket, on the clock, and .last, its first end.
+-- instant that is no double it is one next to it, of the last one both ends of the bracket. Besides: .said, for
+-- those who read; and, nil where all is double, .start, as read, .shift, as above, .final, the last bracket, on the clock,
+-- and .last, its first end.
 function instant.list(t, what)
   if t == nil then check.fail("%s is missing: { start, ..., end } in seconds", what) end
   local list = read_all(type(t) == "table" and t or { 0, t }, what)
   local forward, start = check_order(list, what), list[1]
-  local times = { start.lo }
+  local times = { start.lo, said = said(list) }
   if start.value ~= nil then
     times[1] = forward and start.lo or start.hi
     times.shift, times.start = instant.expression(start) - core.expression(times[1]), start

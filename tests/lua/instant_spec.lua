@@ -235,6 +235,15 @@ describe("instants as text: other verbs", function()
     end
   end)
 
+  it("reduce says the instants as they were given", function()
+    local two = ambit.ode { states = { "x" }, equations = function(s, _, t) return { x = 2 * t - "0.001" * s.x } end }
+    local small = ambit.reduce { two, t = { "1/3", "2/3" }, initial = { x = 0 }, outputs = { "x" }, error = { x = "0.01" } }
+    assert.equal("complete", small.status)
+    assert.is_truthy(tostring(small):find("t from 1/3 to 2/3 s", 1, true))
+    assert.is_truthy(small:json():find('"times":["1/3","2/3"]', 1, true))
+    assert.is_truthy(small.ode)
+  end)
+
   it("compare holds a reference against the enclosures at its own time", function()
     local big = ambit.ode { states = { "x" }, equations = function() return { x = 1e12 } end }
     local c = ambit.compare { big, initial = { x = 0 }, t = { 0, "1/3" }, solvers = { "lohner" },

@@ -94,7 +94,7 @@ end
 local function given_of(self, given)
   local data, values = scenarios.data(self, given), {}
   for k, leaf in ipairs(given.leaves) do values[tostring(leaf)] = given.values[k] end
-  return { times = plain(given.times), data = ranges_of(data), initial = named(data, given.initial),
+  return { times = plain(given.times.said or given.times), data = ranges_of(data), initial = named(data, given.initial),
     given = named(data, values) }
 end
 

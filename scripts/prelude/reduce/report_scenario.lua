@@ -119,10 +119,13 @@ local function flowed(parts, width)
   return lines
 end
 
+local function time(said) return type(said) == "number" and core.literal(said) or said end
+
 -- Times, data and initial values as lines.
 function scenario.lines(self, given, width)
   local data, parts, list = scenario.data(self, given), {}, {}
-  parts[1] = ("t from %s to %s s"):format(core.literal(given.times[1]), core.literal(given.times[#given.times]))
+  local said = given.times.said or given.times
+  parts[1] = ("t from %s to %s s"):format(time(said[1]), time(said[#said]))
   for _, datum in ipairs(data) do
     parts[#parts + 1] = ("%s in %s"):format(datum.name, number.range(datum.lo, datum.hi))
   end

@@ -115,9 +115,11 @@ function motion.of_run(run, question, given, count)
     self = collect(fine, fine == run and count or fine.step_count)
     self.again = fine ~= run and fine.step_count or nil
   end
+  local function time(t) return instant.of_clock(t, run.times.shift) end
   for i, t in ipairs(self.t) do
-    put(self.at[i], given, core.enclosure(t, t))
-    for _, tube in ipairs(self.over[i] or {}) do put(tube.values, given, tube.t) end
+    local final = i == #self.t and i > 1 and run.times.final
+    put(self.at[i], given, time(final and core.enclosure(final.lo, final.hi) or core.enclosure(t, t)))
+    for _, tube in ipairs(self.over[i] or {}) do put(tube.values, given, time(tube.t)) end
   end
   return self
 end
