@@ -27,7 +27,7 @@ describe("the inner range", function()
   end)
 
   it("refutes nothing that holds for all values of the datum", function()
-    local r = verify(ambit.around(one(), "1e-9"), function(x) return 1 - "1e-8" - x end)
+    local r = verify(ambit.around(one(), "1e-9"), function(x) return ambit.number(1) - "1e-8" - x end)
     assert.are.equal("proved", r.status)
     r = verify(ambit.around(gap(), "0.000001%"), function(x) return x - "1.00000001000001e-6" end)
     assert.are.equal("proved", r.status)
