@@ -133,6 +133,7 @@ int luaopen_ambit_core(lua_State *L) {
   ambit_lua_open_events(L, core);
   ambit_lua_open_track(L, core);
   ambit_lua_open_records(L, core);
+  ambit_lua_open_output(L, core);
   ambit_lua_open_process(L, core);
   ambit_lua_open_child(L, core);
   ambit_lua_open_profile(L, core);

@@ -134,6 +134,7 @@ void ambit_lua_open_watch(lua_State *L, ambit_lua *core);      /* watch.c: condi
 void ambit_lua_open_events(lua_State *L, ambit_lua *core);     /* events.c: zero crossings along a run */
 void ambit_lua_open_track(lua_State *L, ambit_lua *core);      /* track.c: the recorded steps of a run */
 void ambit_lua_open_records(lua_State *L, ambit_lua *core);    /* records.c: JSON lines */
+void ambit_lua_open_output(lua_State *L, ambit_lua *core);     /* output.c: files, written as a whole */
 void ambit_lua_open_process(lua_State *L, ambit_lua *core);    /* process.c: libraries, clocks, terminals */
 void ambit_lua_open_child(lua_State *L, ambit_lua *core);      /* child.c: functions in processes of their own */
 void ambit_lua_open_profile(lua_State *L, ambit_lua *core);    /* profile.c: where the time goes, counted work */

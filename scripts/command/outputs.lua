@@ -1,5 +1,7 @@
 -- outputs.lua -- the files that commands write beside their tables: looked at before the work starts, so that nobody
 -- waits for a result that has no place, and written as a whole.
+local core = require "ambit.core"
+
 local outputs = {}
 
 -- What is wrong with the files of these options (a list of keys); nil: nothing. `plain[key]`: `-` is standard output.
@@ -20,20 +22,17 @@ function outputs.problem(options, keys, plain)
   end
 end
 
--- Writes a file, or (`-`) to standard output; an error says what could not be written, and why.
+-- Writes a file as a whole, or (`-`) to standard output; an error says what could not be written, and why: then an old
+-- file is what it was.
 function outputs.write(name, text)
-  local file, good, problem
-  if name == "-" then
-    good, problem = io.stdout:write(text)
-    if good then good, problem = io.stdout:flush() end
-  else
-    file, problem = io.open(name, "w")
-    if not file then error("cannot write " .. problem, 0) end
-    good, problem = file:write(text)
-    local closed, late = file:close()
-    good, problem = good and closed, problem or late
+  if name ~= "-" then
+    local problem = core.write_file(name, text)
+    if problem then error("cannot write " .. problem, 0) end
+    return
   end
-  if not good then error(("cannot write %s: %s"):format(name, problem), 0) end
+  local good, problem = io.stdout:write(text)
+  if good then good, problem = io.stdout:flush() end
+  if not good then error("cannot write to standard output: " .. tostring(problem), 0) end
 end
 
 return outputs

@@ -1,6 +1,7 @@
 -- profile.lua -- `ambit profile`: where the time of a scene goes.
 local core = require "ambit.core"
 local json = require "ambit.view.json"
+local outputs = require "ambit.command.outputs"
 local provenance = require "ambit.provenance"
 local scene = require "ambit.command.scene"
 local session = require "ambit.session"
@@ -23,21 +24,6 @@ local known = { json = true, folded = true }
 
 local function complain(message) io.stderr:write("ambit: ", tostring(message), "\n") end
 
--- Opens the files before the work starts; nil and a message if one can't be written.
-local function open_files(options)
-  local files = {}
-  for _, name in ipairs { "json", "folded" } do
-    if options[name] == "-" then
-      files[name] = io.stdout
-    elseif options[name] then
-      local file, problem = io.open(options[name], "w")
-      if not file then return nil, ("option `--%s`: cannot write %s"):format(name, problem) end
-      files[name] = file
-    end
-  end
-  return files
-end
-
 -- Runs the scene; its profile, and what it failed with, if it did.
 local function measure(file, words)
   local restore = scene.discard_output()
@@ -54,25 +40,26 @@ local function measure(file, words)
   return p
 end
 
-local function write_all(files, p)
-  local function writer(file) return function(...) return assert(file:write(...)) end end
-  if files.folded then text.fold(writer(files.folded), p.frames) end
-  if files.json then writer(files.json)(provenance.json(json.encode(p)), "\n") end
-  if files.json ~= io.stdout and files.folded ~= io.stdout then
-    writer(io.stdout)(provenance.lines "", "\n")
-    text.print(writer(io.stdout), p)
-  end
-  for _, name in ipairs { "json", "folded" } do
-    if files[name] and files[name] ~= io.stdout then assert(files[name]:close()) end
-  end
+-- What a writer was given, as one text.
+local function text_by(write)
+  local parts = {}
+  write(function(...) parts[#parts + 1] = table.concat({ ... }) end)
+  return table.concat(parts)
+end
+
+local function write_all(options, p)
+  if options.folded then outputs.write(options.folded, text_by(function(w) text.fold(w, p.frames) end)) end
+  if options.json then outputs.write(options.json, provenance.json(json.encode(p)) .. "\n") end
+  if options.json == "-" or options.folded == "-" then return end
+  outputs.write("-", provenance.lines "" .. "\n" .. text_by(function(w) text.print(w, p) end))
 end
 
 function command.run(list)
   local options, file, words = scene.arguments(list, known)
   if not options then return 2, file end
   scene.note_strays(words, known)
-  local files, refusal = open_files(options)
-  if not files then return complain(refusal) or 1 end
+  local refusal = outputs.problem(options, { "json", "folded" }, { json = true, folded = true })
+  if refusal then return complain(refusal) or 1 end
   session.verbs = {}
   local p, problem = measure(file, words)
   p.verbs_ended = {}
@@ -80,7 +67,7 @@ function command.run(list)
   p.problem = problem and tostring(problem) or nil
   if problem then complain(problem) end
   if problem then complain "the profile is of what the scene did until there" end
-  local good, why = pcall(write_all, files, p)
+  local good, why = pcall(write_all, options, p)
   if not good then return complain(why) or 1 end
   return problem and 1 or 0
 end

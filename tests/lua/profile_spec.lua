@@ -325,7 +325,7 @@ describe("the command profile", function()
     assert.equal(2, code)
     code, stderr = refused("--json /nowhere/at/all " .. quoted(scene))
     assert.equal(1, code)
-    assert.truthy(stderr:find("cannot write /nowhere/at/all", 1, true))
+    assert.truthy(stderr:find("cannot write the file of --json: /nowhere/at/all", 1, true))
     code, stderr = refused "/nowhere/scene.lua"
     assert.equal(1, code)
     assert.truthy(stderr:find("/nowhere/scene.lua", 1, true))

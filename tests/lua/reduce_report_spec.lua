@@ -255,7 +255,7 @@ describe("a reduction as JSON", function()
     assert_refused("json: cannot write the file: ", self.json, self, path .. "/no/such/folder.json")
     assert.is_true(#self:json() > 100)
     assert_refused("json: file: expected text, got number", self.json, self, 3)
-    if io.open("/dev/full", "a") then assert_refused("json: cannot write /dev/full", self.json, self, "/dev/full") end
+    if io.open("/dev/full", "a") then assert_refused("json: cannot write the file: /dev/full", self.json, self, "/dev/full") end
   end)
 end)
 

@@ -146,11 +146,8 @@ end
 -- The result in memory is not touched: what could not be written can be written elsewhere.
 function json.save(name, content, what)
   check.text(name, what .. ": file")
-  local file, problem = io.open(name, "w")
-  if not file then check.fail("%s: cannot write the file: %s", what, problem) end
-  local written, early = file:write(content)
-  local closed, late = file:close()
-  if not (written and closed) then check.fail("%s: cannot write %s: %s", what, name, early or late) end
+  local problem = core.write_file(name, content)
+  if problem then check.fail("%s: cannot write the file: %s", what, problem) end
 end
 
 -- Complains about a file that cannot be written before anything is computed for it; leaves it as it was.
