@@ -6,7 +6,9 @@ local command = {}
 
 command.usage = [[
 usage: ambit plugins [NAME | KIND.NAME]
-Lists the plugins on AMBIT_PATH and in the plugin directory without loading them, or prints the manual of one.]]
+Lists the plugins on AMBIT_PATH and in the plugin directory without loading them, or prints the manual of one.
+A plugin that has the name of one of Ambit's own, or that others may write, is refused: `ambit --help` says what allows
+it.]]
 
 local function list()
   local kind

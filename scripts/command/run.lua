@@ -8,8 +8,8 @@ local command = { scene = true }
 
 command.usage = [[
 usage: ambit run [--json FILE|-] [--quiet] SCENE.lua [ARG ...]
-  --json FILE  also write every record as a line of JSON; `-` is standard output (what the scene prints then goes to
-               standard error)
+  --json FILE  also write every record as a line of JSON, first whence they come (version, plugins, SHA-256); `-` is
+               standard output (what the scene prints then goes to standard error)
   --quiet      no progress bar and no notes
 The words behind the scene are in its table `arg`. Ctrl-C ends a simulation with status "stopped" and keeps what was
 recorded.
