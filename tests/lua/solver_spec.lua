@@ -81,6 +81,17 @@ describe("taylor_model", function()
   end)
 end)
 
+describe("taylor_model, one long step of low order", function()
+  it("bounds how fast errors grow over all values of the data", function()
+    local p = ambit.between(-3, 3) -- at the middle nothing grows
+    local grow = ambit.ode { states = { "x" }, equations = function(s) return { x = p * s.x } end }
+    local run = ambit.simulate { grow, initial = { 1 }, t = { 0, 0.5 }, solver = "taylor_model", order = 10,
+      time_order = 4, jacobian_order = 20, tolerance = 1, step_max = 0.5, pieces_max = 1 }
+    assert.equal(1, run.step_count)
+    assert.is_true(run.x.x.hi >= math.exp(1.5) and run.x.x.lo <= math.exp(-1.5))
+  end)
+end)
+
 describe("a jump of an angle within the set", function()
   local pi, atan = math.pi, math.atan
   -- x' = atan2(x, -1) from x0: pi - atan(x) above 0, -pi - atan(x) below it; Runge and Kutta's method of order 4
