@@ -94,6 +94,8 @@ void ambit_lua_push_expressions(lua_State *L, size_t n, const ambit_expr *e);
 ** fresh unknown).
 ** wanted: SI unit that a dimension must agree with, or NULL. what: named in messages ("offset"), or NULL. */
 ambit_lua_expression ambit_lua_to_expression(lua_State *L, int idx, const char *wanted, const char *what);
+/* Raises where the number at idx may be a text that Lua has rounded (text.c). ambit_lua_to_... do so by themselves. */
+void ambit_lua_check_number(lua_State *L, int idx, const char *what);
 /* The value at idx as a set: enclosure, number, text, or an expression without unknowns. */
 ambit_lua_enclosure ambit_lua_to_enclosure(lua_State *L, int idx, const char *what);
 /* Raises an error if a script asks for == while it writes down a formula. */

@@ -25,6 +25,7 @@ static tolerance tolerance_of(lua_State *L, int idx) {
   tolerance t = { { 0, 0 }, false, { 0 } };
   ambit_failure f = { 0 };
   if (lua_type(L, idx) == LUA_TNUMBER) {
+    ambit_lua_check_number(L, idx, "around");
     double x = lua_tonumber(L, idx);
     if (!(x >= 0) || isinf(x)) ambit_lua_error(L, "around: the tolerance must be a finite number, not negative");
     t.size = (ambit_interval) { x, x };

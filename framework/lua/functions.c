@@ -80,6 +80,7 @@ static int fold(lua_State *L) {
 static bool half_integer_exponent(lua_State *L, int idx, int32_t *n) {
   double x;
   if (lua_type(L, idx) == LUA_TNUMBER) {
+    ambit_lua_check_number(L, idx, "exponent");
     x = lua_tonumber(L, idx);
   } else if (!is_unknown(L, idx)) {
     ambit_lua_enclosure e = ambit_lua_to_enclosure(L, idx, "exponent");

@@ -151,7 +151,14 @@ static int text_arithmetic(lua_State *L) {
   return 1;
 }
 
+/* check_number(number, what): was it perhaps rounded? */
+static int check_number(lua_State *L) {
+  ambit_lua_check_number(L, 1, luaL_optstring(L, 2, NULL));
+  return 0;
+}
+
 void ambit_lua_open_text(lua_State *L, ambit_lua *core) {
-  static const luaL_Reg functions[] = { { "text_arithmetic", text_arithmetic }, { NULL, NULL } };
+  static const luaL_Reg functions[] = { { "text_arithmetic", text_arithmetic }, { "check_number", check_number },
+    { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
 }

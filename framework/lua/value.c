@@ -62,9 +62,9 @@ static const char *type_name(lua_State *L, int idx) {
 }
 
 /* In a host's Lua state, once Lua has rounded a text, any number with a point may be what came of it (text.c). */
-static void check_origin(lua_State *L, const char *what) {
+void ambit_lua_check_number(lua_State *L, int idx, const char *what) {
   const char *where = AMBIT_LUA(L)->text_rounded;
-  if (!where[0]) return;
+  if (!where[0] || lua_isinteger(L, idx)) return;
   char message[AMBIT_MESSAGE_MAX];
   snprintf(message, sizeof message,
       "%sLua calculated with a text there and rounded it, so that this number may not be what the scene says. "
@@ -85,7 +85,7 @@ static ambit_expr number_expression(lua_State *L, int idx, const char *what) {
       return ambit_graph_decimal(g, text, NULL);
     }
   }
-  if (!lua_isinteger(L, idx)) check_origin(L, what);
+  ambit_lua_check_number(L, idx, what);
   if (!isfinite(x)) wrong(L, what, isnan(x) ? "the number is NaN" : "the number is infinite");
   return ambit_graph_number(g, x);
 }

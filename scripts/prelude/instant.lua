@@ -27,6 +27,8 @@ function instant.read(value, what)
       return { lo = x.lo, hi = x.hi, near = math.min(math.max(nearest, x.lo), x.hi), value = value }
     end
     value = x.lo
+  else
+    core.check_number(value, what)
   end
   if value ~= value or value == math.huge or value == -math.huge then
     check.fail("%s: the time must be finite, got %s", what, value ~= value and "NaN" or tostring(value))

@@ -107,6 +107,10 @@ describe("arithmetic on texts in a host's Lua", function()
       local x = -"124.14"
       print(select(2, pcall(ambit.number, x)))
       print(select(2, pcall(ambit.interval, "1" / "3")))
+      local still = ambit.ode { states = { "x" }, equations = function(s) return { x = s.x } end }
+      print((pcall(ambit.around, "1", "0.1" * 1)), (pcall(function() return ambit.number "2" ^ ("0.3" * 1) end)),
+        (pcall(ambit.simulate, { still, initial = { x = 0 }, t = { 0, "0.3" * 1 } })),
+        (pcall(ambit.simulate, { still, initial = { x = 0 }, t = { 0, 1 } })))
       print((pcall(ambit.number, 3)), (pcall(ambit.number, "124.14")))
       ambit.text_arithmetic(false)
       print((pcall(ambit.number, x)))
@@ -118,8 +122,9 @@ describe("arithmetic on texts in a host's Lua", function()
       assert.is_truthy(lines[i]:find ":2: Lua calculated with a text", lines[i])
       assert.is_truthy(lines[i]:find "ambit.text_arithmetic%(true%)", lines[i])
     end
-    assert.equal("true\ttrue", lines[3])
-    assert.equal("true", lines[4])
-    assert.equal("1/3", lines[5])
+    assert.equal("false\tfalse\tfalse\ttrue", lines[3])
+    assert.equal("true\ttrue", lines[4])
+    assert.equal("true", lines[5])
+    assert.equal("1/3", lines[6])
   end)
 end)

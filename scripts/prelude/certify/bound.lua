@@ -7,6 +7,7 @@ local bound = {}
 -- A number, or text with a unit; rounded towards zero, so that nothing is accepted that the text does not allow.
 local function value_of(value, unit, what)
   if type(value) == "number" then
+    core.check_number(value, what)
     if value ~= value or value == math.huge then
       check.fail("%s: expected a finite number, got %s", what, tostring(value))
     end
