@@ -150,6 +150,27 @@ describe("equations", function()
     it("may use " .. name, function() assert.is_truthy(ode(equations)) end)
   end
 
+  it("are found in functions without lines", function()
+    local stripped = load(string.dump(function(s) if s.x == 0 then return s end return s end, true), "equations", "b")
+    local good, message = pcall(ode, stripped)
+    assert.is_false(good)
+    assert.is_truthy(message:find("`x` is compared", 1, true), message)
+  end)
+
+  it("are searched whatever they are made of", function()
+    local flow = require "ambit.lint.flow"
+    local count = 0
+    for _, module in pairs(package.loaded) do
+      for _, f in pairs(type(module) == "table" and module or {}) do
+        if type(f) == "function" and debug.getinfo(f, "S").what == "Lua" then
+          flow.search(f, table.pack({}, length, 1, nil, "x"))
+          count = count + 1
+        end
+      end
+    end
+    assert.is_true(count > 50, tostring(count))
+  end)
+
   it("ask at run time what the search cannot see", function()
     local hidden = { function(a, b) return a == b end }
     local good, message = pcall(ode, function(s) return { x = s.v, v = hidden[1](s.x, s.v) and 1 or 2 } end)

@@ -22,6 +22,7 @@ describe("units", function()
       atan2 = function() return ambit.atan2(length, time) end } do
       fails(f, name, "a length (m)", name == "min" and "a mass (kg)" or "a time (s)")
     end
+    assert.is_false(pcall(function() return "1 m" + "1 s" end))
     assert.is_true(range(length + "20 cm"):contains "1.2")
     assert.is_true(range(ambit.max(length, "2 mm")):contains(1))
   end)

@@ -85,9 +85,8 @@ end
 
 local function report(run, f, pc, v, what)
   if run.quiet then return end
-  if not run.found or f.line[pc] < run.found.line then
-    run.found = { name = v.name, what = what, line = f.line[pc] }
-  end
+  local line = f.line[pc] or 0 -- 0: the function was compiled without lines
+  if not run.found or line < run.found.line then run.found = { name = v.name, what = what, line = line } end
 end
 
 local function compare(run, f, pc, a, b)
@@ -193,6 +192,17 @@ local function upvalues_of(run, f)
   return list
 end
 
+-- The same for calls of which the same would be found.
+local function key_of(run, arguments)
+  local parts = { run.quiet and "quiet" or "aloud" }
+  for i = 0, arguments.count - 1 do
+    local v = arguments[i]
+    parts[#parts + 1] = v == nil and "?" or v.kind == "value" and type(v.value) .. tostring(v.value)
+      or v.kind == "closure" and tostring(v) or v.kind
+  end
+  return table.concat(parts, "\0")
+end
+
 local function call_value(run, f, arguments)
   if f == pairs and arguments[0] then return constant(next), arguments[0], constant(nil) end
   if is_maker(f) then
@@ -203,13 +213,14 @@ local function call_value(run, f, arguments)
   end
   local info = type(f) == "function" and debug.getinfo(f, "S")
   if not info or info.what ~= "Lua" or info.source:sub(1, 9) == "=(ambit) " then return nil end
-  local read = run.functions[f] or bytecode.read(f)
-  if not read then return nil end
-  run.functions[f] = read
+  local known, key = run.functions[f] or { code = bytecode.read(f) }, key_of(run, arguments)
+  run.functions[f] = known
+  if not known.code or known[key] then return known[key] and known[key].result end
+  known[key] = {} -- also while it is followed: what calls itself is followed once
   local found = run.found
-  local result = call_closure(run, read, upvalues_of(run, f), arguments)
+  known[key].result = call_closure(run, known.code, upvalues_of(run, f), arguments)
   if run.found ~= found then run.found.source = run.found.source or info.short_src end
-  return result
+  return known[key].result
 end
 
 step[op.CALL] = function(run, _, frame, a, b, c)
