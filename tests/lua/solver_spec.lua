@@ -82,13 +82,24 @@ describe("taylor_model", function()
 end)
 
 describe("taylor_model, one long step of low order", function()
-  it("bounds how fast errors grow over all values of the data", function()
-    local p = ambit.between(-3, 3) -- at the middle nothing grows
-    local grow = ambit.ode { states = { "x" }, equations = function(s) return { x = p * s.x } end }
-    local run = ambit.simulate { grow, initial = { 1 }, t = { 0, 0.5 }, solver = "taylor_model", order = 10,
-      time_order = 4, jacobian_order = 20, tolerance = 1, step_max = 0.5, pieces_max = 1 }
+  local options = { t = { 0, 0.5 }, solver = "taylor_model", order = 10, time_order = 4, jacobian_order = 20,
+    tolerance = 1, step_max = 0.5, pieces_max = 1 }
+  local p = ambit.between(-3, 3) -- at the middle nothing grows
+
+  local function check(system, initial)
+    options[1], options.initial = system, initial
+    local run = ambit.simulate(options)
     assert.equal(1, run.step_count)
     assert.is_true(run.x.x.hi >= math.exp(1.5) and run.x.x.lo <= math.exp(-1.5))
+  end
+
+  it("bounds how fast errors grow over all values of a parameter", function()
+    check(ambit.ode { states = { "x" }, equations = function(s) return { x = p * s.x } end }, { 1 })
+  end)
+
+  it("bounds how fast errors grow over all values of a state", function()
+    check(ambit.ode { states = { "x", "y" }, equations = function(s) return { x = s.y * s.x, y = 0 * s.y } end },
+      { 1, p })
   end)
 end)
 
