@@ -79,9 +79,7 @@ ambit_layout ambit_layout_infix(const ambit_writer *w, ambit_expr e) {
 const char *ambit_leaf_text(const ambit_graph *g, ambit_expr e, char buffer[AMBIT_LEAF_MAX]) {
   const ambit_node *x = ambit_at(g, e);
   if (x->text) return x->text;
-  if (x->op == AMBIT_LEAF_UNKNOWN)
-    snprintf(buffer, AMBIT_LEAF_MAX, "unknown%llu", (unsigned long long)g->stored[e].birth);
-  else if (x->value.lo == x->value.hi)
+  if (x->value.lo == x->value.hi)
     ambit_decimal_shortest(buffer, x->value.lo);
   else
     ambit_decimal_interval(buffer, x->value, 3);

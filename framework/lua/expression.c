@@ -1,4 +1,5 @@
 /* expression.c -- expressions as Lua values: operators, text, derivative. */
+#include "graph/name.h"
 #include "lua/core.h"
 #include "lua/embedded.h"
 #include "num/decimal.h"
@@ -187,6 +188,40 @@ static int substitute(lua_State *L) {
   return 1;
 }
 
+/* name_data({e, ...}, {label, ...} or label): data below e that have no name yet are called after it */
+static int name_data(lua_State *L) {
+  ambit_graph *g = AMBIT_LUA(L)->graph;
+  size_t n = (size_t)luaL_len(L, 1);
+  const ambit_expr *e = ambit_lua_to_array(L, 1, n);
+  for (size_t i = 0; i < n; i++) {
+    if (lua_type(L, 2) == LUA_TTABLE)
+      lua_rawgeti(L, 2, (lua_Integer)i + 1);
+    else
+      lua_pushvalue(L, 2);
+    if (!ambit_graph_name_data(g, e[i], luaL_checkstring(L, -1))) ambit_lua_error(L, "out of memory");
+    lua_pop(L, 1);
+  }
+  return 0;
+}
+
+/* leaf_names({leaf, ...}) -> {name, ...}, told apart */
+static int leaf_names(lua_State *L) {
+  const ambit_graph *g = AMBIT_LUA(L)->graph;
+  size_t n = (size_t)luaL_len(L, 1);
+  const ambit_expr *leaf = ambit_lua_to_array(L, 1, n);
+  const char **name = lua_newuserdatauv(L, (n + 1) * sizeof *name, 0);
+  lua_createtable(L, (int)n, 0);
+  ambit_arena *arena = ambit_arena_open();
+  bool good = arena && ambit_graph_leaf_names(g, arena, n, leaf, name);
+  for (size_t i = 0; good && i < n; i++) {
+    lua_pushstring(L, name[i]);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  ambit_arena_close(arena);
+  if (!good) ambit_lua_error(L, "out of memory");
+  return 1;
+}
+
 static int nodes(lua_State *L) {
   lua_pushinteger(L, (lua_Integer)ambit_graph_made(AMBIT_LUA(L)->graph));
   return 1;
@@ -197,8 +232,8 @@ void ambit_lua_open_expression(lua_State *L, ambit_lua *core) {
     { NULL, NULL } };
   static const luaL_Reg functions[] = { { "derivative", derivative }, { "rate_off_kinks", rate_off_kinks },
     { "simplify", simplify }, { "expression", expression }, { "symbol", symbol }, { "time", time_symbol }, { "pi", pi },
-    { "is_constant", is_constant }, { "leaves", leaves }, { "nodes", nodes }, { "substitute", substitute },
-    { NULL, NULL } };
+    { "is_constant", is_constant }, { "leaves", leaves }, { "name_data", name_data }, { "leaf_names", leaf_names },
+    { "nodes", nodes }, { "substitute", substitute }, { NULL, NULL } };
   static const char *const operators[][2] = { { "__add", "add" }, { "__sub", "sub" }, { "__mul", "mul" },
     { "__div", "div" }, { "__unm", "neg" }, { "__pow", "pow" } };
   ambit_lua_set_functions(L, core, functions);

@@ -150,7 +150,9 @@ static ambit_expr unknown(ambit_build *b, const char *lo, const char *hi) {
   ambit_interval range = { l.lo, h.hi };
   if (!(l.lo <= h.hi) || !ambit_interval_is_bounded(range))
     return refuse(s, AMBIT_BROKEN, "it asks for an unknown in an empty or unbounded interval");
-  return ambit_graph_datum(s->m->graph, NULL, NULL, range, ambit_interval_of(l.hi, h.lo));
+  char name[AMBIT_DATUM_NAME_MAX];
+  ambit_part_unknown_name(&s->m->part[s->cell->part], name);
+  return ambit_graph_datum(s->m->graph, name, NULL, range, ambit_interval_of(l.hi, h.lo));
 }
 
 /* q' of a coordinate of an element that has speeds of its own. */

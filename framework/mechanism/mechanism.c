@@ -247,6 +247,7 @@ static ambit_status fill_part(ambit_mechanism *m, ambit_part *p, const ambit_par
   if (!p->name) return no_memory(f);
   ambit_status status = ambit_part_check_name(m, p, f);
   if (status == AMBIT_OK) status = ambit_part_take_params(m, p, spec->param, f);
+  if (status == AMBIT_OK && !ambit_part_name_data(m, p)) return no_memory(f);
   if (status == AMBIT_OK) status = connect(m, p, spec->connection, f);
   return status == AMBIT_OK ? make_cells(m, p, (uint32_t)m->count, f) : status;
 }

@@ -1,4 +1,5 @@
 /* part_data.c -- the parameters of a part: what the user gave, else what the declaration says. */
+#include "graph/name.h"
 #include "host/registry.h"
 #include "mechanism/parts.h"
 #include <stdio.h>
@@ -79,6 +80,33 @@ static ambit_status take_param(ambit_mechanism *m, ambit_part *p, size_t i, cons
     if (value[k] >= ambit_graph_count(m->graph))
       return ambit_fail(f, AMBIT_INVALID, "%s: component %zu of `%s` is no expression", who, k + 1, param->name);
   return AMBIT_OK;
+}
+
+/* "upper.offset.x", "body.inertia[4]" */
+static bool name_param(ambit_mechanism *m, const ambit_part *p, const ambit_param *param, const ambit_expr *value) {
+  size_t n = components(param);
+  for (size_t k = 0; k < n; k++) {
+    char label[AMBIT_DATUM_NAME_MAX];
+    int used = snprintf(label, sizeof label, "%.100s.%.100s", p->name, param->name);
+    if (n == 3)
+      snprintf(label + used, sizeof label - (size_t)used, ".%c", "xyz"[k]);
+    else if (n > 1)
+      snprintf(label + used, sizeof label - (size_t)used, "[%zu]", k + 1);
+    if (!ambit_graph_name_data(m->graph, value[k], label)) return false;
+  }
+  return true;
+}
+
+bool ambit_part_name_data(ambit_mechanism *m, const ambit_part *p) {
+  for (size_t i = 0; i < p->nparam; i++)
+    if (p->param[i] && !name_param(m, p, &p->element->param[i], p->param[i])) return false;
+  return true;
+}
+
+void ambit_part_unknown_name(ambit_part *p, char out[AMBIT_DATUM_NAME_MAX]) {
+  const char *of = p->nparam ? p->element->param[p->nparam - 1].name : "unknown";
+  uint32_t number = ++p->nunknown;
+  snprintf(out, AMBIT_DATUM_NAME_MAX, number > 1 ? "%.100s.%.100s (%u)" : "%.100s.%.100s", p->name, of, number);
 }
 
 size_t ambit_part_components(const ambit_part *p, size_t i) { return components(&p->element->param[i]); }

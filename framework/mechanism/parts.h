@@ -8,6 +8,7 @@
 #define AMBIT_PARTS_H
 #include "graph/collect.h"
 #include "mechanism/mechanism.h"
+#include "graph/name.h"
 
 #define AMBIT_CELL_EMPTY 0u
 #define AMBIT_CELL_BUSY 1u    /* its express() is running */
@@ -42,6 +43,7 @@ typedef struct ambit_part {
   /* of all its OUT joints and constraints, in the order of the ports; each list holds places in the mechanism's list,
   ** UINT32_MAX: not (yet) made */
   uint32_t ncoordinate, dof, rows;
+  uint32_t nunknown;                         /* that its element asked for */
   uint32_t *coordinate, *speed, *multiplier; /* [ncoordinate] [dof] [rows] */
 } ambit_part;
 
@@ -118,6 +120,10 @@ bool ambit_part_enter_name(ambit_mechanism *m, const ambit_part *p);
 size_t ambit_part_components(const ambit_part *p, size_t i);
 ambit_status ambit_part_take_params(
     ambit_mechanism *m, ambit_part *p, const ambit_expr *const *given, ambit_failure *f);
+/* Names the uncertain data of its parameters after them; false: out of memory. The name of the next unknown that its
+** element asks for: after the last parameter. */
+bool ambit_part_name_data(ambit_mechanism *m, const ambit_part *p);
+void ambit_part_unknown_name(ambit_part *p, char out[AMBIT_DATUM_NAME_MAX]);
 /* Are the speeds of its joints the time derivatives of their coordinates? */
 static inline bool ambit_part_has_rates(const ambit_part *p) { return p->ncoordinate == p->dof; }
 /* In part_variables.c: the symbols of a part's coordinate, speed or multiplier number i, made on first use; NULL: the

@@ -2,6 +2,7 @@
 #include "model/equations.h"
 #include "graph/contract.h"
 #include "graph/hull.h"
+#include "graph/name.h"
 #include "graph/tape.h"
 #include "model/context.h"
 #include "model/unknowns.h"
@@ -43,14 +44,6 @@ static ambit_status check_leaves(
       others == 1 ? "has" : "have");
 }
 
-static const char *data_name(const ambit_ready *r, ambit_expr e) {
-  const char *text = ambit_graph_node(r->graph, e)->text;
-  if (text) return ambit_arena_text(r->arena, text);
-  char made[32];
-  snprintf(made, sizeof made, "p%zu", r->np + 1);
-  return ambit_arena_text(r->arena, made);
-}
-
 static ambit_status find_inputs(const ambit_equations *q, ambit_ready *r, ambit_failure *f) {
   size_t n;
   ambit_expr *leaf;
@@ -70,11 +63,11 @@ static ambit_status find_inputs(const ambit_equations *q, ambit_ready *r, ambit_
     if (node->op != AMBIT_LEAF_UNKNOWN) continue;
     r->input[q->nx + r->np] = leaf[i];
     r->p[r->np] = node->value;
-    name[q->nx + r->np] = data_name(r, leaf[i]);
     r->np++;
   }
-  for (size_t i = 0; i < q->nx + r->np; i++)
+  for (size_t i = 0; i < q->nx; i++)
     if (!name[i]) return no_memory(f);
+  if (!ambit_graph_leaf_names(r->graph, r->arena, r->np, r->input + q->nx, name + q->nx)) return no_memory(f);
   r->name = name;
   return AMBIT_OK;
 }

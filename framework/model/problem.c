@@ -1,5 +1,6 @@
 /* problem.c -- which data are parameters, which are unknowns; the tapes over them; the hull of the initial set. */
 #include "model/problem.h"
+#include "graph/name.h"
 #include "graph/tape.h"
 #include "graph/hull.h"
 #include "model/unknowns.h"
@@ -124,14 +125,6 @@ static ambit_status check_reach(const build *b) {
 
 /* -- parameters and unknowns */
 
-static const char *parameter_name(const build *b, ambit_expr e, size_t number) {
-  const ambit_node *node = ambit_graph_node(b->graph, e);
-  if (node->text) return ambit_arena_text(b->arena, node->text);
-  char name[32];
-  snprintf(name, sizeof name, "p%zu", number + 1);
-  return ambit_arena_text(b->arena, name);
-}
-
 /* Inputs of the right-hand side and of invariants: states, then the unknowns they reach, then time if it is used. */
 static ambit_status find_parameters(build *b) {
   const ambit_system *s = b->q->system;
@@ -153,9 +146,9 @@ static ambit_status find_parameters(build *b) {
     if (op != AMBIT_LEAF_UNKNOWN) continue;
     size_t k = s->nx + b->p->np;
     b->input[k] = leaf[i];
-    name[k] = parameter_name(b, leaf[i], b->p->np++);
-    if (!name[k]) return no_memory(b);
+    b->p->np++;
   }
+  if (!ambit_graph_leaf_names(b->graph, b->arena, b->p->np, b->input + s->nx, name + s->nx)) return no_memory(b);
   if (b->p->uses_time) b->input[s->nx + b->p->np] = ambit_graph_time(b->graph);
   b->p->name = name;
   return AMBIT_OK;

@@ -1,5 +1,6 @@
 /* reduction_build.c -- tapes of effects and derivatives, references as rows of the tapes' inputs, scales of states. */
 #include "model/reduction_build.h"
+#include "graph/name.h"
 #include "graph/tape.h"
 #include "model/unknowns.h"
 #include <float.h>
@@ -86,9 +87,11 @@ static ambit_status settle(const build *b, size_t n, ambit_expr *e, ambit_failur
   for (size_t i = 0; i < nleaf; i++) {
     const ambit_node *node = ambit_graph_node(g, leaf[i]);
     if (node->op != AMBIT_LEAF_UNKNOWN || is_given(b->q, leaf[i])) continue;
-    if (!ambit_interval_is_bounded(node->value))
-      return ambit_fail(f, AMBIT_INVALID, "the uncertain datum `%s` is not bounded: [%g, %g]",
-          node->text ? node->text : "without a name", node->value.lo, node->value.hi);
+    if (!ambit_interval_is_bounded(node->value)) {
+      char name[AMBIT_DATUM_NAME_MAX];
+      ambit_graph_leaf_name(g, leaf[i], name);
+      return ambit_fail(f, AMBIT_INVALID, "the uncertain datum `%s` is not bounded", name);
+    }
     leaf[nfrom] = leaf[i];
     to[nfrom] = ambit_graph_number(g, ambit_interval_mid(node->value));
     if (to[nfrom++] == AMBIT_NO_EXPR) return no_memory(f);

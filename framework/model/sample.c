@@ -52,7 +52,7 @@ static ambit_status find_ranges(job *j, ambit_failure *f) {
   for (size_t i = 0; i < j->bound.nunknown; i++) {
     const ambit_node *node = ambit_graph_node(j->q->graph, j->bound.unknown[i]);
     j->range[i] = ambit_sample_range(node);
-    ambit_status status = ambit_sample_check_range(node->value, node->text, f);
+    ambit_status status = ambit_sample_check_range(j->q->graph, j->bound.unknown[i], f);
     if (status != AMBIT_OK) return status;
   }
   return AMBIT_OK;

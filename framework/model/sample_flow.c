@@ -55,7 +55,7 @@ static ambit_status find_ranges(ambit_flow *flow, ambit_failure *f) {
   if (!flow->range) return no_memory(f);
   for (uint32_t i = 0; i < p->nu; i++) {
     const ambit_node *datum = ambit_graph_node(flow->q->system->graph, flow->unknown[i]);
-    ambit_status status = ambit_sample_check_range(datum->value, datum->text, f);
+    ambit_status status = ambit_sample_check_range(flow->q->system->graph, flow->unknown[i], f);
     if (status != AMBIT_OK) return status;
     flow->range[i] = ambit_sample_range(datum);
     flow->vague = flow->vague || ambit_interval_is_empty(datum->inner);

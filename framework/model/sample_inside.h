@@ -2,22 +2,20 @@
 #ifndef AMBIT_SAMPLE_INSIDE_H
 #define AMBIT_SAMPLE_INSIDE_H
 #include "model/sample.h"
+#include "graph/name.h"
 #include "model/sample_points.h"
 #include <stdio.h>
 #include <time.h>
 
 #define AMBIT_SAMPLE_FEWEST 10 /* draws, from which on extremes are followed uphill */
 
-/* A datum that can be drawn has a range with ends. text: its name, or NULL. */
-static inline ambit_status ambit_sample_check_range(ambit_interval x, const char *text, ambit_failure *f) {
-  const char *quote = text ? "`" : "";
-  if (ambit_interval_is_empty(x))
-    return ambit_fail(
-        f, AMBIT_INVALID, "cannot draw %s%s%s: its range is empty", quote, text ? text : "an unknown", quote);
-  if (!ambit_interval_is_bounded(x))
-    return ambit_fail(f, AMBIT_INVALID, "cannot draw %s%s%s from [%g, %g]: its range is not bounded", quote,
-        text ? text : "an unknown", quote, x.lo, x.hi);
-  return AMBIT_OK;
+/* A datum that can be drawn has a range with ends. */
+static inline ambit_status ambit_sample_check_range(const ambit_graph *g, ambit_expr datum, ambit_failure *f) {
+  ambit_interval x = ambit_graph_node(g, datum)->value;
+  if (ambit_interval_is_bounded(x) && !ambit_interval_is_empty(x)) return AMBIT_OK;
+  char name[AMBIT_DATUM_NAME_MAX];
+  ambit_graph_leaf_name(g, datum, name);
+  return ambit_fail(f, AMBIT_INVALID, "cannot draw `%s` from [%g, %g]: its range is not bounded", name, x.lo, x.hi);
 }
 
 /* Draws are made from what the tolerances surely allow. Where no value is known to be allowed, draws have one of the

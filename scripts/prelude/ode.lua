@@ -105,10 +105,11 @@ end
 
 local function read_parameters(t, is_state)
   local values = {}
-  for name, value in pairs(check.table(t or {}, "ode: parameters")) do
+  for _, name in ipairs(check.sorted(check.table(t or {}, "ode: parameters"))) do
     check.text(name, "ode: name of a parameter")
     if is_state[name] then check.fail('ode: `%s` is a state and a parameter', name) end
-    values[name] = core.expression(value, nil, "ode: parameter " .. name)
+    values[name] = core.expression(t[name], nil, "ode: parameter " .. name)
+    core.name_data({ values[name] }, name)
   end
   return values
 end
@@ -125,6 +126,7 @@ local function read_rates(result, self, s, p, t)
     if value == nil then check.fail('ode: equations: the derivative of `%s` is missing', name) end
     if type(value) == "function" then value = formula.call(value, "ode: derivative of " .. name, s, p, t) end
     rates[i] = core.expression(value, rate_unit(self, i), "ode: derivative of " .. name)
+    core.name_data({ rates[i] }, "derivative of " .. name)
   end
   return rates
 end

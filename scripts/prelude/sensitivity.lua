@@ -7,6 +7,7 @@ local instant = require "ambit.instant"
 local ode = require "ambit.ode"
 local session = require "ambit.session"
 local simulate = require "ambit.simulate"
+local uncertain = require "ambit.uncertain"
 
 local verb = {}
 
@@ -20,35 +21,14 @@ local function collector()
   end
 end
 
--- The uncertain data below an expression.
-local function unknowns(expressions)
-  local list = {}
-  for _, leaf in ipairs(core.leaves(expressions)) do
-    if leaf.kind == "unknown" then list[#list + 1] = leaf.expression end
-  end
-  return list
-end
-
-local function holds(list, expression)
-  for _, entry in ipairs(list) do
-    if entry == expression then return true end
-  end
-  return false
-end
-
--- Every initial value, and every uncertain datum of the equations: by its parameter's name if it has one.
+-- Every initial value, and every uncertain datum of the equations. A datum that a parameter is made of by a factor is
+-- called as the parameter: then the derivative is by the parameter's value.
 local function everything(system, add)
   for i, name in ipairs(system.states) do add(name, i, core.expression(0)) end
-  local data, named = unknowns(system.rates), {}
-  for _, name in ipairs(check.sorted(system.parameters)) do
-    local own = unknowns { system.parameters[name] }
-    if #own == 1 and holds(data, own[1]) and not holds(named, own[1]) then
-      add(name, 0, system.parameters[name])
-      named[#named + 1] = own[1]
-    end
-  end
-  for i, datum in ipairs(data) do
-    if not holds(named, datum) then add("p" .. i, 0, datum) end
+  for _, leaf in ipairs(uncertain.leaves(system.rates)) do
+    local parameter = system.parameters[leaf.name]
+    local own = parameter and uncertain.leaves { parameter } or {}
+    add(leaf.name, 0, #own == 1 and own[1].expression == leaf.expression and parameter or leaf.expression)
   end
 end
 
@@ -59,7 +39,18 @@ local function by_name(system, name, add)
   if system.parameters[name] then return add(name, 0, system.parameters[name]) end
   local known = check.sorted(system.parameters)
   table.move(system.states, 1, #system.states, #known + 1, known)
-  check.fail("sensitivity: wrt: there is no state or parameter `%s`%s", tostring(name), check.suggest(name, known))
+  for _, leaf in ipairs(uncertain.leaves(system.rates)) do
+    if leaf.name == name then return add(name, 0, leaf.expression) end
+    known[#known + 1] = leaf.name
+  end
+  check.fail("sensitivity: wrt: there is no state, parameter or datum `%s`%s", tostring(name),
+    check.suggest(name, known))
+end
+
+-- What an expression in the list is called: as its datum, or by its place.
+local function name_of(i, expression)
+  local data = uncertain.leaves { expression }
+  return #data == 1 and data[1].name or ("wrt[%d]"):format(i)
 end
 
 -- wrt = { "x", "k", a = datum, datum, ... }
@@ -74,7 +65,8 @@ local function quantities(t, system)
     if type(value) == "string" then
       by_name(system, value, add)
     else
-      add("p" .. i, 0, core.expression(value, nil, ("sensitivity: wrt[%d]"):format(i)))
+      local e = core.expression(value, nil, ("sensitivity: wrt[%d]"):format(i))
+      add(name_of(i, e), 0, e)
     end
   end
   for _, key in ipairs(check.sorted(t)) do

@@ -44,6 +44,7 @@ function verb.initial(t, system, what)
     if by_place then value = t[i] else value = t[name] end
     if value == nil then check.fail('%s: initial: the state `%s` has no value', what, name) end
     list[i] = core.expression(value, ode.unit(system, i), ("%s: initial.%s"):format(what, name))
+    core.name_data({ list[i] }, "initial " .. name)
   end
   return list
 end

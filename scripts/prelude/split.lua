@@ -1,20 +1,14 @@
 -- split.lua -- simulate { split = { beta1 = 16, [datum] = 2 } } or { split = 32 }: which uncertain data are cut, and
 -- into how many parts.
 local check = require "ambit.check"
-local core = require "ambit.core"
+local uncertain = require "ambit.uncertain"
 
 local split = {}
 
 local MOST = 65536 -- pieces
 
 -- The uncertain data below an expression.
-local function unknowns(expression)
-  local list = {}
-  for _, leaf in ipairs(core.leaves { expression }) do
-    if leaf.kind == "unknown" and leaf.lo < leaf.hi then list[#list + 1] = leaf.expression end
-  end
-  return list
-end
+local function unknowns(expression) return (uncertain.data { expression }) end
 
 local function index_of(list, expression)
   for i, known in ipairs(list) do
@@ -22,13 +16,22 @@ local function index_of(list, expression)
   end
 end
 
--- Everything with a name that may be uncertain: { name, expression }, states first.
+-- Everything with a name that may be uncertain: { name, expression }: states, parameters, data.
 local function named_data(q)
-  local list = {}
-  for i, name in ipairs(q.system.states) do list[i] = { name, q.initial[i] } end
+  local list, taken = {}, {}
+  local function add(name, expression)
+    if taken[name] then return end
+    taken[name], list[#list + 1] = true, { name, expression }
+  end
+  for i, name in ipairs(q.system.states) do add(name, q.initial[i]) end
   local parameters = q.system.parameters or {}
-  for _, name in ipairs(check.sorted(parameters)) do list[#list + 1] = { name, parameters[name] } end
-  return list
+  for _, name in ipairs(check.sorted(parameters)) do add(name, parameters[name]) end
+  local all = table.move(q.initial, 1, #q.initial, 1, {})
+  local rates = q.system.rates or {} -- of what another verb asks for, there are states only
+  table.move(rates, 1, #rates, #all + 1, all)
+  local data, _, _, _, names = uncertain.data(all)
+  for i, datum in ipairs(data) do add(names[i], datum) end
+  return list, data, names
 end
 
 local function count(value, what)
@@ -48,7 +51,7 @@ local function datum_of(key, data, what)
       if entry[1] == key then expression = entry[2] end
     end
     if not expression then
-      check.fail("%s: there is no state or parameter `%s`%s", what, key, check.suggest(key, names))
+      check.fail("%s: there is no state, parameter or datum `%s`%s", what, key, check.suggest(key, names))
     end
   elseif check.kind(key) ~= "expression" then
     check.fail("%s: expected names of states or parameters, or uncertain data as keys, got %s", what, tostring(key))
@@ -65,10 +68,11 @@ end
 -- read(value, q, what) -> the fields of core.simulate's run options that a split fills
 function split.read(value, q, what)
   if value == nil then return {} end
-  local data, fields = named_data(q), { unknown = {}, name = {}, parts = {} }
+  local data, all, names = named_data(q)
+  local fields = { unknown = {}, name = {}, parts = {} }
   local function add(unknown, name, parts)
-    local n = #fields.unknown + 1
-    fields.unknown[n], fields.name[n], fields.parts[n] = unknown, name, parts
+    local n, i = #fields.unknown + 1, index_of(all, unknown)
+    fields.unknown[n], fields.name[n], fields.parts[n] = unknown, i and names[i] or name, parts
   end
   if type(value) == "table" and next(value) ~= nil then
     for _, key in ipairs(check.sorted(value)) do
@@ -81,9 +85,8 @@ function split.read(value, q, what)
     check.fail("%s: expected a number of pieces, or { state = parts }, got %s", what,
       type(value) == "table" and "an empty table" or check.kind(value))
   end
-  for _, entry in ipairs(data) do -- names for the others, where they are one datum
-    local list = unknowns(entry[2])
-    if #list == 1 and not index_of(fields.unknown, list[1]) then add(list[1], entry[1], 0) end
+  for i, datum in ipairs(all) do -- names for the others
+    if not index_of(fields.unknown, datum) then add(datum, names[i], 0) end
   end
   return fields
 end

@@ -123,9 +123,11 @@ function Set:find(names, datum, component)
   return best
 end
 
-local function remember(set, names, datum, component, pattern, expression)
+-- The number with the tolerance, a datum that is called after what it is of.
+local function lay(set, names, datum, component, pattern, expression)
   local list = tolerance.data[datum][1]
   local label = names[2] .. "." .. datum .. (list and component and "." .. list[component] or "")
+  core.name_data({ expression }, label)
   set.data[#set.data + 1] = { name = label, tolerance = pattern.value, value = expression }
   pattern.has_laid = true
   return expression
@@ -151,7 +153,7 @@ end
 function Set:lay(names, datum, component, number)
   local pattern = self:find(names, datum, component)
   if not pattern or is_idle(pattern, number) then return number end
-  return remember(self, names, datum, component, pattern, around(names, pattern, number, datum == "mass"))
+  return lay(self, names, datum, component, pattern, around(names, pattern, number, datum == "mass"))
 end
 
 -- The upper triangle of an inertia.
@@ -161,7 +163,7 @@ function Set:lay_inertia(names, entries)
     local pattern = self:find(names, "inertia", i)
     if pattern and pattern.is_relative and not pattern.component and pattern.size > 0 then
       factors[pattern] = factors[pattern]
-        or remember(self, names, "inertia", nil, pattern, around(names, pattern, core.expression(1), true))
+        or lay(self, names, "inertia", nil, pattern, around(names, pattern, core.expression(1), true))
       laid[i] = factors[pattern] * entry
     else
       laid[i] = self:lay(names, "inertia", i, entry)

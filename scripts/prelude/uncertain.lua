@@ -7,17 +7,29 @@ local core = require "ambit.core"
 
 local uncertain = {}
 
--- { expression, ... } -> { datum }, { lo }, { hi }, { lo = { inner lo }, hi = { inner hi } } of those that are no points
-function uncertain.data(expressions)
-  local unknowns, lo, hi, inner = {}, {}, {}, { lo = {}, hi = {} }
+-- { expression, ... } -> { leaf } as core.leaves gives them, with names that are told apart: in every message, report and
+-- record a datum is called so.
+function uncertain.leaves(expressions)
+  local list, data = {}, {}
   for _, leaf in ipairs(core.leaves(expressions)) do
-    if leaf.kind == "unknown" and leaf.lo < leaf.hi then
+    if leaf.kind == "unknown" then list[#list + 1], data[#data + 1] = leaf, leaf.expression end
+  end
+  for i, name in ipairs(core.leaf_names(data)) do list[i].name = name end
+  return list
+end
+
+-- { expression, ... } -> { datum }, { lo }, { hi }, { lo = { inner lo }, hi = { inner hi } }, { name } of those that are
+-- no points
+function uncertain.data(expressions)
+  local unknowns, lo, hi, inner, names = {}, {}, {}, { lo = {}, hi = {} }, {}
+  for _, leaf in ipairs(uncertain.leaves(expressions)) do
+    if leaf.lo < leaf.hi then
       local n = #unknowns + 1
-      unknowns[n], lo[n], hi[n] = leaf.expression, leaf.lo, leaf.hi
+      unknowns[n], lo[n], hi[n], names[n] = leaf.expression, leaf.lo, leaf.hi, leaf.name
       inner.lo[n], inner.hi[n] = leaf.inner_lo, leaf.inner_hi
     end
   end
-  return unknowns, lo, hi, inner
+  return unknowns, lo, hi, inner, names
 end
 
 return uncertain

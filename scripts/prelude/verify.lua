@@ -75,8 +75,9 @@ function verb.verify(t)
     check.fail("verify: solver `%s` proves nothing", q.solver)
   end
   local list = conditions.read(t, q.system)
-  local unknowns, lo, hi, inner = uncertain_data(q, list)
+  local unknowns, lo, hi, inner, names = uncertain_data(q, list)
   local job = { asked = q, request = q, conditions = list, unknowns = unknowns, lo = lo, hi = hi, inner = inner,
+    names = names,
     sound_points = are_points_starts(q), budget = read_budget(t.budget), tolerance = tolerance_of(q) }
   search.run(job)
   local result = report.of(job)

@@ -259,9 +259,9 @@ describe("ambit explain --json", function()
     local kind, verbs = {}, {}
     for _, datum in ipairs(by.datum) do kind[datum.name], verbs[datum.name] = datum.kind, datum.verbs end
     assert.same({ "uncertain", "fixed", "fixed", "uncertain", "uncertain", "varying", "fixed" },
-      { kind.a, kind.b, kind.c, kind["x at the start"], kind["link.offset.x"], kind["link.offset.y"],
+      { kind.a, kind.b, kind.c, kind["initial x"], kind["link.offset.x"], kind["link.offset.y"],
         kind["link.offset.z"] })
-    assert.same({ "1", "1", "2" }, { verbs.a, verbs["x at the start"], verbs["link.offset.x"] })
+    assert.same({ "1", "1", "2" }, { verbs.a, verbs["initial x"], verbs["link.offset.x"] })
   end)
 
   it("tells quantities by name, stages, and why a scene failed", function()

@@ -239,7 +239,7 @@ describe("sensitivity", function()
     local f = ambit.ode { states = { "x" }, parameters = { a = ambit.between(1, 2), c = 3 },
       equations = function(s, p) return { x = -p.a * p.c * s.x } end }
     local function try(wrt) return { f, initial = { 1 }, t = { 0, 1 }, wrt = wrt } end
-    assert_refused("there is no state or parameter `b`; did you mean", try { "b" })
+    assert_refused("there is no state, parameter or datum `b`; did you mean", try { "b" })
     assert_refused("`c` is not uncertain", try { "c" })
     assert_refused("`x` is given twice", try { "x", "x" })
     assert_refused("expected a state, a parameter or an uncertain datum", try {})

@@ -101,7 +101,7 @@ describe("split", function()
       solver = "lohner", threads = 2,
     }
     assert.equal("unable", run.status)
-    assert.matches("^piece 9 of 9 %(x in %[0%.9, 1%]%): ", run.reason)
+    assert.matches("^piece 9 of 9 %(initial x in %[0%.9, 1%]%): ", run.reason)
     assert.equal(0.5, run.t_reached) -- the last instant that all pieces reached
     assert.is_true(run.x.x:contains(1 / (1 - 0.5)))
   end)
@@ -138,7 +138,7 @@ describe("split", function()
       local problem = message(copy(question, { split = split }))
       assert.is_truthy(problem:find(text, 1, true), problem)
     end
-    says("split: there is no state or parameter `y`", { y = 2 })
+    says("split: there is no state, parameter or datum `y`", { y = 2 })
     says("split: x: expected a positive integer, got 0", { x = 0 })
     says("split: x: expected a positive integer, got 1.5", { x = 1.5 })
     says("split: x: at most 65536, got 65537", { x = 65537 })

@@ -29,11 +29,14 @@ local function kind_of(expression)
   return "uncertain", leaves
 end
 
--- Models that a verb derives from others (by reduction) have data of the same names: these count once.
+-- Models that a verb derives from others (by reduction) have data of the same names: these count once. What depends on
+-- one uncertain datum is called as this is everywhere.
 local function add(found, label, expression)
+  local kind, leaves = kind_of(expression)
+  local name = #leaves == 1 and core.leaf_names({ leaves[1].expression })[1]
+  if name and not found.seen[name] then label = name end
   if found.seen[label] then return end
   found.seen[label] = true
-  local kind, leaves = kind_of(expression)
   local datum = { label = label, kind = kind, unknowns = {}, verbs = {} }
   found[#found + 1] = datum
   for i, leaf in ipairs(leaves) do
@@ -64,7 +67,7 @@ local function add_ode(found, ode, label)
 end
 
 local function add_initial(found, request)
-  for i, name in ipairs(request.system.states) do add(found, name .. " at the start", request.initial[i]) end
+  for i, name in ipairs(request.system.states) do add(found, "initial " .. name, request.initial[i]) end
 end
 
 -- What a verb computed with: the unknowns of its expressions, as far as it was asked directly.

@@ -8,6 +8,7 @@ local core = require "ambit.core"
 local formula = require "ambit.formula"
 local instant = require "ambit.instant"
 local simulate = require "ambit.simulate"
+local uncertain = require "ambit.uncertain"
 
 local scenario = {}
 
@@ -51,21 +52,22 @@ local function find(values, key)
   end
 end
 
-local function symbol_of(key, number)
+-- A datum as a symbol must not meet another one: no state and no parameter is called so.
+local function symbol_of(key, used)
   if type(key) == "string" then return core.symbol(key, "1") end
-  local leaf = core.leaves({ key })[1]
-  return core.symbol(leaf and leaf.name or ("datum %d"):format(number), "1")
+  local leaf = uncertain.leaves({ key })[1]
+  local name = ("datum `%s`"):format(leaf and leaf.name or tostring(key))
+  while used[name] do name = name .. "'" end
+  used[name] = true
+  return core.symbol(name, "1")
 end
 
 -- { [parameter or datum] = symbol } for everything that scenarios give values to.
 function scenario.symbols(t, what)
-  local symbols, number = {}, 0
+  local symbols, used = {}, {}
   local function add(values)
     for _, key in ipairs(check.sorted(values)) do
-      if not find(symbols, key) then
-        number = number + 1
-        symbols[key] = symbol_of(key, number)
-      end
+      if not find(symbols, key) then symbols[key] = symbol_of(key, used) end
     end
   end
   add(said(t, what))
@@ -140,6 +142,7 @@ local function read(t, entry, number, count, m, what)
     local n = #s.leaves + 1
     s.leaves[n] = m.varied[key]
     s.values[n] = value_of(value, core.unit_of(default_of(m, key)), ("%s: `%s`"):format(where, tostring(key)))
+    core.name_data({ s.values[n] }, tostring(key))
     s.by_key[key] = s.values[n]
   end
   s.initial = initial_of(entry.initial == nil and t.initial or entry.initial, m, s, where)

@@ -23,7 +23,7 @@ function datum.maker(detailed, scenarios)
   local used, made, number = used_names(detailed, scenarios), {}, 0
   return function(lo, hi)
     repeat number = number + 1 until not used["c" .. number]
-    local symbol, unknown = core.symbol("c" .. number, "1"), core.between(lo, hi)
+    local symbol, unknown = core.symbol("c" .. number, "1"), core.between(lo, hi, "c" .. number)
     made[#made + 1] = { symbol, unknown }
     for _, s in ipairs(scenarios) do
       s.leaves[#s.leaves + 1], s.values[#s.values + 1] = symbol, unknown

@@ -49,9 +49,16 @@ local function lua_of(expression, names)
   return good and list[1] or nil
 end
 
+-- What data are in Lua: variables, or fields of `data`.
+local function data_names(data)
+  local names = {}
+  for k, datum in ipairs(data) do names[k] = { core.symbol(datum.name, "1"), source_lua.variable(datum.name) } end
+  return names
+end
+
 local function outputs_of_model(model, data)
-  local names, list = {}, {}
-  for i, symbol in ipairs(model.symbols) do names[i] = { symbol, ("s[%q]"):format(model.states[i]) } end
+  local names, list = data_names(data), {}
+  for i, symbol in ipairs(model.symbols) do names[#names + 1] = { symbol, ("s[%q]"):format(model.states[i]) } end
   for k, output in ipairs(model.outputs) do
     local e = scenarios.named(data, { output.expression })[1]
     list[k] = { name = output.name, unit = output.unit, text = tostring(e), lua = lua_of(e, names) }
@@ -76,10 +83,10 @@ end
 
 -- { name = expression } -> { name = Lua text }
 local function named(data, expressions)
-  local list = {}
+  local list, names = {}, data_names(data)
   for _, name in ipairs(check.sorted(expressions)) do
     local e = scenarios.named(data, { expressions[name] })[1]
-    list[name] = lua_of(e) or tostring(e)
+    list[name] = lua_of(e, names) or tostring(e)
   end
   return object(list)
 end

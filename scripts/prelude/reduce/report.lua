@@ -10,7 +10,6 @@ local json = require "ambit.reduce.json"
 local judge = require "ambit.reduce.report_judge"
 local picture = require "ambit.reduce.picture"
 local sample = require "ambit.reduce.sample"
-local scenarios = require "ambit.reduce.report_scenario"
 local text = require "ambit.reduce.report_text"
 
 local Reduction = { __name = "reduction" }
@@ -57,18 +56,8 @@ function Reduction.__tostring(self) return text.whole(self) end
 
 local report = {}
 
--- The facts of a reduction -> its result. Terms name the data as the equations and the scenarios do.
-function report.of(facts)
-  local data = scenarios.data(facts)
-  for _, term in ipairs(facts.terms) do
-    term.text = scenarios.renamed(data, term.text)
-    term.replacement = term.replacement and scenarios.renamed(data, term.replacement)
-  end
-  for _, entry in ipairs(facts.log) do
-    for k, text in ipairs(entry.candidates) do entry.candidates[k] = scenarios.renamed(data, text) end
-  end
-  return setmetatable(facts, Reduction)
-end
+-- The facts of a reduction -> its result.
+function report.of(facts) return setmetatable(facts, Reduction) end
 
 function report.is(value) return getmetatable(value) == Reduction end
 

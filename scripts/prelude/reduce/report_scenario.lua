@@ -1,10 +1,10 @@
 -- reduce/report_scenario.lua -- a scenario for readers: its uncertain data by name, and everything that is given as
--- expressions of them. A datum that is a parameter bears its name, one that is the initial value of x is x_0; the
--- others are p1, p2, ...
+-- expressions of them.
 local check = require "ambit.check"
 local compare_table = require "ambit.compare.table"
 local core = require "ambit.core"
 local number = require "ambit.reduce.report_number"
+local uncertain = require "ambit.uncertain"
 
 local scenario = {}
 
@@ -23,42 +23,26 @@ local function expressions_of(model)
   return list
 end
 
--- Appends the uncertain data below some expressions; called(unknown) -> its name, or nil.
-local function add(list, used, expressions, called)
-  for _, leaf in ipairs(core.leaves(expressions)) do
-    if leaf.kind == "unknown" and not is_in(list, leaf.expression) then
-      local name = called(leaf.expression)
-      if not name or used[name] then name = "p" .. #list + 1 end
-      used[name] = true
-      list[#list + 1] = { name = name, lo = leaf.lo, hi = leaf.hi, expression = leaf.expression }
-    end
-  end
-end
-
 -- The uncertain data of both models, and of a scenario if one is given: { { name, lo, hi, expression }, ... }. Those of
--- the models come first: they are called the same in every scenario.
+-- the models come first.
 function scenario.data(self, given)
   local list, used = {}, {}
   for _, name in ipairs(self.detailed.states) do used[name] = true end
-  local parameters = self.detailed.parameters or {}
-  local function parameter(unknown)
-    for _, name in ipairs(check.sorted(parameters)) do
-      if parameters[name] == unknown then return name end
+  local function add(expressions)
+    for _, leaf in ipairs(uncertain.leaves(expressions)) do
+      if not is_in(list, leaf.expression) then
+        local name = leaf.name
+        while used[name] do name = name .. "'" end -- a state of the same name
+        used[name] = true
+        list[#list + 1] = { name = name, lo = leaf.lo, hi = leaf.hi, expression = leaf.expression }
+      end
     end
   end
-  add(list, used, expressions_of(self.detailed), parameter)
-  add(list, used, expressions_of(self.model), parameter)
+  add(expressions_of(self.detailed))
+  add(expressions_of(self.model))
   if not given then return list end
-  add(list, used, given.values or {}, function(unknown)
-    for k, value in ipairs(given.values) do
-      if value == unknown then return name_of(given.leaves[k]) end
-    end
-  end)
-  for _, state in ipairs(check.sorted(given.initial)) do
-    add(list, used, { given.initial[state] }, function(unknown)
-      return given.initial[state] == unknown and state .. "_0" or nil
-    end)
-  end
+  add(given.values or {})
+  for _, state in ipairs(check.sorted(given.initial)) do add { given.initial[state] } end
   return list
 end
 
@@ -67,17 +51,6 @@ function scenario.named(data, expressions)
   local leaves, symbols = {}, {}
   for k, datum in ipairs(data) do leaves[k], symbols[k] = datum.expression, core.symbol(datum.name, "1") end
   return core.substitute(expressions, leaves, symbols)
-end
-
--- A text with the data in it by their names: those without one of their own print as unknown13.
-function scenario.renamed(data, text)
-  for _, datum in ipairs(data) do
-    local raw = tostring(datum.expression)
-    if raw:find "^unknown%d+$" then
-      text = text:gsub("%f[%w_]" .. raw .. "%f[^%w_]", function() return datum.name end)
-    end
-  end
-  return text
 end
 
 local NAMES = 8 -- of states with the same value that are all listed

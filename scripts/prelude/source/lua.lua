@@ -16,6 +16,8 @@ local function quoted(text) return (("%q"):format(text):gsub("\\\n", "\\n")) end
 local function field(table_name, name)
   return is_identifier(name) and table_name .. "." .. name or ("%s[%s]"):format(table_name, quoted(name))
 end
+-- A variable, or where its name is no identifier the field of `data` that is called so.
+function source_lua.variable(name) return is_identifier(name) and name or field("data", name) end
 local function key(name) return is_identifier(name) and name or ("[%s]"):format(quoted(name)) end
 
 local function number(x) return core.source({ core.expression(x) }, "lua")[1] end

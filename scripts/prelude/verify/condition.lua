@@ -34,7 +34,9 @@ end
 local function add(list, kind, name, value, system, depth)
   if type(value) == "function" then value = formula.call(value, "verify: " .. name, arguments(system)) end
   if check.kind(value) ~= "table" then
-    list[#list + 1] = { kind = kind, name = name, g = event.formula(value, system, "verify: " .. name) }
+    local g = event.formula(value, system, "verify: " .. name)
+    core.name_data({ g }, "condition " .. name)
+    list[#list + 1] = { kind = kind, name = name, g = g }
     return
   end
   local keys = check.sorted(value)

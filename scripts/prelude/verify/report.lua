@@ -20,29 +20,40 @@ end
 check.methods(methods, Counterexample)
 Counterexample.__index = methods
 
--- Data that have no name: { text of the range, value }
-local function nameless(job, values)
-  local named = {}
-  for _, name in ipairs(check.sorted(job.asked.system.parameters)) do
-    named[#named + 1] = job.asked.system.parameters[name]
-  end
-  local known, list = core.leaves(named), {}
-  for _, leaf in ipairs(core.leaves(job.asked.system.rates)) do
-    local has_name = leaf.kind ~= "unknown"
-    for _, other in ipairs(known) do has_name = has_name or other.expression == leaf.expression end
-    for j, unknown in ipairs(has_name and {} or job.unknowns) do
-      if unknown == leaf.expression then
-        list[#list + 1] = { ("datum in %s"):format(tostring(core.interval(leaf.lo, leaf.hi))), values[j] }
-      end
+-- What is to be printed: { { name, value } } of the initial values and of the parameters and data that are uncertain. A
+-- parameter or initial value that is a datum is called as the datum, and that is not said twice.
+local function lines_of(self, q)
+  local lines, said, called = {}, {}, {}
+  for j, name in ipairs(self.names) do called[self.unknowns[j]] = name end
+  local function name_of(expression)
+    for unknown, name in pairs(called) do
+      if unknown == expression then return name end
     end
   end
-  return list
+  local function add(expression, name, value)
+    local own = name_of(expression)
+    if own then said[own] = true end
+    lines[#lines + 1] = { own or name, value }
+  end
+  local order = table.move(q.system.states, 1, #q.system.states, 1, {})
+  local place = {}
+  for i, name in ipairs(order) do place[name] = i end
+  table.sort(order)
+  for _, name in ipairs(order) do add(q.initial[place[name]], "initial " .. name, self.initial[name]) end
+  for _, name in ipairs(check.sorted(self.parameters)) do
+    add(q.system.parameters[name], name, self.parameters[name])
+  end
+  for _, name in ipairs(self.names) do
+    if not said[name] then lines[#lines + 1] = { name, self.data[name] } end
+  end
+  return lines
 end
 
--- The middle of a box as a choice of the data: initial values, parameters by name, nameless data.
+-- The middle of a box as a choice of the data: initial values, parameters and data by name.
 local function choice(job, part)
   local q = job.asked
-  local self = setmetatable({ unknowns = job.unknowns, values = {}, initial = {}, parameters = {} }, Counterexample)
+  local self = setmetatable({ unknowns = job.unknowns, names = job.names, values = {}, initial = {}, parameters = {},
+    data = {} }, Counterexample)
   local middle = {}
   for j, lo in ipairs(part.lo) do
     local hi = part.hi[j]
@@ -50,26 +61,22 @@ local function choice(job, part)
   end
   for j, x in ipairs(box.allowed(job, middle)) do
     local known = job.inner.lo[j] <= job.inner.hi[j]
-    self.values[j] = core.expression(known and x or core.interval(job.lo[j], job.hi[j]))
+    local value = known and core.interval(x, x) or core.interval(job.lo[j], job.hi[j])
+    self.values[j], self.data[job.names[j]] = core.expression(value), value
   end
   for i, name in ipairs(q.system.states) do self.initial[name] = self:value(q.initial[i]) end
   for _, name in ipairs(check.sorted(q.system.parameters)) do
     local parameter = q.system.parameters[name]
     if not core.is_constant(parameter) then self.parameters[name] = self:value(parameter) end
   end
-  self.others = nameless(job, self.values)
+  self.lines = lines_of(self, q)
   return self
 end
 
--- "x = 1", "mu = 2", "datum in [1, 2] = 1.5"
+-- "initial x = 1", "mu = 2", "arm.offset.x = 1.5"
 local function described(self)
   local parts = {}
-  for _, values in ipairs { self.initial, self.parameters } do
-    for _, name in ipairs(check.sorted(values)) do
-      parts[#parts + 1] = ("%s = %s"):format(name, tostring(values[name]))
-    end
-  end
-  for _, other in ipairs(self.others) do parts[#parts + 1] = ("%s = %s"):format(other[1], tostring(other[2])) end
+  for i, line in ipairs(self.lines) do parts[i] = ("%s = %s"):format(line[1], tostring(line[2])) end
   return parts
 end
 
