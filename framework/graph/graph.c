@@ -291,9 +291,12 @@ ambit_expr ambit_graph_unknown(ambit_graph *g, const char *name, ambit_interval 
   return ambit_graph_datum(g, name, NULL, range, range);
 }
 
+void ambit_graph_set_plain(ambit_graph *g, ambit_expr unknown) { g->stored[unknown].node.plain = true; }
+
 bool ambit_graph_name(ambit_graph *g, ambit_expr unknown, const char *name) {
   ambit_node *node = &g->stored[unknown].node;
   if (node->op != AMBIT_LEAF_UNKNOWN || node->text) return true;
+  node->plain = false;
   return (node->text = strdup(name)) != NULL;
 }
 

@@ -34,6 +34,7 @@ typedef struct ambit_node {
   ambit_interval range; /* bounds over all reals (UNKNOWN: over its set) */
   bool total;           /* defined for all real values of the leaves */
   bool constant;        /* no UNKNOWN, SYMBOL or TIME below */
+  bool plain;           /* UNKNOWN: a plain interval that stands in a formula, until it is named as a datum */
   const char *text;     /* CONSTANT: literal or "pi"; SYMBOL, UNKNOWN: name or NULL; ABS, MIN, MAX: writer or NULL */
   const char *unit;     /* SYMBOL: SI unit; UNKNOWN: the line that made it, "scene.lua:12", or NULL */
 } ambit_node;
@@ -60,6 +61,8 @@ ambit_expr ambit_graph_unknown(ambit_graph *g, const char *name, ambit_interval 
 ** allowed (cut to `outer`; reversed or empty: none is known to be). place, name: or NULL. */
 ambit_expr ambit_graph_datum(
     ambit_graph *g, const char *name, const char *place, ambit_interval outer, ambit_interval inner);
+/* Marks an UNKNOWN as plain. */
+void ambit_graph_set_plain(ambit_graph *g, ambit_expr unknown);
 /* Calls an UNKNOWN that has no name so; false: out of memory. */
 bool ambit_graph_name(ambit_graph *g, ambit_expr unknown, const char *name);
 /* the same name is the same node */

@@ -204,6 +204,44 @@ static int name_data(lua_State *L) {
   return 0;
 }
 
+/* The first plain interval among the leaves; AMBIT_NO_EXPR: none, or only data are there and not always. */
+static ambit_expr find_plain(const ambit_graph *g, size_t n, const ambit_expr *leaf, bool always) {
+  ambit_expr found = AMBIT_NO_EXPR;
+  for (size_t i = n; i-- > 0;) {
+    const ambit_node *node = ambit_graph_node(g, leaf[i]);
+    if (node->plain) found = leaf[i];
+    always = always || node->op != AMBIT_LEAF_UNKNOWN;
+  }
+  return always ? found : AMBIT_NO_EXPR;
+}
+
+/* refuse_plain({e, ...}, what, always): an error where a formula holds a plain interval: nobody said whether it is one
+** constant or varies. not always: data without variables are no formula, but one datum. */
+static int refuse_plain(lua_State *L) {
+  const ambit_graph *g = AMBIT_LUA(L)->graph;
+  size_t n = (size_t)luaL_len(L, 1);
+  bool always = lua_toboolean(L, 3);
+  const ambit_expr *e = ambit_lua_to_array(L, 1, n);
+  for (size_t i = 0; i < n; i++) {
+    if (ambit_graph_node(g, e[i])->constant) continue;
+    size_t count = ambit_graph_leaves(g, 1, &e[i], 0, NULL);
+    ambit_expr *leaf = lua_newuserdatauv(L, (count + 1) * sizeof *leaf, 0);
+    ambit_graph_leaves(g, 1, &e[i], count, leaf);
+    ambit_expr plain = find_plain(g, count, leaf, always);
+    lua_pop(L, 1);
+    if (plain == AMBIT_NO_EXPR) continue;
+    char range[3 * AMBIT_DECIMAL_MAX];
+    const ambit_node *node = ambit_graph_node(g, plain);
+    ambit_decimal_interval(range, node->value, 3);
+    ambit_lua_error(L,
+        "%s: the plain interval %s%s%s%s does not say whether it is one unknown constant or varies along a run: write "
+        "ambit.between(lo, hi) for one unknown constant; for what varies within bounds there will be ambit.varying, "
+        "which does not exist yet",
+        luaL_checkstring(L, 2), range, node->unit ? " (" : "", node->unit ? node->unit : "", node->unit ? ")" : "");
+  }
+  return 0;
+}
+
 /* leaf_names({leaf, ...}) -> {name, ...}, told apart */
 static int leaf_names(lua_State *L) {
   const ambit_graph *g = AMBIT_LUA(L)->graph;
@@ -233,7 +271,7 @@ void ambit_lua_open_expression(lua_State *L, ambit_lua *core) {
   static const luaL_Reg functions[] = { { "derivative", derivative }, { "rate_off_kinks", rate_off_kinks },
     { "simplify", simplify }, { "expression", expression }, { "symbol", symbol }, { "time", time_symbol }, { "pi", pi },
     { "is_constant", is_constant }, { "leaves", leaves }, { "name_data", name_data }, { "leaf_names", leaf_names },
-    { "nodes", nodes }, { "substitute", substitute }, { NULL, NULL } };
+    { "refuse_plain", refuse_plain }, { "nodes", nodes }, { "substitute", substitute }, { NULL, NULL } };
   static const char *const operators[][2] = { { "__add", "add" }, { "__sub", "sub" }, { "__mul", "mul" },
     { "__div", "div" }, { "__unm", "neg" }, { "__pow", "pow" } };
   ambit_lua_set_functions(L, core, functions);

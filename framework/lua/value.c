@@ -107,6 +107,13 @@ ambit_expr ambit_lua_datum(lua_State *L, const char *name, ambit_interval outer,
   return e;
 }
 
+/* A datum if it is given as one; in equations it is refused, since nobody said whether it varies. */
+static ambit_expr plain_datum(lua_State *L, ambit_interval x, ambit_interval inner) {
+  ambit_expr e = ambit_lua_datum(L, NULL, x, inner);
+  ambit_graph_set_plain(AMBIT_LUA(L)->graph, e);
+  return e;
+}
+
 /* A set literal is an uncertain datum: a fresh unknown, times its unit. */
 static ambit_expr set_expression(
     lua_State *L, ambit_interval x, ambit_interval inner, const char *unit, const char *wanted, ambit_failure *f) {
@@ -119,7 +126,7 @@ static ambit_expr set_expression(
     ambit_fail(f, AMBIT_INVALID, "the interval is not bounded");
     return AMBIT_NO_EXPR;
   }
-  ambit_expr e = ambit_interval_is_point(x) ? ambit_graph_number(g, x.lo) : ambit_lua_datum(L, NULL, x, inner), factor;
+  ambit_expr e = ambit_interval_is_point(x) ? ambit_graph_number(g, x.lo) : plain_datum(L, x, inner), factor;
   if (!*unit) return e;
   char one[128];
   snprintf(one, sizeof one, "1 %s", unit);
@@ -165,7 +172,7 @@ static ambit_expr enclosure_expression(lua_State *L, const ambit_lua_enclosure *
   if (ambit_interval_is_empty(y->x)) wrong(L, what, "the enclosure is empty");
   if (!ambit_interval_is_bounded(y->x)) wrong(L, what, "the enclosure is not bounded");
   if (ambit_interval_is_point(y->x)) return ambit_graph_number(g, y->x.lo);
-  return ambit_lua_datum(L, NULL, y->x, y->declared ? y->inner : AMBIT_EMPTY);
+  return plain_datum(L, y->x, y->declared ? y->inner : AMBIT_EMPTY);
 }
 
 /* C would end the text at a zero byte, and read what is in front of it. */

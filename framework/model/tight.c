@@ -8,6 +8,7 @@
 #define SMALLEST 0x1p-1074
 
 static bool is_narrow(ambit_interval x, double relative) {
+  if (!ambit_interval_is_bounded(x)) return false; /* a divisor that may be 0 as far as doubles know */
   return ambit_interval_width(x) <= fmax(relative * ambit_interval_mag(x), 2 * SMALLEST);
 }
 
@@ -23,10 +24,9 @@ ambit_interval ambit_tight(ambit_graph *g, ambit_registry *registry, ambit_expr 
     ambit_interval y;
     uint32_t flags;
     ambit_failure f = { 0 };
-    if (ambit_evaluate(&q, &y, &flags, NULL, &f) != AMBIT_OK || flags) return x;
+    if (ambit_evaluate(&q, &y, &flags, NULL, &f) != AMBIT_OK) return x;
     y = ambit_interval_intersect(x, y);
-    if (ambit_interval_is_empty(y)) return x;
-    x = y;
+    if (!flags && !ambit_interval_is_empty(y)) x = y;
   }
   return x;
 }

@@ -85,6 +85,7 @@ local function parameters(self, d, t)
   local list, values, laws = {}, {}, {}
   local function express(i, param, value)
     list[i] = parameter.express(fitting(self, d, t, param), value, param.what)
+    core.refuse_plain(list[i], param.what, laws[i] ~= nil)
     values[param.name] = list[i]
   end
   for i, param in ipairs(d.parameters) do

@@ -13,10 +13,14 @@ local directions = { rising = 1, falling = -1, both = 0 }
 local names_of_direction = { [1] = "rising", [-1] = "falling" }
 
 -- A formula over the states, data and time of a system, or a function(s, p, t) that returns one; by the system's clock.
-function event.formula(value, system, what)
+-- Data that stand in it alone are called `label`, or as `what`.
+function event.formula(value, system, what, label)
   if type(value) == "function" then value = formula.call(value, what, ode.arguments(system)) end
   if value == nil then check.fail("%s: expected a formula, or a function(s, p, t) that returns one", what) end
-  return instant.formulas({ core.expression(value, nil, what) }, system.shift)[1]
+  local g = core.expression(value, nil, what)
+  core.refuse_plain({ g }, what, true)
+  core.name_data({ g }, label or what)
+  return instant.formulas({ g }, system.shift)[1]
 end
 
 function event.direction(value, what)

@@ -109,6 +109,7 @@ local function read_parameters(t, is_state)
     check.text(name, "ode: name of a parameter")
     if is_state[name] then check.fail('ode: `%s` is a state and a parameter', name) end
     values[name] = core.expression(t[name], nil, "ode: parameter " .. name)
+    core.refuse_plain({ values[name] }, "ode: parameter " .. name)
     core.name_data({ values[name] }, name)
   end
   return values
@@ -126,6 +127,7 @@ local function read_rates(result, self, s, p, t)
     if value == nil then check.fail('ode: equations: the derivative of `%s` is missing', name) end
     if type(value) == "function" then value = formula.call(value, "ode: derivative of " .. name, s, p, t) end
     rates[i] = core.expression(value, rate_unit(self, i), "ode: derivative of " .. name)
+    core.refuse_plain({ rates[i] }, "ode: derivative of " .. name, true)
     core.name_data({ rates[i] }, "derivative of " .. name)
   end
   return rates

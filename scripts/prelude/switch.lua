@@ -41,6 +41,7 @@ local function read_reset(guard, place, source, target)
       check.fail("%s: reset: the state `%s` of mode `%s` gets no value", place, name, guard.entry.to)
     end
     list[i] = core.expression(value, ode.unit(target, i), ("%s.reset: %s"):format(place, name))
+    core.refuse_plain({ list[i] }, place .. ".reset: " .. name, true)
     core.name_data({ list[i] }, "reset of " .. name)
   end
   return instant.formulas(list, source.shift)

@@ -12,6 +12,10 @@ set_target_properties(test_hostile PROPERTIES PREFIX "" OUTPUT_NAME hostile LIBR
 set(lua_environment "AMBIT_PATH=${PROJECT_BINARY_DIR}/tests/lua/plugins:${PROJECT_BINARY_DIR}/tests/plugins:${PROJECT_BINARY_DIR}/plugins"
   "LUA_CPATH=${PROJECT_BINARY_DIR}/${AMBIT_LUA_DIR}/?.so\\;${PROJECT_BINARY_DIR}/tests/lua/?.so\\;\\;" "AMBIT_COMMAND=$<TARGET_FILE:ambit>" "NO_COLOR=1")
 
+pkg_check_modules(GMP REQUIRED IMPORTED_TARGET gmp)
+target_link_libraries(test.lua.data_ranges PRIVATE PkgConfig::LUA PkgConfig::GMP)
+add_dependencies(test.lua.data_ranges ambit_module)
+
 # Two halves, so that two processors share them.
 file(GLOB specs CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/*_spec.lua)
 set(half 1)

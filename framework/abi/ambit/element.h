@@ -91,7 +91,8 @@ struct ambit_build { /* [main] valid only during express() */
   ** OK and UNABLE (a failure, already recorded, or a chain too deep for the stack: the kernel calls express() again);
   ** or an optional port is not connected */
   const ambit_expr *(*get)(ambit_build *b, uint32_t port, uint32_t quantity);
-  ambit_expr (*unknown)(ambit_build *b, const char *lo, const char *hi); /* fresh and independent in [lo, hi], called after the last parameter */
+  ambit_expr (*unknown)(ambit_build *b, const char *lo,
+      const char *hi); /* fresh and independent in [lo, hi], called after the last parameter */
   ambit_status (*fail)(ambit_build *b, ambit_status s, const char *format, ...) AMBIT_PRINTF(3, 4);
   /* total time derivative of a given motion (of a parameter) */
   ambit_expr (*diff_time)(ambit_build *b, ambit_expr x);

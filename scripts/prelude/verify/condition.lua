@@ -34,8 +34,7 @@ end
 local function add(list, kind, name, value, system, depth)
   if type(value) == "function" then value = formula.call(value, "verify: " .. name, arguments(system)) end
   if check.kind(value) ~= "table" then
-    local g = event.formula(value, system, "verify: " .. name)
-    core.name_data({ g }, "condition " .. name)
+    local g = event.formula(value, system, "verify: " .. name, "condition " .. name)
     list[#list + 1] = { kind = kind, name = name, g = g }
     return
   end
