@@ -32,16 +32,30 @@ static void *alloc(const ambit_host *h, size_t bytes) {
   return ambit_arena_alloc(((const ambit_lease *)(const void *)h)->arena, bytes);
 }
 
+static void keep(const ambit_host *h, ambit_status status, const char *code, const char *message) {
+  guarded_lease *guarded = (guarded_lease *)(uintptr_t)h;
+  pthread_mutex_lock(&guarded->lock);
+  ambit_fail_code(&guarded->lease.failure, status, code, "%s", message);
+  pthread_mutex_unlock(&guarded->lock);
+}
+
 static ambit_status fail(const ambit_host *h, ambit_status status, const char *format, ...) {
   char message[AMBIT_MESSAGE_MAX];
   va_list arguments;
   va_start(arguments, format);
   vsnprintf(message, sizeof message, format, arguments);
   va_end(arguments);
-  guarded_lease *guarded = (guarded_lease *)(uintptr_t)h;
-  pthread_mutex_lock(&guarded->lock);
-  ambit_fail(&guarded->lease.failure, status, "%s", message);
-  pthread_mutex_unlock(&guarded->lock);
+  keep(h, status, NULL, message);
+  return status;
+}
+
+static ambit_status fail_code(const ambit_host *h, ambit_status status, const char *code, const char *format, ...) {
+  char message[AMBIT_MESSAGE_MAX];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(message, sizeof message, format, arguments);
+  va_end(arguments);
+  keep(h, status, code, message);
   return status;
 }
 
@@ -96,7 +110,7 @@ ambit_status ambit_lease_open(ambit_lease **lease, void (*sink)(void *user, cons
   guarded_lease *guarded = calloc(1, sizeof *guarded);
   if (!guarded) return AMBIT_NOMEM;
   guarded->lease = (ambit_lease) {
-    .host = { sizeof(ambit_host), AMBIT_ABI, alloc, fail, note, service },
+    .host = { sizeof(ambit_host), AMBIT_ABI, alloc, fail, note, service, fail_code },
     .arena = ambit_arena_open(),
     .note = sink,
     .user = user,

@@ -72,6 +72,24 @@ static int where(lua_State *L) {
 /* fail(message): a Lua error at the script's own line */
 static int fail(lua_State *L) { ambit_lua_error(L, "%s", luaL_checkstring(L, 1)); }
 
+/* codes() -> {{code, meaning, advice}, ...}: of <ambit/code.h> */
+static int codes(lua_State *L) {
+  size_t n;
+  const ambit_code *table = ambit_code_table(&n);
+  lua_createtable(L, (int)n, 0);
+  for (size_t i = 0; i < n; i++) {
+    lua_createtable(L, 0, 3);
+    lua_pushstring(L, table[i].code);
+    lua_setfield(L, -2, "code");
+    lua_pushstring(L, table[i].meaning);
+    lua_setfield(L, -2, "meaning");
+    lua_pushstring(L, table[i].advice);
+    lua_setfield(L, -2, "advice");
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  return 1;
+}
+
 /* progress(on) */
 static int progress(lua_State *L) {
   AMBIT_LUA(L)->progress = lua_toboolean(L, 1);
@@ -104,7 +122,7 @@ static int literal(lua_State *L) {
 void ambit_lua_open_process(lua_State *L, ambit_lua *core) {
   static const luaL_Reg functions[] = { { "libraries", libraries }, { "cpu", cpu }, { "deadline", deadline },
     { "terminal", terminal }, { "where", where }, { "fail", fail }, { "progress", progress }, { "notes", notes },
-    { "interrupted", interrupted }, { "literal", literal }, { NULL, NULL } };
+    { "interrupted", interrupted }, { "literal", literal }, { "codes", codes }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
   lua_pushliteral(L, AMBIT_VERSION);
   lua_setfield(L, -2, "version");

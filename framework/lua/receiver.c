@@ -1,5 +1,6 @@
 /* receiver.c -- records on their way from a solver to Lua and to JSON lines. */
 #include "lua/receiver.h"
+#include "lua/request.h"
 #include "model/context.h"
 
 static bool is_to_stop(const ambit_receiver *r) {
@@ -52,11 +53,24 @@ void ambit_receiver_end(ambit_receiver *r) {
   ambit_progress_end(&r->progress);
 }
 
-const char *ambit_receiver_status(const ambit_receiver *r, ambit_status status) {
-  if (r->failure.status != AMBIT_OK || status == AMBIT_STOPPED) return "stopped";
-  return status == AMBIT_OK ? "complete" : "unable";
+static const char *word_of(ambit_status status) {
+  switch (status) {
+  case AMBIT_OK: return "complete";
+  case AMBIT_DOMAIN: return "impossible";
+  case AMBIT_STOPPED: return "stopped";
+  case AMBIT_BROKEN: return "broken";
+  default: return "unable";
+  }
 }
 
-const char *ambit_receiver_reason(const ambit_receiver *r, const char *reason) {
-  return r->failure.status != AMBIT_OK ? r->failure.message : reason;
+void ambit_receiver_tell(
+    lua_State *L, const ambit_receiver *r, ambit_status status, const char *code, const char *reason) {
+  char whole[AMBIT_CODE_MAX];
+  bool own = r->failure.status != AMBIT_OK;
+  if (own) status = AMBIT_STOPPED;
+  if (!own && status == AMBIT_STOPPED && r->deadline > 0 && !ambit_interrupt_pending()) code = AMBIT_CODE_STOPPED_LIMIT;
+  ambit_code_set(whole, status, own ? AMBIT_CODE_STOPPED_WRITE : code);
+  ambit_lua_set_text(L, "status", word_of(status));
+  ambit_lua_set_text(L, "code", whole);
+  ambit_lua_set_text(L, "reason", own ? r->failure.message : reason);
 }

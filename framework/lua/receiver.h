@@ -28,7 +28,8 @@ ambit_receiver ambit_receiver_silent(void);
 /* Around the run: progress, interrupt and deadline. Nothing between them may raise. */
 void ambit_receiver_begin(lua_State *L, ambit_receiver *r);
 void ambit_receiver_end(ambit_receiver *r);
-/* "complete", "stopped" or "unable"; and the reason, which is the receiver's own if it stopped the run. */
-const char *ambit_receiver_status(const ambit_receiver *r, ambit_status status);
-const char *ambit_receiver_reason(const ambit_receiver *r, const char *reason);
+/* The fields status ("complete", "impossible", "unable", "stopped" or "broken"), code and reason of the table on top of
+** the stack; they are the receiver's own if it stopped the run. */
+void ambit_receiver_tell(
+    lua_State *L, const ambit_receiver *r, ambit_status status, const char *code, const char *reason);
 #endif

@@ -177,7 +177,7 @@ static int protected_prove(lua_State *L) {
     lua_settop(L, 3);
     read_errors(L, c);
     c->answer = AMBIT_OK;
-  } else if (status && strcmp(status, "unable") == 0) {
+  } else if (status && (strcmp(status, "unable") == 0 || strcmp(status, "impossible") == 0)) {
     c->answer = AMBIT_UNABLE;
   } else if (!status || strcmp(status, "stopped") != 0) {
     return luaL_error(L, "core.reduce: `prove` must return \"proved\", \"unable\" or \"stopped\"");
@@ -260,9 +260,8 @@ static int32_t progress(ambit_sink *sink, double done, const char *message) {
 
 static void push_result(lua_State *L, const caller *c, const ambit_reduction_result *result, const uint8_t *cut) {
   lua_createtable(L, 0, 8);
-  ambit_lua_set_text(L, "status", ambit_receiver_status(c->to, result->status));
   const char *why = result->status == AMBIT_STOPPED && c->why[0] ? c->why : result->reason;
-  ambit_lua_set_text(L, "reason", ambit_receiver_reason(c->to, why));
+  ambit_receiver_tell(L, c->to, result->status, result->code, why);
   push_indices(L, c->q->ncandidate, cut);
   lua_setfield(L, -2, "cut");
   lua_pushvalue(L, c->rankings);

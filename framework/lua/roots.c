@@ -42,8 +42,7 @@ static ambit_interval *boxes(lua_State *L, int idx, size_t n) {
 
 static void push_result(lua_State *L, const ambit_receiver *to, const ambit_roots_result *result) {
   lua_createtable(L, 0, 6);
-  ambit_lua_set_text(L, "status", ambit_receiver_status(to, result->status));
-  ambit_lua_set_text(L, "reason", ambit_receiver_reason(to, result->reason));
+  ambit_receiver_tell(L, to, result->status, result->code, result->reason);
   ambit_lua_set_number(L, "cpu_seconds", result->cpu_seconds);
   ambit_lua_set_count(L, "boxes", result->boxes);
   ambit_lua_set_count(L, "further", result->further);

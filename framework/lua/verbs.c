@@ -47,8 +47,7 @@ static int evaluate(lua_State *L) {
 
 static void push_result(lua_State *L, const ambit_receiver *to, const ambit_simulate_result *result) {
   lua_createtable(L, 0, 9);
-  ambit_lua_set_text(L, "status", ambit_receiver_status(to, result->status));
-  ambit_lua_set_text(L, "reason", ambit_receiver_reason(to, result->reason));
+  ambit_receiver_tell(L, to, result->status, result->code, result->reason);
   ambit_lua_set_number(L, "t_reached", result->t_reached);
   ambit_lua_set_number(L, "cpu_seconds", result->cpu_seconds);
   ambit_lua_set_number(L, "wall_seconds", result->wall_seconds);

@@ -70,8 +70,7 @@ static void push_outcome(
     lua_State *L, const ambit_receiver *to, const ambit_simulate_result *result, const ambit_watch *w) {
   lua_createtable(L, 0, 6);
   set_flag(L, "gave_up", ambit_watch_gave_up(w));
-  ambit_lua_set_text(L, "status", ambit_receiver_status(to, result->status));
-  ambit_lua_set_text(L, "reason", ambit_receiver_reason(to, result->reason));
+  ambit_receiver_tell(L, to, result->status, result->code, result->reason);
   ambit_lua_set_number(L, "t_reached", result->t_reached);
   set_flag(L, "rigorous", result->rigorous != 0);
   set_flag(L, "impossible", result->status == AMBIT_DOMAIN);

@@ -17,7 +17,8 @@ static ambit_status check_floating_point(ambit_failure *f) {
     return ambit_fail(f, AMBIT_INVALID,
         "this thread does not round to nearest or flushes subnormal numbers to zero; call fesetenv(FE_DFL_ENV) first");
   if (!ambit_interval_rounds_outward())
-    return ambit_fail(f, AMBIT_BROKEN, "this build does not round outward (compiled without -frounding-math?)");
+    return ambit_fail_code(f, AMBIT_BROKEN, AMBIT_CODE_BROKEN_ROUNDING,
+        "this build does not round outward (compiled without -frounding-math?)");
   return AMBIT_OK;
 }
 
@@ -123,7 +124,7 @@ ambit_status ambit_context_sound(const ambit_context *c, ambit_failure *f) {
   if (!fault || !fault->seen) return ambit_slow_sound(f);
   static const char *const what[] = { "the bounds", "an empty set of what is defined everywhere,",
     "a derivative within", "a coefficient of a series with the midpoint and radius" };
-  return ambit_fail(f, AMBIT_BROKEN,
+  return ambit_fail_code(f, AMBIT_BROKEN, AMBIT_CODE_BROKEN_BOUNDS,
       "arithmetic `%s` is broken: it says that it is rigorous, and gave %s [%.17g, %.17g]", c->name,
       what[fault->what >= 0 && fault->what <= AMBIT_FAULT_SERIES ? fault->what : 0], fault->lo, fault->hi);
 }

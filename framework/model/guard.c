@@ -50,16 +50,19 @@ static bool end_meets_tube(const ambit_record *r) {
 }
 
 /* NULL: the step is sound in form */
-static const char *find_fault(const ambit_guard *g, const ambit_record *r) {
+static const char *find_fault(const ambit_guard *g, const ambit_record *r, const char **code) {
+  *code = AMBIT_CODE_BROKEN_RECORD;
   if (r->size < offsetof(ambit_record, ndense)) return "a record of the wrong size";
   if (r->kind != AMBIT_REC_STEP) return NULL;
   if (r->nx != g->nx || !r->lo || !r->hi) return "a step without an enclosure of every state";
+  *code = AMBIT_CODE_BROKEN_BOUNDS;
   if (!bounds_make_sense(r->nx, r->lo, r->hi)) return "a step with an empty or NaN enclosure";
   if (r->tube_lo && r->tube_hi && !bounds_make_sense(r->nx, r->tube_lo, r->tube_hi))
     return "a step with an empty or NaN tube";
   if (r->tube_lo && r->tube_hi && !end_meets_tube(r)) return "a step whose end lies outside its own tube";
   if (!dense_makes_sense(r)) return "a dense enclosure with a NaN or a negative radius";
   if (!set_makes_sense(r)) return "a set with a NaN or a negative radius";
+  *code = AMBIT_CODE_BROKEN_TIME;
   if (!(g->direction * (r->t_from - g->reached) <= 0)) return "a step that leaves a gap in time";
   if (!(g->direction * (r->t_to - g->reached) >= 0) || !isfinite(r->t_to))
     return "a step against the direction of time";
@@ -77,9 +80,10 @@ static int32_t emit(ambit_sink *s, const ambit_record *given) {
   ambit_allocation_forbid(0);              /* what the receiver does is its own affair */
   ambit_record whole = { 0 }, *r = &whole; /* a solver may be older than this kernel, and its records shorter */
   memcpy(r, given, given->size < sizeof *r ? given->size : sizeof *r);
-  const char *fault = find_fault(g, r);
+  const char *code, *fault = find_fault(g, r, &code);
   if (fault) {
     snprintf(g->broken, sizeof g->broken, "%s", fault);
+    g->broken_code = code;
     return pass(g, 1);
   }
   if (r->kind == AMBIT_REC_STEP) {
@@ -114,32 +118,27 @@ ambit_guard ambit_guard_make(const ambit_problem *p, ambit_sink *outer) {
   };
 }
 
+static ambit_status known(ambit_status said) { return said >= AMBIT_OK && said <= AMBIT_BROKEN ? said : AMBIT_BROKEN; }
+
 ambit_status ambit_guard_explain(
-    ambit_status said, const char *solver, const char *own, const char *fallback, char reason[AMBIT_MESSAGE_MAX]) {
-  if (own[0])
-    snprintf(reason, AMBIT_MESSAGE_MAX, "%s", own);
-  else
-    snprintf(reason, AMBIT_MESSAGE_MAX, "solver `%s` %s", solver, fallback);
-  return said >= AMBIT_OK && said <= AMBIT_BROKEN ? said : AMBIT_BROKEN;
+    ambit_status said, const char *solver, const ambit_failure *own, const char *fallback, ambit_failure *why) {
+  ambit_failure_clear(why);
+  if (own->message[0]) return ambit_fail_code(why, known(said), own->code, "%s", own->message);
+  return ambit_fail(why, known(said), "solver `%s` %s", solver, fallback);
 }
 
 ambit_status ambit_guard_judge(
-    const ambit_guard *g, ambit_status said, const char *solver, const char *own, char reason[AMBIT_MESSAGE_MAX]) {
-  reason[0] = '\0';
-  if (g->broken[0]) {
-    snprintf(reason, AMBIT_MESSAGE_MAX, "solver `%s` is broken: it gave %s", solver, g->broken);
-    return AMBIT_BROKEN;
-  }
-  if (g->stopped && g->reached != g->end) {
-    snprintf(reason, AMBIT_MESSAGE_MAX, "stopped on request at t = %.9g s", g->reached);
-    return AMBIT_STOPPED;
-  }
-  if (said == AMBIT_OK && g->reached != g->end) {
-    snprintf(reason, AMBIT_MESSAGE_MAX, "solver `%s` is broken: it says it is done at t = %.9g s, before the end",
-        solver, g->reached);
-    return AMBIT_BROKEN;
-  }
+    const ambit_guard *g, ambit_status said, const char *solver, const ambit_failure *own, ambit_failure *why) {
+  ambit_failure_clear(why);
+  if (g->broken[0])
+    return ambit_fail_code(why, AMBIT_BROKEN, g->broken_code, "solver `%s` is broken: it gave %s", solver, g->broken);
+  if (g->stopped && g->reached != g->end)
+    return ambit_fail_code(
+        why, AMBIT_STOPPED, AMBIT_CODE_STOPPED_REQUEST, "stopped on request at t = %.9g s", g->reached);
+  if (said == AMBIT_OK && g->reached != g->end)
+    return ambit_fail_code(why, AMBIT_BROKEN, AMBIT_CODE_BROKEN_TIME,
+        "solver `%s` is broken: it says it is done at t = %.9g s, before the end", solver, g->reached);
   if (said == AMBIT_OK || (said == AMBIT_STOPPED && g->reached == g->end)) return AMBIT_OK;
   return ambit_guard_explain(said, solver, own,
-      said == AMBIT_STOPPED ? "stopped without being asked to" : "could not go on and gave no reason", reason);
+      said == AMBIT_STOPPED ? "stopped without being asked to" : "could not go on and gave no reason", why);
 }

@@ -20,10 +20,9 @@ struct ambit_merge {
   uint32_t forwarded;    /* intervals that the sink has */
   bool stop;
   uint32_t failed_piece, failed_at; /* least by (intervals completed, number) */
-  ambit_status failed;
-  char reason[AMBIT_MESSAGE_MAX];
+  ambit_failure failed;
   uint32_t nothing, nothing_piece; /* pieces without a solution; the least of them, and why it has none */
-  char why_nothing[AMBIT_MESSAGE_MAX];
+  ambit_failure why_nothing;
 };
 
 ambit_status ambit_merge_open(ambit_arena *arena, const ambit_problem *p, uint32_t pieces, ambit_merge **out) {
@@ -80,11 +79,11 @@ void ambit_merge_put(ambit_merge *m, uint32_t interval, const ambit_merge_part *
   pthread_mutex_unlock(&m->lock);
 }
 
-void ambit_merge_put_nothing(ambit_merge *m, uint32_t piece, uint32_t completed, const char *reason) {
+void ambit_merge_put_nothing(ambit_merge *m, uint32_t piece, uint32_t completed, const ambit_failure *why) {
   pthread_mutex_lock(&m->lock);
   if (!m->nothing++ || piece < m->nothing_piece) {
     m->nothing_piece = piece;
-    snprintf(m->why_nothing, sizeof m->why_nothing, "%s", reason);
+    m->why_nothing = *why;
   }
   for (uint32_t k = completed; k < m->count; k++) m->state[k].arrived++;
   m->arrived += m->count - completed;
@@ -95,20 +94,24 @@ static bool is_behind(const ambit_merge *m, uint32_t piece, uint32_t completed) 
   return completed < m->failed_at || (completed == m->failed_at && piece < m->failed_piece);
 }
 
-void ambit_merge_fail(ambit_merge *m, uint32_t piece, uint32_t completed, ambit_status status, const char *reason) {
+/* A broken solver is worse than one that could not go on, however far either got. */
+static bool outranks(const ambit_merge *m, const ambit_failure *why) {
+  return why->status == AMBIT_BROKEN && m->failed.status != AMBIT_OK && m->failed.status != AMBIT_BROKEN;
+}
+
+void ambit_merge_fail(ambit_merge *m, uint32_t piece, uint32_t completed, const ambit_failure *why) {
   pthread_mutex_lock(&m->lock);
-  if (is_behind(m, piece, completed)) {
+  if (outranks(m, why) || (is_behind(m, piece, completed) && m->failed.status != AMBIT_BROKEN)) {
     m->failed_piece = piece;
     m->failed_at = completed;
-    m->failed = status;
-    snprintf(m->reason, sizeof m->reason, "%s", reason);
+    m->failed = *why;
   }
   pthread_mutex_unlock(&m->lock);
 }
 
 bool ambit_merge_is_over(ambit_merge *m, uint32_t piece, uint32_t completed) {
   pthread_mutex_lock(&m->lock);
-  bool over = m->stop || (m->failed != AMBIT_OK && !is_behind(m, piece, completed));
+  bool over = m->stop || (m->failed.status != AMBIT_OK && !is_behind(m, piece, completed));
   pthread_mutex_unlock(&m->lock);
   return over;
 }
@@ -152,15 +155,9 @@ int32_t ambit_merge_forward(ambit_merge *m, ambit_sink *sink) {
   return 1;
 }
 
-ambit_status ambit_merge_outcome(ambit_merge *m, char reason[AMBIT_MESSAGE_MAX]) {
+ambit_status ambit_merge_outcome(ambit_merge *m, ambit_failure *why) {
   pthread_mutex_lock(&m->lock);
-  ambit_status status = m->failed;
-  const char *why = m->reason;
-  if (status == AMBIT_OK && m->nothing == m->pieces) {
-    status = AMBIT_DOMAIN;
-    why = m->why_nothing;
-  }
-  snprintf(reason, AMBIT_MESSAGE_MAX, "%s", status == AMBIT_OK ? "" : why);
+  *why = m->failed.status == AMBIT_OK && m->nothing == m->pieces ? m->why_nothing : m->failed;
   pthread_mutex_unlock(&m->lock);
-  return status;
+  return why->status;
 }

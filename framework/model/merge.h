@@ -24,14 +24,14 @@ typedef struct ambit_merge_part {
 
 void ambit_merge_put(ambit_merge *m, uint32_t interval, const ambit_merge_part *part);
 /* The piece holds no solution at all, so it adds nothing to the intervals behind the completed ones. */
-void ambit_merge_put_nothing(ambit_merge *m, uint32_t piece, uint32_t completed, const char *reason);
+void ambit_merge_put_nothing(ambit_merge *m, uint32_t piece, uint32_t completed, const ambit_failure *why);
 /* The piece could not go on behind `completed` intervals. */
-void ambit_merge_fail(ambit_merge *m, uint32_t piece, uint32_t completed, ambit_status status, const char *reason);
+void ambit_merge_fail(ambit_merge *m, uint32_t piece, uint32_t completed, const ambit_failure *why);
 /* Nothing that this piece can still do matters: somebody asked to stop, or another piece got less far. */
 bool ambit_merge_is_over(ambit_merge *m, uint32_t piece, uint32_t completed);
 
 /* Hands the intervals that all pieces have completed to the sink, and the progress; nonzero: stop. */
 int32_t ambit_merge_forward(ambit_merge *m, ambit_sink *sink);
-/* When all have ended: OK, or the status and reason of the piece that got least far. */
-ambit_status ambit_merge_outcome(ambit_merge *m, char reason[AMBIT_MESSAGE_MAX]);
+/* When all have ended: OK, or the failure of the piece that got least far; DOMAIN if none holds a solution. */
+ambit_status ambit_merge_outcome(ambit_merge *m, ambit_failure *why);
 #endif

@@ -128,16 +128,17 @@ static void tell_where(const ambit_piece *p, const char *why, char text[AMBIT_ME
     separator = ", ";
   }
   if (used >= room) used = room - 1;
-  snprintf(text + used, AMBIT_MESSAGE_MAX - used, "%s: %s", *separator == ',' ? ")" : "", why);
+  used += (size_t)snprintf(text + used, AMBIT_MESSAGE_MAX - used, "%s: ", *separator == ',' ? ")" : "");
+  strncat(text, why, AMBIT_MESSAGE_MAX - used - 1);
 }
 
-static void report_failure(ambit_piece *p, ambit_status status, const char *why) {
-  char text[AMBIT_MESSAGE_MAX];
-  tell_where(p, why, text);
-  if (status == AMBIT_DOMAIN && p->problem.ninvariant)
-    ambit_merge_put_nothing(p->merge, p->number, p->completed, text); /* no state of it satisfies the constraints */
+static void report_failure(ambit_piece *p, const ambit_failure *why) {
+  ambit_failure told = *why;
+  tell_where(p, why->message, told.message);
+  if (told.status == AMBIT_DOMAIN && p->problem.ninvariant)
+    ambit_merge_put_nothing(p->merge, p->number, p->completed, &told); /* no state of it satisfies the constraints */
   else
-    ambit_merge_fail(p->merge, p->number, p->completed, status, text);
+    ambit_merge_fail(p->merge, p->number, p->completed, &told);
 }
 
 /* -- the run */
@@ -145,13 +146,13 @@ static void report_failure(ambit_piece *p, ambit_status status, const char *why)
 static ambit_status run(ambit_piece *p, ambit_lease *lease) {
   const ambit_split *s = p->split;
   void *self = NULL;
-  char reason[AMBIT_MESSAGE_MAX];
+  ambit_failure why;
   ambit_stage_enter("open", AMBIT_FRAME_SOLVER, s->solver_name);
   ambit_status status = s->solver->open(&lease->host, &p->problem, s->option, &self);
   ambit_stage_leave();
   if (status != AMBIT_OK) {
-    ambit_guard_explain(status, s->solver_name, lease->failure.message, "could not start and gave no reason", reason);
-    report_failure(p, status, reason);
+    ambit_guard_explain(status, s->solver_name, &lease->failure, "could not start and gave no reason", &why);
+    report_failure(p, &why);
     return status == AMBIT_UNABLE || status == AMBIT_DOMAIN ? AMBIT_OK : status;
   }
   ambit_guard g = ambit_guard_make(&p->problem, &p->sink);
@@ -164,11 +165,13 @@ static ambit_status run(ambit_piece *p, ambit_lease *lease) {
   ambit_tally_ran(&tally, lease, 1, p->context);
   ambit_work_add(&p->work, &tally.work);
   s->solver->close(self);
-  status = ambit_guard_judge(&g, said, s->solver_name, lease->failure.message, reason);
-  if (p->skipped)
-    report_failure(p, AMBIT_BROKEN, "the solver is broken: it stepped over an instant that was asked for");
-  else if (status != AMBIT_OK && !p->over)
-    report_failure(p, status, reason);
+  status = ambit_guard_judge(&g, said, s->solver_name, &lease->failure, &why);
+  if (p->skipped) {
+    ambit_failure_clear(&why);
+    status = ambit_fail_code(&why, AMBIT_BROKEN, AMBIT_CODE_BROKEN_TIME,
+        "the solver is broken: it stepped over an instant that was asked for");
+  }
+  if (status != AMBIT_OK && (p->skipped || !p->over)) report_failure(p, &why);
   return AMBIT_OK;
 }
 
@@ -190,7 +193,7 @@ ambit_status ambit_piece_run(ambit_piece *p, const ambit_split *s, ambit_merge *
   p->problem.actx = p->context->ctx;
   if (status == AMBIT_OK) status = ambit_context_lease(s->registry, &lease, &f);
   if (status != AMBIT_OK) {
-    report_failure(p, status, f.message);
+    report_failure(p, &f);
     return status;
   }
   status = run(p, lease);

@@ -1,6 +1,7 @@
 /* reduction.c -- runs a solver of reductions, and believes no cut that was not proved. */
 #include "model/reduction.h"
 #include "model/context.h"
+#include "model/guard.h"
 #include "model/pair.h"
 #include "model/reduction_build.h"
 #include "model/tally.h"
@@ -207,21 +208,19 @@ static ambit_status prepare(job *j, ambit_failure *f) {
 }
 
 static void judge(const job *j, ambit_status said, ambit_reduction_result *result) {
-  const char *own = j->lease->failure.message;
   const char *name = j->q->solver;
   bool known = said == AMBIT_OK || said == AMBIT_STOPPED || said == AMBIT_UNABLE;
-  if (j->broken) {
-    result->status = AMBIT_BROKEN;
-    snprintf(result->reason, sizeof result->reason, "solver `%s` is broken: it gave %s", name, j->broken);
-  } else {
-    result->status = known ? said : AMBIT_BROKEN;
-    if (own[0])
-      snprintf(result->reason, sizeof result->reason, "%s", own);
-    else if (said == AMBIT_STOPPED)
-      snprintf(result->reason, sizeof result->reason, "stopped on request; what was accepted until then is proved");
-    else if (said != AMBIT_OK)
-      snprintf(result->reason, sizeof result->reason, "solver `%s` gave up without a reason", name);
-  }
+  ambit_failure why = { 0 };
+  if (j->broken)
+    ambit_fail_code(&why, AMBIT_BROKEN, AMBIT_CODE_BROKEN_RECORD, "solver `%s` is broken: it gave %s", name, j->broken);
+  else if (said == AMBIT_STOPPED && !j->lease->failure.message[0])
+    ambit_fail_code(
+        &why, AMBIT_STOPPED, AMBIT_CODE_STOPPED_REQUEST, "stopped on request; what was accepted until then is proved");
+  else if (said != AMBIT_OK)
+    ambit_guard_explain(known ? said : AMBIT_BROKEN, name, &j->lease->failure, "gave up without a reason", &why);
+  result->status = why.status;
+  memcpy(result->reason, why.message, sizeof result->reason);
+  memcpy(result->code, why.code, sizeof result->code);
 }
 
 static ambit_status run(job *j, ambit_failure *f) {

@@ -54,7 +54,8 @@ typedef struct ambit_reduction_request {
 
 typedef struct ambit_reduction_result {
   ambit_status status; /* OK: every candidate was decided; STOPPED, UNABLE: `cut` is what was accepted until then */
-  char reason[1024];
+  char code[AMBIT_CODE_MAX]; /* "" if OK */
+  char reason[AMBIT_MESSAGE_MAX];
   double cpu_seconds, cpu_seconds_rank; /* in all; of these in the solver itself and for its tapes, not in callbacks */
   uint32_t proofs, lowered;             /* calls of prove: full and of lowered order */
 } ambit_reduction_result;

@@ -9,6 +9,7 @@
 #include "graph/tape.h"
 #include "model/allocation.h"
 #include "model/context.h"
+#include "model/guard.h"
 #include "model/equations.h"
 #include "model/pair.h"
 #include "model/share.h"
@@ -196,20 +197,24 @@ typedef struct guard {
   ambit_roots_result *result;
   uint32_t nx;
   bool stopped;
-  const char *broken;
+  const char *broken, *broken_code;
 } guard;
 
-static const char *find_fault(const guard *g, const ambit_record *r) {
+static const char *find_fault(const guard *g, const ambit_record *r, const char **code) {
+  *code = AMBIT_CODE_BROKEN_RECORD;
   if (r->size < sizeof *r) return "a record of the wrong size";
   if (r->kind != AMBIT_REC_ROOT) return NULL;
   if (r->nx != g->nx || !r->lo || !r->hi) return "a root without an enclosure of every unknown";
-  for (uint32_t i = 0; i < r->nx; i++)
-    if (!(r->lo[i] <= r->hi[i])) return "a root with an empty or NaN enclosure";
+  for (uint32_t i = 0; i < r->nx; i++) {
+    if (r->lo[i] <= r->hi[i]) continue;
+    *code = AMBIT_CODE_BROKEN_BOUNDS;
+    return "a root with an empty or NaN enclosure";
+  }
   return r->event > AMBIT_ROOT_PARTLY ? "a root of an unknown kind" : NULL;
 }
 
 static int32_t pass(guard *g, const ambit_record *r) {
-  g->broken = find_fault(g, r);
+  g->broken = find_fault(g, r, &g->broken_code);
   if (g->broken) return 1;
   if (r->kind == AMBIT_REC_SEARCHED) g->result->boxes = r->ncoef;
   if (r->kind != AMBIT_REC_ROOT) return 0;
@@ -245,33 +250,28 @@ static int32_t progress(ambit_sink *s, double done, const char *message) {
 /* -- the run */
 
 static void judge(const job *j, const guard *g, ambit_status said, ambit_roots_result *result) {
-  const char *own = j->lease->failure.message;
-  const char *fault = g->broken;
-  ambit_failure f = { 0 };
-  if (ambit_context_sound(&j->context, &f) != AMBIT_OK) {
-    result->status = f.status;
-    snprintf(result->reason, sizeof result->reason, "%s", f.message);
-    return;
-  }
+  const ambit_failure *own = &j->lease->failure;
+  const char *fault = g->broken, *name = j->q->solver;
+  ambit_failure why = { 0 };
+  ambit_context_sound(&j->context, &why);
   if (!fault && said == AMBIT_OK && result->undecided) fault = "undecided boxes and says that all is decided";
-  if (fault) {
-    result->status = AMBIT_BROKEN;
-    snprintf(result->reason, sizeof result->reason, "solver `%s` is broken: it gave %s", j->q->solver, fault);
-  } else if (g->stopped) {
-    result->status = AMBIT_STOPPED;
-    snprintf(result->reason, sizeof result->reason, "stopped on request; roots may be missing");
-  } else if (said != AMBIT_OK) {
-    result->status = said == AMBIT_UNABLE ? said : AMBIT_BROKEN;
-    if (own[0])
-      snprintf(result->reason, sizeof result->reason, "%s", own);
-    else
-      snprintf(result->reason, sizeof result->reason, "solver `%s` gave up without a reason", j->q->solver);
-  }
+  if (why.status != AMBIT_OK)
+    ; /* what a broken arithmetic gave is not believed */
+  else if (fault)
+    ambit_fail_code(&why, AMBIT_BROKEN, g->broken ? g->broken_code : AMBIT_CODE_BROKEN_RECORD,
+        "solver `%s` is broken: it gave %s", name, fault);
+  else if (g->stopped)
+    ambit_fail_code(&why, AMBIT_STOPPED, AMBIT_CODE_STOPPED_REQUEST, "stopped on request; roots may be missing");
+  else if (said != AMBIT_OK)
+    ambit_guard_explain(said == AMBIT_UNABLE ? said : AMBIT_BROKEN, name, own, "gave up without a reason", &why);
+  result->status = why.status;
+  memcpy(result->reason, why.message, sizeof result->reason);
+  memcpy(result->code, why.code, sizeof result->code);
 }
 
 static ambit_status run(job *j, ambit_roots_result *result, ambit_failure *f) {
   void *self = NULL;
-  guard g = { { sizeof(ambit_sink), emit, progress }, j->q->sink, result, j->problem.nx, false, NULL };
+  guard g = { { sizeof(ambit_sink), emit, progress }, j->q->sink, result, j->problem.nx, false, NULL, NULL };
   j->problem.arithmetic = j->context.arithmetic;
   j->problem.actx = j->context.ctx;
   result->rigorous = j->solver->needs_rigorous && j->context.arithmetic->rigorous;

@@ -34,8 +34,9 @@ typedef struct ambit_roots_request {
 } ambit_roots_request;
 
 typedef struct ambit_roots_result {
-  ambit_status status; /* OK: every box is decided; UNABLE, STOPPED */
-  char reason[1024];
+  ambit_status status;       /* OK: every box is decided; UNABLE, STOPPED */
+  char code[AMBIT_CODE_MAX]; /* "" if OK */
+  char reason[AMBIT_MESSAGE_MAX];
   double cpu_seconds;
   uint32_t boxes, proved, partly, undecided; /* partly: for a part of the uncertain data's values */
   uint32_t further; /* equations beyond the unknowns that had to hold, and could not be proved to: all roots are then

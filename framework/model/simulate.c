@@ -14,6 +14,7 @@
 #include "model/tally.h"
 #include <stdbool.h>
 #include <stdio.h>
+#include <string.h>
 #include <time.h>
 
 typedef struct job {
@@ -127,20 +128,22 @@ static double wall_seconds(void) {
 }
 
 /* Whatever the solver made of it: what a broken arithmetic gave is not believed. */
-static void check_arithmetic(const job *j, ambit_simulate_result *result) {
+static void tell(const job *j, const ambit_failure *why, ambit_simulate_result *result) {
   ambit_failure f = { 0 };
   for (uint32_t i = 0; i < j->ncontext && f.status == AMBIT_OK; i++) ambit_context_sound(&j->context[i], &f);
-  if (f.status == AMBIT_OK) return;
-  result->status = f.status;
-  snprintf(result->reason, sizeof result->reason, "%s", f.message);
+  if (f.status != AMBIT_OK) why = &f;
+  result->status = why->status;
+  memcpy(result->reason, why->message, sizeof result->reason);
+  memcpy(result->code, why->code, sizeof result->code);
 }
 
 static void finish(
-    const job *j, const ambit_guard *g, ambit_status said, const char *own, ambit_simulate_result *result) {
+    const job *j, const ambit_guard *g, ambit_status said, const ambit_failure *own, ambit_simulate_result *result) {
   result->t_reached = g->reached;
   result->steps = g->steps;
-  result->status = ambit_guard_judge(g, said, j->q->solver, own, result->reason);
-  check_arithmetic(j, result);
+  ambit_failure why;
+  ambit_guard_judge(g, said, j->q->solver, own, &why);
+  tell(j, &why, result);
 }
 
 static ambit_status run_pieces(job *j, ambit_guard *g, ambit_simulate_result *result, ambit_failure *f) {
@@ -164,7 +167,7 @@ static ambit_status run_pieces(job *j, ambit_guard *g, ambit_simulate_result *re
   result->wall_seconds = wall_seconds() - wall;
   result->threads = outcome.threads;
   ambit_work_add(&j->tally.work, &outcome.work);
-  if (status == AMBIT_OK) finish(j, g, outcome.said, outcome.reason, result);
+  if (status == AMBIT_OK) finish(j, g, outcome.said, &outcome.why, result);
   return status;
 }
 
@@ -176,9 +179,9 @@ static ambit_status run_whole(job *j, ambit_guard *g, ambit_simulate_result *res
   ambit_stage_leave();
   j->tally.open = ambit_context_seconds() - begun;
   if (status == AMBIT_UNABLE || status == AMBIT_DOMAIN) {
-    result->status = ambit_guard_explain(
-        status, j->q->solver, j->lease->failure.message, "could not start and gave no reason", result->reason);
-    check_arithmetic(j, result);
+    ambit_failure why;
+    ambit_guard_explain(status, j->q->solver, &j->lease->failure, "could not start and gave no reason", &why);
+    tell(j, &why, result);
     return AMBIT_OK;
   }
   if (status != AMBIT_OK) {
@@ -198,7 +201,7 @@ static ambit_status run_whole(job *j, ambit_guard *g, ambit_simulate_result *res
   begun = ambit_context_seconds();
   j->solver->close(self);
   j->tally.close = ambit_context_seconds() - begun;
-  finish(j, g, said, j->lease->failure.message, result);
+  finish(j, g, said, &j->lease->failure, result);
   return AMBIT_OK;
 }
 

@@ -32,8 +32,9 @@ typedef struct ambit_simulate_request {
 } ambit_simulate_request;
 
 typedef struct ambit_simulate_result {
-  ambit_status status; /* OK = complete, UNABLE, STOPPED, DOMAIN */
-  char reason[1024];   /* "" if complete; else why, and which knob to turn */
+  ambit_status status;            /* OK = complete, UNABLE, STOPPED, DOMAIN */
+  char code[AMBIT_CODE_MAX];      /* "" if complete */
+  char reason[AMBIT_MESSAGE_MAX]; /* "" if complete; else why, and which knob to turn */
   double t_reached;
   double cpu_seconds; /* of the integration itself, over all threads */
   double wall_seconds;

@@ -51,14 +51,14 @@ ambit_status ambit_split_run(const ambit_split *s, ambit_arena *arena, ambit_spl
     for (uint32_t i = 0; i < s->ncontext; i++) ambit_work_add(&out->work, &j.piece[i].work);
     if (status == AMBIT_OK || status == AMBIT_STOPPED) {
       bool stopped = ambit_merge_forward(j.merge, s->sink) != 0 || status == AMBIT_STOPPED;
-      out->said = stopped ? AMBIT_STOPPED : ambit_merge_outcome(j.merge, out->reason);
+      out->said = stopped ? AMBIT_STOPPED : ambit_merge_outcome(j.merge, &out->why);
       status = AMBIT_OK;
     } else {
-      ambit_merge_outcome(j.merge, out->reason);
+      ambit_merge_outcome(j.merge, &out->why);
     }
   }
   ambit_allocation_forbid(0); /* the guard of the merged records has forbidden it since the first of them */
   ambit_merge_close(j.merge);
   if (status == AMBIT_OK) return status;
-  return ambit_fail(f, status, "%s", out->reason[0] ? out->reason : "out of memory");
+  return ambit_fail_code(f, status, out->why.code, "%s", out->why.message[0] ? out->why.message : "out of memory");
 }

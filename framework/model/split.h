@@ -29,10 +29,10 @@ typedef struct ambit_split {
 } ambit_split;
 
 typedef struct ambit_split_outcome {
-  ambit_status said;              /* OK, or what the piece that got least far said */
-  uint32_t threads;               /* that worked: fewer than asked for where the system refuses them */
-  ambit_work work;                /* of the leases of all pieces */
-  char reason[AMBIT_MESSAGE_MAX]; /* which piece, its data, its own reason */
+  ambit_status said; /* OK, or what the piece that got least far said */
+  uint32_t threads;  /* that worked: fewer than asked for where the system refuses them */
+  ambit_work work;   /* of the leases of all pieces */
+  ambit_failure why; /* which piece, its data, its own reason */
 } ambit_split_outcome;
 
 /* INVALID, NOMEM or BROKEN if a piece could not be opened; otherwise OK and the outcome. */

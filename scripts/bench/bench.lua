@@ -78,7 +78,7 @@ function bench.listen(scene, verbs, words)
   local good, problem = pcall(dofile, arg[0])
   print, io.write, os.exit, arg = show, write, exit, named
   for verb, f in pairs(own) do ambit[verb] = f end
-  session.unable = false -- scenes may well ask what cannot be proved
+  session.worst = "ok" -- scenes may well ask what cannot be proved
   if not good and problem ~= left then error(problem, 0) end
   return calls
 end

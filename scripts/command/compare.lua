@@ -1,6 +1,7 @@
 -- compare.lua -- `ambit compare`: runs a scene once, then everything that it evaluates again in each arithmetic and
 -- everything that it simulates again by each solver.
 local asked = require "ambit.command.compare.asked"
+local code = require "ambit.code"
 local compare = require "ambit.compare"
 local compare_engine = require "ambit.compare.engine"
 local compare_files = require "ambit.command.compare.files"
@@ -28,7 +29,7 @@ ambit.compare { solvers = { "lohner", { "taylor_model", order = { 8, 12 } } }, a
   --quick          the same as --repeat 1 --limit 1
 Words behind `--` are the scene's, even if they look like options. Ctrl-C ends the comparison; tables and files hold
 what was done until then.
-exit: 0 done, 1 error in the scene, its input or a file, 3 nothing was proved or proofs contradict each other,
+exit: 0 done, 1 error in the scene, its input or a file, or proofs contradict each other, 3 nothing was proved,
       130 interrupted]]
 
 local function complain(message) io.stderr:write("ambit: ", tostring(message), "\n") end
@@ -89,10 +90,12 @@ end
 local function code_of(list, failed)
   if core.interrupted() then return 130 end
   if failed then return 1 end
+  local worst = "ok"
   for _, comparison in ipairs(list) do
-    if comparison.status ~= "complete" then return 3 end
+    local ended = comparison.code or code.of(comparison.status)
+    if code.is_worse(ended, worst) then worst = ended end
   end
-  return 0
+  return code.exit(worst)
 end
 
 local function results(file, options, requests, failed)

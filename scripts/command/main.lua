@@ -13,11 +13,13 @@ local commands = {
   { "check", "put a plugin through the conformance kit" },
   { "new", "write the skeleton of a plugin" },
   { "test", "run scripted test suites (*_spec.lua)" },
+  { "errors", "what the codes of outcomes mean" },
   { "repl", "calculate and build interactively" },
 }
 
 local exit_codes = [[
-exit codes: 0 done and proved, 1 script or input error, 2 wrong usage, 3 ran but could not prove, 130 interrupted]]
+exit codes: 0 done and proved, 1 script or input error, or a broken plugin, 2 wrong usage, 3 ran but could not prove,
+4 proved that there is no answer, 130 interrupted]]
 
 local trust_options = [[
 options before the command, for plugins (AMBIT_PATH):

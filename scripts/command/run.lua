@@ -1,4 +1,5 @@
 -- run.lua -- `ambit run`.
+local code = require "ambit.code"
 local core = require "ambit.core"
 local provenance = require "ambit.provenance"
 local scene = require "ambit.command.scene"
@@ -13,9 +14,14 @@ usage: ambit run [--json FILE|-] [--quiet] SCENE.lua [ARG ...]
   --quiet      no progress bar and no notes
 The words behind the scene are in its table `arg`. Ctrl-C ends a simulation with status "stopped" and keeps what was
 recorded.
-exit: 0 done and proved, 1 error in the scene or its input, 3 a verb ended "unable", 130 interrupted]]
+exit: 0 done and proved, 1 error in the scene or its input, or a plugin is broken, 3 a verb could not prove all, 4 a verb
+proved that there is no answer, 130 interrupted; of several the worst: 1 before 3 before 4. `ambit errors` lists the
+codes of verbs.]]
 
 local function complain(message) io.stderr:write("ambit: ", tostring(message), "\n") end
+
+local sentences = { "a plugin is broken, so nothing is proved", [3] = "not everything could be proved",
+  [4] = "it is proved that there is no answer" }
 
 local function close_records()
   local good, problem = pcall(core.records_close)
@@ -41,8 +47,9 @@ function command.run(list)
   if not good then complain(problem) end
   if not close_records() or not good then return 1 end
   if core.interrupted() then complain "interrupted: what was recorded up to there is kept" end
-  if session.unable then complain "not everything could be proved: see status and reason of the verbs" end
-  return session.unable and 3 or 0
+  local sentence = sentences[code.exit(session.worst)]
+  if sentence then complain(("%s (%s): see status, code and reason of the verbs"):format(sentence, session.worst)) end
+  return code.exit(session.worst)
 end
 
 return command

@@ -1,5 +1,6 @@
 -- view.lua -- `ambit view`: runs a scene and writes a page that shows its mechanisms.
 local check = require "ambit.check"
+local code = require "ambit.code"
 local core = require "ambit.core"
 local data = require "ambit.view.data"
 local page = require "ambit.view.page"
@@ -18,7 +19,8 @@ Otherwise it is every mechanism, with the last simulation of it, and the frames 
   -o, --output FILE   the page (default: the name of the scene, .html, in the working directory); `-` is standard output
   --quiet             no progress bar and no notes
 Words behind `--` are the scene's, even if they look like options.
-exit: 0 written, 1 error in the scene, its input or the file, 3 written, but of a simulation that could not be proved]]
+exit: 0 written, 1 error in the scene, its input or the file, 3 written, but of a simulation that could not be proved,
+4 written, but of one that is proved to be impossible]]
 
 local function complain(message) io.stderr:write("ambit: ", tostring(message), "\n") end
 
@@ -60,15 +62,16 @@ local function run_scene(file, words)
 end
 
 local function build(file)
-  local views, proved = {}, true
+  local views, worst = {}, "ok"
   for i, request in ipairs(requests()) do
     local good, view = pcall(data.of, request)
     if not good then error((request.place or "") .. tostring(view), 0) end
     views[i] = view
-    if views[i].status == "unable" then proved = false end
+    local ended = view.code or "ok"
+    if code.is_worse(ended, worst) then worst = ended end
   end
   if #views == 0 then error(("%s makes no mechanism: there is nothing to show"):format(file), 0) end
-  return page.of(views, file:match "[^/]*$"), proved
+  return page.of(views, file:match "[^/]*$"), worst
 end
 
 -- -- the command
@@ -84,15 +87,15 @@ local function long_options(list)
 end
 
 local function show(file, words, output, quiet)
-  local good, text, proved = run_scene(file, words)
-  if good then good, text, proved = pcall(build, file) end
+  local good, text, worst = run_scene(file, words)
+  if good then good, text, worst = pcall(build, file) end
   if not good then return complain(text) or 1 end
   local problem = target.write(output, text)
   if problem then return complain(problem) or 1 end
   if not quiet and output ~= "-" then note(("%s: %.0f kB"):format(output, #text / 1024)) end
-  if proved then return 0 end
+  if code.exit(worst) == 0 then return 0 end
   complain "a simulation that is shown could not be proved to its end: the page says how far"
-  return 3
+  return code.exit(worst)
 end
 
 function command.run(list)

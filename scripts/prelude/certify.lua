@@ -39,13 +39,13 @@ check.methods(Certificate, Certificate)
 
 -- "proved": every output within its bound (if it has one); "exceeded": proved, but a bound is above what is allowed
 local function verdict(result, names, bounds)
-  if result.status ~= "proved" then return result.status, result.reason end
+  if result.status ~= "proved" then return result.status, result.code, result.reason end
   for _, name in ipairs(names) do
     if bounds[name] and not (result.error[name] <= bounds[name]) then
-      return "exceeded", ("`%s` is only proved to be within %s"):format(name, number.up(result.error[name]))
+      return "exceeded", "unable.bound", ("`%s` is only proved to be within %s"):format(name, number.up(result.error[name]))
     end
   end
-  return "proved", ""
+  return "proved", "ok", ""
 end
 
 -- -- the verb
@@ -115,11 +115,10 @@ function verb.certify(t)
   if t.refine == nil then how.refine, how.gain = REFINE, GAIN end
   local result = proof.prove(detailed, reduced, scenarios, how)
   result.error_status = result.status
-  result.status, result.reason = verdict(result, names, bounds)
+  result.status, result.code, result.reason = verdict(result, names, bounds)
   result.outputs, result.bounds, result.criterion, result.settings = names, bounds, how.criterion, how
   result.detailed, result.reduced, result.given = detailed, reduced, scenarios
-  if result.status ~= "proved" then session.unable = true end
-  session.finish("certify", { status = result.status, reason = result.reason, t_reached = result.t_reached,
+  session.finish("certify", { status = result.status, code = result.code, reason = result.reason, t_reached = result.t_reached,
     cpu_seconds = result.cpu_seconds }, how.report, { "criterion", how.criterion, "solver", how.solver, "options", how.shown,
     "error", fields(names, result.error), "bounds", fields(names, bounds) })
   return setmetatable(result, Certificate)

@@ -113,11 +113,11 @@ function event.finish(q, facts)
   local results, last, most = event.read(q.watch, q.events, q.system.states, q.times.shift)
   facts.events = results
   if most then
-    facts.status, facts.reason = "unable", ("there are more than %d events"):format(most)
+    facts.status, facts.code, facts.reason = "unable", "unable.events-max", ("there are more than %d events"):format(most)
   elseif last and (last.certain or not facts.rigorous) then
-    facts.status, facts.reason, facts.ended_by = "complete", "", last.name
+    facts.status, facts.code, facts.reason, facts.ended_by = "complete", "ok", "", last.name
   elseif last then
-    facts.status, facts.reason = "unable", event.explain(last)
+    facts.status, facts.code, facts.reason = "unable", "unable.event", event.explain(last)
   end
 end
 

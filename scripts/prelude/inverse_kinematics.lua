@@ -214,7 +214,8 @@ local function drop_turned(found, q, trace)
       elseif not cannot then
         found.undecided[#found.undecided + 1] = point
         if found.status == "complete" then
-          found.status, found.reason = "unable", "the data are too uncertain to tell an orientation from its opposite"
+          found.status, found.code = "unable", "unable.orientation"
+          found.reason = "the data are too uncertain to tell an orientation from its opposite"
         end
       end
     end

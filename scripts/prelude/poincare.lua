@@ -71,16 +71,16 @@ local function one_return(q, system, g, x, t, latest)
   local list = { { g = g, name = "section", direction = q.direction, stop = true } }
   local found = leg.to_event(q, system, x, { 0.0, latest - start.lo }, list, { true })
   if found.status == "complete" then
-    return nil, ("some solutions do not return to the section by t = %s"):format(core.literal(latest))
+    return nil, ("some solutions do not return to the section by t = %s"):format(core.literal(latest)), "unable", "unable.event"
   elseif found.status ~= "event" then
-    return nil, found.reason, found.status
+    return nil, found.reason, found.status, found.code
   end
   local image = surface.onto(q, system, g, found.x, t + found.t)
   if image.run.status ~= "complete" then
-    return nil, "on the way onto the section: " .. image.run.reason, image.run.status
+    return nil, "on the way onto the section: " .. image.run.reason, image.run.status, image.run.code
   end
   if image.when.hi > latest then
-    return nil, ("some solutions do not return to the section by t = %s"):format(core.literal(latest))
+    return nil, ("some solutions do not return to the section by t = %s"):format(core.literal(latest)), "unable", "unable.event"
   end
   return image, found.event
 end
@@ -107,9 +107,9 @@ function verb.poincare(t)
   end
   local map = setmetatable({ status = "complete", reason = "", returns = {}, request = q, initial = q.initial }, Map)
   for i = 1, q.returns do
-    local image, found, status = one_return(q, system, g, x, now, latest)
+    local image, found, status, code = one_return(q, system, g, x, now, latest)
     if not image then
-      map.status, map.reason = status or "unable", ("return %d: %s"):format(i, found)
+      map.status, map.code, map.reason = status, code, ("return %d: %s"):format(i, found)
       break
     end
     map.returns[i] = describe(q, image, found)

@@ -274,7 +274,7 @@ end
 local function finish(job, result)
   local errors, times = {}, job.scenarios[1].times
   for _, name in ipairs(result.outputs) do errors[#errors + 1], errors[#errors + 2] = name, result.error[name] end
-  session.finish("reduce", { status = result.status, reason = result.reason, cpu_seconds = result.cpu_seconds,
+  session.finish("reduce", { status = result.status, code = result.code, reason = result.reason, cpu_seconds = result.cpu_seconds,
     t_reached = times[#times] }, job.settings.report,
     { "criterion", result.criterion, "solver", result.settings.solver, "options", result.settings.options, "ranking",
       result.ranking, "strategy", result.strategy, "cluster", result.cluster, "give_up", result.give_up, "error",

@@ -1,15 +1,17 @@
 -- session.lua -- what happened in this Lua state: asked for by `ambit explain` and by the exit code of `ambit run`.
+local code = require "ambit.code"
 local core = require "ambit.core"
 
 local weak = { __mode = "v" }
 
 local session = {
-  last = nil,                             -- the verb that ended last: { verb, status, reason, report, settings, cpu_seconds }
+  last = nil,                             -- the verb that ended last: { verb, status, code, reason, report, settings,
+                                          -- cpu_seconds }
   verbs = nil,                            -- a list: a command wants to know all of them, in order
   mechanisms = setmetatable({}, weak),    -- by number; only what is still alive
   odes = setmetatable({}, weak),
   observer = nil,                         -- `ambit explain`: a function that is told of every verb as it ends
-  unable = false,                         -- did a verb end without a proof?
+  worst = "ok",                           -- the worst code that a verb ended with
   asked = nil,                            -- a list: `ambit compare` wants to know what is evaluated
   simulations = nil,                      -- a list: it wants to know what is simulated
   comparisons = {},                       -- what ambit.compare found, in order
@@ -54,14 +56,16 @@ end
 
 -- Called once at the end of every verb: tells of it and writes its `result` record.
 function session.finish(verb, result, report, settings)
-  local entry = { verb = verb, status = result.status, reason = result.reason, report = report, settings = settings,
-    cpu_seconds = result.cpu_seconds or report.seconds_run or 0 }
+  local ended = result.code or code.of(result.status)
+  if result.code == nil then result.code = ended end
+  if code.is_worse(ended, session.worst) then session.worst = ended end
+  local entry = { verb = verb, status = result.status, code = ended, reason = result.reason, report = report,
+    settings = settings, cpu_seconds = result.cpu_seconds or report.seconds_run or 0 }
   session.last = entry
   if session.verbs then session.verbs[#session.verbs + 1] = entry end
   if session.observer then session.observer(entry) end
-  if result.status == "unable" then session.unable = true end
   if not core.recording() then return end
-  local fields = { "verb", verb, "status", result.status }
+  local fields = { "verb", verb, "status", result.status, "code", ended }
   local function add(key, value)
     if value ~= nil and value ~= "" then fields[#fields + 1], fields[#fields + 2] = key, value end
   end

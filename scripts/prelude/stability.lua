@@ -245,7 +245,7 @@ function stability.eigenvalues(t)
   local matrix = core.evaluate("interval", {}, entries, {}, {})
   local values, verdict, by = core.spectrum(n, matrix)
   return evaluate.with_status(values or {}, {
-    status = values and "complete" or "unable", stability = verdict, stability_by = by,
+    status = values and "complete" or "unable", code = values and "ok" or "unable.eigenvalues", stability = verdict, stability_by = by,
     reason = values and "" or "the matrix is not bounded, or its eigenvectors are too dependent for data so wide",
   })
 end

@@ -166,7 +166,7 @@ local function meeting_time(q, crossing, began)
   return t.hi < T and T <= latest and T or nil
 end
 
-local function failure(format, ...) return { status = "unable", reason = format:format(...) } end
+local function failure(format, ...) return { status = "unable", code = "unable.switch", reason = format:format(...) } end
 
 -- Why the new mode cannot be entered with these values; nil: it can.
 local function gap(states, x)
@@ -177,13 +177,13 @@ local function gap(states, x)
   end
 end
 
--- Through the guard and the reset to one instant in the new mode: { x, T } or { status, reason }.
+-- Through the guard and the reset to one instant in the new mode: { x, T } or { status, code, reason }.
 local function pass(q, result, mode, found, began)
   local guard = mode.guards[found.event.index]
   local at = ("switch `%s` of mode `%s` in t = %s"):format(guard.name, mode.name, tostring(found.event.t))
   local image = surface.onto(q, mode.system, guard.g, found.x, found.t)
   if image.run.status ~= "complete" then
-    return { status = image.run.status, reason = ("%s: on the way to the guard: %s"):format(at, image.run.reason) }
+    return { status = image.run.status, code = image.run.code, reason = ("%s: on the way to the guard: %s"):format(at, image.run.reason) }
   end
   local T = meeting_time(q, image.when, began)
   if not T then return failure("%s: the run ends before every solution has made it", at) end
@@ -200,7 +200,7 @@ local function pass(q, result, mode, found, began)
     return failure("%s: guard `%s` of mode `%s` may be met before every solution has made it: %s", at, met.name,
       guard.to.name, met.reason or "the switches overlap in time")
   end
-  if away.run.status ~= "complete" then return { status = away.run.status, reason = away.run.reason } end
+  if away.run.status ~= "complete" then return { status = away.run.status, code = away.run.code, reason = away.run.reason } end
   switch_run.add_switch(result, mode, guard, image, away, found.t, T)
   return { mode = guard.to, x = away.x, t = T }
 end
@@ -211,13 +211,13 @@ local function run_modes(q, result, mode)
   while true do
     local found = leg.to_event(q, mode.system, x, instants(q, t), mode.guards, starts_on)
     switch_run.add_leg(result, mode, found)
-    if found.status ~= "event" then return found.status, found.reason or "" end
+    if found.status ~= "event" then return found.status, found.reason or "", found.code end
     if #result.events == q.switches_max then
       return "unable", ("more than %d switches by t = %s; raise `switches_max` if so many are meant"):format(
-        q.switches_max, core.literal(t))
+        q.switches_max, core.literal(t)), "unable.switches-max"
     end
     local next_leg = pass(q, result, mode, found, t)
-    if not next_leg.mode then return next_leg.status, next_leg.reason end
+    if not next_leg.mode then return next_leg.status, next_leg.reason, next_leg.code end
     mode, t, x = next_leg.mode, next_leg.t, next_leg.x
     if t >= latest then return "complete", "" end
   end
@@ -226,7 +226,7 @@ end
 function verb.hybrid(t)
   local q, mode = request(t)
   local result = switch_run.new(q)
-  result.status, result.reason = run_modes(q, result, mode)
+  result.status, result.reason, result.code = run_modes(q, result, mode)
   switch_run.finish(result, q)
   session.finish("hybrid", result, q.report, { "solver", q.solver, "options", q.settings, "t_start",
     instant.first(q.times), "t_end", instant.final(q.times) })

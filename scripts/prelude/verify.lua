@@ -81,7 +81,6 @@ function verb.verify(t)
     sound_points = are_points_starts(q), budget = read_budget(t.budget), tolerance = tolerance_of(q) }
   search.run(job)
   local result = report.of(job)
-  if result.status == "undecided" then session.unable = true end
   session.finish("verify", result, result.report,
     { "solver", q.solver, "options", q.settings, "t_start", instant.first(q.times), "t_end",
       instant.final(q.times), "refinements",

@@ -410,7 +410,8 @@ function ambit.evaluate(t) end
 ---@field reason string? why it is not certain
 
 ---@class ambit.run
----@field status "complete"|"unable"|"stopped"
+---@field status "complete"|"impossible"|"unable"|"stopped"|"broken"
+---@field code string "ok", "unable.width", ...: see docs/errors.md
 ---@field reason string "" if complete, else why, and which knob to turn
 ---@field t_start number
 ---@field t_reached number
@@ -498,7 +499,8 @@ function ambit.simulate(t) end
 ---@field certain boolean
 
 ---@class ambit.poincare
----@field status "complete"|"unable"|"stopped"
+---@field status "complete"|"impossible"|"unable"|"stopped"|"broken"
+---@field code string "ok", "unable.width", ...: see docs/errors.md
 ---@field reason string
 ---@field returns ambit.poincare.return[]
 ---@field step_count integer

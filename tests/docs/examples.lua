@@ -1,5 +1,5 @@
 -- Runs every Lua example of the documentation: lua5.4 tests/docs/examples.lua AMBIT README.md docs/*.md
--- A fenced block ```lua is a scene of its own and must exit with 0; ```lua fails must exit with 1; ```lua unable with 3;
+-- A fenced block ```lua is a scene of its own and must exit with 0; ```lua fails must exit with 1; ```lua unable with 3, ```lua impossible with 4;
 -- ```lua fragment continues the block before it. A block ```text prints behind a scene must be its output. A block below the line
 -- <!-- file: PATH --> must be that file, word by word.
 local ambit = table.remove(arg, 1)
@@ -36,7 +36,8 @@ local function run(source)
   return code, output
 end
 
-local expected = { ["lua"] = 0, ["lua fragment"] = 0, ["lua fails"] = 1, ["lua unable"] = 3 }
+local expected = { ["lua"] = 0, ["lua fragment"] = 0, ["lua fails"] = 1, ["lua unable"] = 3,
+  ["lua impossible"] = 4 }
 
 local function fail(path, block, text)
   failed = failed + 1

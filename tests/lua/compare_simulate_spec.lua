@@ -98,7 +98,8 @@ describe("compare over solvers", function()
   it("notices an enclosure that misses the reference", function()
     local r = ambit.compare { decay, initial = { x = 1 }, t = { 0, 1 }, repeats = 1, solvers = { "lohner" },
       reference = { t = 1, x = { x = "0.36788" } } }
-    assert.equal("unable", r.status)
+    assert.equal("broken", r.status)
+    assert.equal("broken.contradiction", r.code)
     has(r.reason, "lohner misses the reference about x at t = 1")
   end)
 

@@ -11,7 +11,7 @@ end
 
 local function solve(t)
   local run = ambit.simulate(t)
-  session.unable = false
+  session.worst = "ok"
   return run
 end
 

@@ -4,6 +4,11 @@ target_link_libraries(test_callbacks PRIVATE ambit_flags)
 set_target_properties(test_callbacks PROPERTIES PREFIX "" OUTPUT_NAME callbacks
   LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests/lua/plugins/service)
 
+add_library(test_faulty MODULE ${CMAKE_CURRENT_LIST_DIR}/plugins/faulty.c)
+target_link_libraries(test_faulty PRIVATE ambit_flags)
+set_target_properties(test_faulty PROPERTIES PREFIX "" OUTPUT_NAME faulty C_VISIBILITY_PRESET hidden
+  LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests/lua/plugins/solver)
+
 add_library(test_hostile MODULE ${CMAKE_CURRENT_LIST_DIR}/environment/hostile.c)
 target_include_directories(test_hostile PRIVATE ${LUA_INCLUDE_DIRS})
 target_link_libraries(test_hostile PRIVATE ambit_flags)

@@ -242,7 +242,7 @@ static void merges_pieces_in_time_order(void **state) {
     outcome *o = play(&g, threads, 8, 3, 0);
     assert_int_equal(o->returned, AMBIT_OK);
     assert_int_equal(o->split.said, AMBIT_OK);
-    assert_string_equal(o->split.reason, "");
+    assert_string_equal(o->split.why.message, "");
     assert_int_equal(o->heard.records, NTIME - 1);
     assert_true(o->heard.done == 1 && o->heard.calls > 0);
     for (uint32_t k = 0; k + 1 < NTIME; k++) {
@@ -293,14 +293,14 @@ static void the_piece_that_got_least_far_counts(void **state) {
     outcome *o = play(&g, 1 + (uint32_t)round % 5, 8, 1, 0);
     assert_int_equal(o->returned, AMBIT_OK);
     assert_int_equal(o->split.said, AMBIT_UNABLE);
-    assert_string_equal(o->split.reason, "piece 3 of 8 (x in [2, 3]): cell 2 ends at 3.5");
+    assert_string_equal(o->split.why.message, "piece 3 of 8 (x in [2, 3]): cell 2 ends at 3.5");
     assert_int_equal(o->heard.records, 3);
     assert_true(o->heard.value[2][0] == -3 && o->heard.value[2][NX] == 11); /* all pieces, also the failed ones */
     free(o);
   }
   behave((mischief) { .fail_at = { [7] = 0.4 } }); /* before the first instant; the data are named as the user knows */
   outcome *o = play(&g, 2, 8, 3, 0);
-  assert_string_equal(o->split.reason, "piece 22 of 24 (x in [7, 8], datum 2 in [0, 1]): cell 7 ends at 0");
+  assert_string_equal(o->split.why.message, "piece 22 of 24 (x in [7, 8], datum 2 in [0, 1]): cell 7 ends at 0");
   assert_int_equal(o->heard.records, 0);
   free(o);
   close_stage(&g);
@@ -328,8 +328,8 @@ static void notices_a_missing_instant(void **state) {
   behave((mischief) { .skips = true });
   outcome *o = play(&g, 2, 4, 1, 0);
   assert_int_equal(o->split.said, AMBIT_BROKEN);
-  assert_non_null(strstr(o->split.reason, "piece 1 of 4"));
-  assert_non_null(strstr(o->split.reason, "stepped over an instant"));
+  assert_non_null(strstr(o->split.why.message, "piece 1 of 4"));
+  assert_non_null(strstr(o->split.why.message, "stepped over an instant"));
   assert_int_equal(o->heard.records, 2);
   free(o);
   close_stage(&g);
@@ -343,7 +343,7 @@ static void empty_pieces_add_nothing(void **state) {
   behave((mischief) { .domain = true });
   outcome *o = play(&g, 2, 8, 1, 0);
   assert_int_equal(o->split.said, AMBIT_DOMAIN);
-  assert_string_equal(o->split.reason, "piece 3 of 8 (x in [2, 3]): nothing from here");
+  assert_string_equal(o->split.why.message, "piece 3 of 8 (x in [2, 3]): nothing from here");
   free(o);
   g.problem.ninvariant = 1;
   o = play(&g, 2, 8, 1, 0);
@@ -355,7 +355,7 @@ static void empty_pieces_add_nothing(void **state) {
     behave((mischief) { .domain_everywhere = true });
     o = play(&g, threads, 8, 1, 0);
     assert_int_equal(o->split.said, AMBIT_DOMAIN);
-    assert_string_equal(o->split.reason, "piece 1 of 8 (x in [0, 1]): nothing from here");
+    assert_string_equal(o->split.why.message, "piece 1 of 8 (x in [0, 1]): nothing from here");
     free(o);
   }
   close_stage(&g);

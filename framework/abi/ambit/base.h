@@ -54,6 +54,9 @@ struct ambit_host {
   ambit_status (*fail)(const ambit_host *h, ambit_status s, const char *format, ...) AMBIT_PRINTF(3, 4);
   void (*note)(const ambit_host *h, const char *format, ...) AMBIT_PRINTF(2, 3); /* [any] one log line */
   const void *(*service)(const ambit_host *h, const char *id); /* [any] "ambit.jet/1"; NULL if absent */
+  /* [any] fail() with a code of <ambit/code.h>, or of the plugin's own: the word of s, a dot, what happened */
+  ambit_status (*fail_code)(const ambit_host *h, ambit_status s, const char *code, const char *format, ...)
+      AMBIT_PRINTF(4, 5);
 };
 
 /* A named parameter or option, declared as data, so that checks, units and the manual need no code.

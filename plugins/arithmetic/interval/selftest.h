@@ -4,6 +4,8 @@
 ** make every enclosure wrong without a sign. A few operations whose bounds are known bit by bit would show it: each
 ** result below is inexact, so that bounds are neighbours and neither is the one that another mode gives to both.
 */
+#include <ambit/code.h>
+
 enum { TEST_A, TEST_B, TEST_TINY, TEST_R };
 
 typedef struct expectation {
@@ -54,7 +56,7 @@ static ambit_status open_checked(const ambit_host *h, const double *option, uint
   if (status != AMBIT_OK) return status;
   int failed = self_test(*ctx);
   if (failed < 0) return AMBIT_OK;
-  return h->fail(h, AMBIT_BROKEN,
+  return h->fail_code(h, AMBIT_BROKEN, AMBIT_CODE_BROKEN_ROUNDING,
       "interval: this machine, or the compiler this plugin was built with, does not round upward as told (self-test "
       "%d of %s); no enclosure would hold",
       failed, VARIANT_NAME);

@@ -2,6 +2,7 @@
 ** */
 #include "interface.h"
 #include "runs.h"
+#include <ambit/code.h>
 
 enum { ORDER, BOXES };
 
@@ -114,7 +115,8 @@ static ambit_status open_as(
   c->boxes = l.boxes ? (uint32_t)boxes : 0;
   while (c->boxes > 1 && (size_t)c->boxes * c->m.count > BOXES_LIMIT) c->boxes /= 2;
   if (!is_sound(c))
-    return h->fail(h, AMBIT_BROKEN, "this build or machine does not round as told; nothing it computes is proved");
+    return h->fail_code(h, AMBIT_BROKEN, AMBIT_CODE_BROKEN_ROUNDING,
+        "this build or machine does not round as told; nothing it computes is proved");
   *ctx = c;
   return AMBIT_OK;
 }

@@ -1,5 +1,6 @@
 /* run.c -- from step to step, into the sink; and what a run that could not go on has to say. */
 #include "lohner.h"
+#include <ambit/code.h>
 #include <stdio.h>
 
 #define FORGET 0.9 /* per step: how fast a state's size is forgotten */
@@ -99,18 +100,18 @@ static void say_rank(const lohner *s, size_t room, char *text) {
 static ambit_status explain_apart(const lohner *s) {
   const char *name = s->problem.invariant_name[s->constraint.culprit];
   if (s->t == s->problem.time[0] && s->t_next == s->t)
-    return s->host->fail(s->host, AMBIT_DOMAIN,
+    return s->host->fail_code(s->host, AMBIT_DOMAIN, AMBIT_CODE_DOMAIN_CONSTRAINT,
         "the initial set does not meet the constraint `%s`: no initial state of it can satisfy it; mend the initial "
         "values",
         name);
-  return s->host->fail(s->host, AMBIT_BROKEN,
+  return s->host->fail_code(s->host, AMBIT_BROKEN, AMBIT_CODE_BROKEN_CONSTRAINT,
       "at t = %.9g s no state of the enclosure satisfies the constraint `%s`: no initial state does, or the equations "
       "of motion do not keep it",
       s->t_next, name);
 }
 
 static ambit_status explain_kink(const lohner *s) {
-  return s->host->fail(s->host, AMBIT_UNABLE,
+  return s->host->fail_code(s->host, AMBIT_UNABLE, AMBIT_CODE_UNABLE_KINK,
       "at t = %.9g s the enclosure, up to %.3g wide, comes to where %s is not smooth, and Taylor series end; end "
       "before "
       "it, or put a smooth law in its place",
@@ -129,28 +130,28 @@ static ambit_status explain(const lohner *s, enum why why) {
   if (s->kink) return explain_kink(s);
   switch (why) {
   case WHY_CENTRE:
-    return h->fail(h, AMBIT_UNABLE,
+    return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_UNDEFINED,
         "at t = %.9g s the right-hand side is not defined, not smooth or too large at the midpoint of the enclosure%s; "
         "end before it",
         s->t, rank);
   case WHY_BOX:
-    return h->fail(h, AMBIT_UNABLE,
+    return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_UNDEFINED,
         "at t = %.9g s the enclosure, up to %.3g wide, reaches a point where the right-hand side is not defined, not "
         "smooth or too large%s; split the initial set, or end before it",
         s->t, width(s), rank);
   case WHY_WIDE:
-    return h->fail(h, AMBIT_UNABLE,
+    return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_WIDTH,
         "the enclosure of `%s` grew wider than %.4g in the step from t = %.9g s%s; split the initial set, raise "
         "`pieces`, or allow more by `width_max`",
         s->problem.name[s->culprit], s->limit[s->culprit], s->t, rank);
   case WHY_CREEP:
-    return h->fail(h, AMBIT_UNABLE,
+    return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_CREEP,
         "at t = %.9g s steps over an enclosure up to %.3g wide, now of %.3g s, are so short that the end is out of "
         "reach: a solution may escape near here%s; if not, split the initial set, raise `tolerance`, or give a "
         "`step_min` to go on",
         s->t, width(s), s->guess, rank);
   default:
-    return h->fail(h, AMBIT_UNABLE,
+    return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_STEP,
         "at t = %.9g s no step of at least %.3g s could be proved, with an enclosure up to %.3g wide: a solution may "
         "escape or leave the domain of the right-hand side near here%s; if not, split the initial set, lower "
         "`step_min` or raise `tolerance`",

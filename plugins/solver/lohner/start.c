@@ -7,6 +7,7 @@
 ** all time.
 */
 #include "lohner.h"
+#include <ambit/code.h>
 #include <string.h>
 
 #define THIN 0x1p-40           /* relative radius up to which an initial box is a matter of rounding */
@@ -211,7 +212,7 @@ static ambit_status open_set(lohner *s, origin *o) {
   uint32_t flags = evaluate_origin(s, o);
   ambit_rounding_restore(old);
   if (flags)
-    return s->host->fail(s->host, AMBIT_UNABLE,
+    return s->host->fail_code(s->host, AMBIT_UNABLE, AMBIT_CODE_UNABLE_INITIAL,
         "at t = %.9g s the initial values are not defined, or too large to compute with, for all values of their "
         "uncertain data; narrow the ranges of the data in `initial`",
         s->problem.time[0]);

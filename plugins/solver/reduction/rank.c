@@ -1,5 +1,6 @@
 /* rank.c -- the rankings that are asked for, one after the other, and the order that one of them gives. */
 #include "reduce.h"
+#include <ambit/code.h>
 #include <math.h>
 #include <string.h>
 
@@ -18,7 +19,7 @@ double reduce_relative(const reducer *s, const double *error) {
 
 ambit_status reduce_prove(reducer *s, uint32_t how, const uint8_t *cut) {
   if (s->proofs >= s->options.proofs_max)
-    return s->host->fail(s->host, AMBIT_STOPPED,
+    return s->host->fail_code(s->host, AMBIT_STOPPED, AMBIT_CODE_STOPPED_LIMIT,
         "the limit of %.0f proofs is reached: what was accepted until then is proved; raise `proofs_max` to go on",
         s->options.proofs_max);
   s->proofs++;

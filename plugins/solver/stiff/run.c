@@ -1,5 +1,6 @@
 /* run.c -- from step to step, into the sink; and what a run that could not go on has to say. */
 #include "stiff.h"
+#include <ambit/code.h>
 #include <string.h>
 
 /* -- the hull of the set */
@@ -137,18 +138,18 @@ static ambit_status explain(const stiff *s, enum why why) {
   case WHY_NOTHING: return AMBIT_OK;
   case WHY_STOPPED: return AMBIT_STOPPED;
   case WHY_WIDE:
-    return h->fail(h, AMBIT_UNABLE,
+    return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_WIDTH,
         "the enclosure of `%s` grew wider than %.4g in the step from t = %.9g s; split the initial set, or allow more "
         "by "
         "`width_max`",
         s->problem.name[s->culprit], s->limit[s->culprit], s->t);
   case WHY_FAST:
-    return h->fail(h, AMBIT_UNABLE,
+    return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_RATES,
         "at t = %.9g s a step of %.3g s is too long for the rates of the equations: their product has no square among "
         "the numbers; end before it, or allow no longer steps by `step_max`",
         s->t, s->h.hi);
   default:
-    return h->fail(h, AMBIT_UNABLE,
+    return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_STEP,
         "at t = %.9g s no step could be proved, the last try was %.3g s long, with an enclosure up to %.3g wide: %s; a "
         "solution may escape near here; if not, split the uncertain data, lower `step_min` or change `tolerance`",
         s->t, s->h.hi, width(s), reason(s->last_why));

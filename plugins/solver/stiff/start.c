@@ -4,6 +4,7 @@
 ** xi_j, with slopes s about mid from the kernel's series service, g(mid) from our own.
 */
 #include "stiff.h"
+#include <ambit/code.h>
 #include <ambit/jet.h>
 #include <string.h>
 
@@ -58,7 +59,7 @@ static ambit_status read_middle(stiff *s) {
 }
 
 static ambit_status undefined(const stiff *s) {
-  return s->host->fail(s->host, AMBIT_UNABLE,
+  return s->host->fail_code(s->host, AMBIT_UNABLE, AMBIT_CODE_UNABLE_INITIAL,
       "at t = %.9g s the initial values are not defined, or too large to compute with, for all values of their "
       "uncertain data; narrow the ranges of the data in `initial`",
       s->problem.time[0]);

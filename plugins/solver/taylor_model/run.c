@@ -1,6 +1,7 @@
 /* run.c -- from step to step while there is one piece, then from instant to instant; and what a run that could not go
 ** on has to say. */
 #include "flow.h"
+#include <ambit/code.h>
 #include <stdio.h>
 
 #define BLURRED 0.1     /* remainder, of the set's width, from which pieces must serve */
@@ -158,24 +159,24 @@ static ambit_status explain(const flow *f, enum why why) {
   if (why == WHY_NOTHING) return AMBIT_OK;
   if (why == WHY_STOPPED) return AMBIT_STOPPED;
   if (p->kink)
-    return h->fail(h, AMBIT_UNABLE,
+    return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_KINK,
         "at t = %.9g s the set, up to %.3g wide%s, comes to where %s is not smooth, and Taylor series end; end before "
         "it, or put a smooth law in its place",
         p->t, width, pieces, p->kink);
   switch (why) {
   case WHY_KINK:
   case WHY_SERIES:
-    return h->fail(h, AMBIT_UNABLE,
+    return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_UNDEFINED,
         "at t = %.9g s the right-hand side is not defined, not smooth or too large somewhere in the set%s; narrow the "
         "initial set, raise `order`, or end before it",
         p->t, pieces);
   case WHY_WIDE:
-    return h->fail(h, AMBIT_UNABLE,
+    return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_WIDTH,
         "the enclosure of `%s` grew wider than %.4g at t = %.9g s%s; narrow the initial set, raise `order` or "
         "`pieces_max`, or allow more by `width_max`",
         f->problem.name[p->culprit], f->limit[p->culprit], p->t, pieces);
   default:
-    return h->fail(h, AMBIT_UNABLE,
+    return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_STEP,
         "at t = %.9g s no step of at least %.3g s could be proved, with a box up to %.3g wide%s: a solution may escape "
         "or leave the domain of the right-hand side near here; if not, raise `pieces_max` (%u now) or `order`, or "
         "lower `step_min`",

@@ -6,6 +6,7 @@
 */
 #include "flow.h"
 #include "start.h"
+#include <ambit/code.h>
 #include <string.h>
 
 #define THIN 0x1p-40 /* relative radius up to which an initial box is a matter of rounding */
@@ -93,7 +94,7 @@ static ambit_status evaluate_over(flow *f, uint32_t m, uint32_t order, uint32_t 
   if (!flags) *own = keep(f, source.made, p->nu);
   f->jet->close(jet);
   if (flags)
-    return h->fail(h, AMBIT_UNABLE,
+    return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_INITIAL,
         "at t = %.9g s the initial values are not defined, not smooth, or too large to compute with, for all values of "
         "their "
         "uncertain data; narrow the ranges of the data in `initial`",

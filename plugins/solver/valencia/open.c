@@ -1,5 +1,6 @@
 /* open.c -- options, memory, the initial set. */
 #include "valencia.h"
+#include <ambit/code.h>
 #include <string.h>
 
 enum { ORDER, DEGREE, TOLERANCE, EXPONENTIAL, STEP_MAX, STEP_MIN, WIDTH_MAX };
@@ -97,7 +98,7 @@ static ambit_status open_origin(valencia *s) {
   ambit_rounding_restore(old);
   ambit_lane_close(&lane);
   if (flags)
-    return s->host->fail(s->host, AMBIT_UNABLE,
+    return s->host->fail_code(s->host, AMBIT_UNABLE, AMBIT_CODE_UNABLE_INITIAL,
         "at t = %.9g s the initial values are not defined, or too large to compute with, for all values of their "
         "uncertain data; narrow the ranges of the data in `initial`",
         s->problem.time[0]);

@@ -1,5 +1,6 @@
 /* run.c -- from step to step, into the sink; and what a run that could not go on has to say. */
 #include "valencia.h"
+#include <ambit/code.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -304,17 +305,17 @@ static ambit_status explain(const valencia *s, enum why why) {
   case WHY_STOPPED: return AMBIT_STOPPED;
   case WHY_DOMAIN:
   case WHY_CURVE:
-    return h->fail(h, AMBIT_UNABLE,
+    return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_UNDEFINED,
         "at t = %.9g s the enclosure, up to %.3g wide, reaches a point where the right-hand side is not defined or not "
         "bounded%s, however short the step; split the initial set, or end before it",
         s->t, widest(s), kink);
   case WHY_WIDE:
-    return h->fail(h, AMBIT_UNABLE,
+    return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_WIDTH,
         "the enclosure of `%s` grew wider than %.4g in the step from t = %.9g s%s; split the initial set, take the "
         "arithmetic taylor_model with a higher order, or allow more by `width_max`",
         s->problem.name[s->culprit], s->limit[s->culprit], s->t, kink);
   default:
-    return h->fail(h, AMBIT_UNABLE,
+    return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_STEP,
         "at t = %.9g s no error bound of a step of at least %.3g s maps into itself, with an enclosure up to %.3g "
         "wide%s: "
         "a solution may escape near here; if not, split the initial set, lower `step_min` or raise `tolerance`",

@@ -217,7 +217,8 @@ end
 
 local function write_verb(write, i, verb)
   local r = verb.report
-  local words = { ("%d. %s (%s)%s"):format(i, verb.verb, verb.status, by(r)) }
+  local ended = verb.code == "ok" and verb.status or ("%s, %s"):format(verb.status, verb.code)
+  local words = { ("%d. %s (%s)%s"):format(i, verb.verb, ended, by(r)) }
   local function add(value, text)
     if (value or 0) > 0 then words[#words + 1] = ("%d %s%s"):format(value, text, value == 1 and "" or "s") end
   end

@@ -124,7 +124,7 @@ local function is_bounded(bound)
 end
 
 local function unable(total, failed, which)
-  total.status = failed.status == "stopped" and "stopped" or "unable"
+  total.status, total.code = failed.status == "stopped" and "stopped" or "unable", failed.code
   total.reason, total.t_reached = ("%s: %s"):format(which, failed.reason), failed.t_reached
   return total
 end
@@ -153,7 +153,8 @@ function bounds.prove(detailed, reduced, s, settings)
   if a and b then
     total.bound, total.when = compare(a, b, instants, #detailed.outputs)
     if not is_bounded(total.bound) then
-      total.status, total.reason = "unable", "an output is not known to be defined, or is unbounded, for some data"
+      total.status, total.code = "unable", "unable.partial"
+      total.reason = "an output is not known to be defined, or is unbounded, for some data"
     end
   else
     unable(total, failed, which)

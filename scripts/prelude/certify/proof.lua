@@ -2,6 +2,7 @@
 -- scenarios, at all times. docs/numerics/reduction.md.
 local bounds = require "ambit.certify.bounds"
 local check = require "ambit.check"
+local code = require "ambit.code"
 local core = require "ambit.core"
 local couple = require "ambit.certify.couple"
 local curve = require "ambit.certify.curve"
@@ -104,7 +105,7 @@ end
 local function one(detailed, reduced, s, settings)
   local r = criteria[settings.criterion or "difference"](detailed, reduced, s, settings)
   local proved = r.status == "proved"
-  return { name = s.name, status = r.status, reason = r.reason, t_reached = r.t_reached, exceeded = r.exceeded,
+  return { name = s.name, status = r.status, code = r.code, reason = r.reason, t_reached = r.t_reached, exceeded = r.exceeded,
     error = proved and named(detailed, r.bound) or {}, when = proved and named(detailed, r.when) or {},
     cpu_seconds = r.cpu_seconds, steps = r.steps, solver = r.solver, arithmetic = r.arithmetic }
 end
@@ -133,7 +134,8 @@ function proof.prove(detailed, reduced, scenarios, settings)
     total.scenarios[i] = part
     join(total, part)
     if part.status ~= "proved" and total.status == "proved" then
-      total.status, total.t_reached, total.exceeded = part.status, part.t_reached, part.exceeded
+      total.status, total.code = part.status, part.code
+      total.t_reached, total.exceeded = part.t_reached, part.exceeded
       total.reason = ("scenario `%s`: t = %s, %s"):format(s.name, core.literal(part.t_reached), part.reason)
       if not settings.all or part.status == "stopped" then break end
     end
@@ -157,7 +159,8 @@ local function alone(detailed, s, settings, what)
   for _, box in ipairs(boxes) do
     outcome, report = run.alone(q, settings, unknowns, box)
     part.steps, part.status = part.steps + report.steps, outcome.status
-    if outcome.status == "unable" and not outcome.impossible then
+    code.refuse_broken(outcome)
+    if outcome.status == "unable" then
       check.fail("%sthe detailed model itself cannot be proved over scenario `%s`: reached t = %s, %s",
         what and what .. ": " or "", s.name, core.literal(outcome.t_reached), outcome.reason)
     end

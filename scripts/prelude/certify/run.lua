@@ -5,6 +5,7 @@
 -- may be cut into boxes: the bound is the greatest over them.
 local carry = require "ambit.verify.carry"
 local core = require "ambit.core"
+local code = require "ambit.code"
 local refine = require "ambit.certify.refine"
 local uncertain = require "ambit.uncertain"
 local work = require "ambit.work"
@@ -167,9 +168,12 @@ local function solve(job, box)
     finite = finite and bound < math.huge
   end
   if outcome.impossible or (outcome.status == "complete" and finite) then return true end
+  code.refuse_broken(outcome)
   local stopped = outcome.status == "stopped" and not outcome.gave_up
   result.status, result.exceeded = stopped and "stopped" or "unable", outcome.gave_up
   result.t_reached = outcome.t_reached
+  result.code = outcome.gave_up and "unable.bound" or outcome.code
+  if result.code == "ok" then result.code = "unable.partial" end
   result.reason = stopped and "stopped on request" or why(outcome, job.boxes)
   return false
 end
@@ -179,7 +183,8 @@ local function solve_part(job, box)
   local result = job.result
   if solve(job, box) then return true end
   if result.status == "unable" then
-    result.status, result.reason, result.exceeded, result.t_reached = "proved", "", false, job.q.times[#job.q.times]
+    result.status, result.code, result.reason, result.exceeded = "proved", "ok", "", false
+    result.t_reached = job.q.times[#job.q.times]
   end
   return false
 end

@@ -1,6 +1,7 @@
 -- certify/values.lua -- the outputs of a run at given instants, enclosed for all data at once: each as an expression of
 -- the states there and, where it is smooth, as a state of its own (certify/run.lua); the intersection of both.
 local bracket = require "ambit.bracket"
+local code = require "ambit.code"
 local core = require "ambit.core"
 local instant = require "ambit.instant"
 local run = require "ambit.certify.run"
@@ -110,8 +111,9 @@ end
 -- One run: { status, reason, t_reached, steps, value = { [instant] = { enclosure of each output } } }
 function values.one(q, how, instants)
   local with, states, track, facts = solve_carried(q, how)
-  local result = { status = facts.status, reason = facts.reason, t_reached = facts.t_reached, steps = facts.steps,
+  local result = { status = facts.status, code = facts.code, reason = facts.reason, t_reached = facts.t_reached, steps = facts.steps,
     value = {} }
+  code.refuse_broken(facts)
   if facts.status ~= "complete" then return result end
   for j, t in ipairs(instants) do result.value[j] = outputs_at(with, states, states_at(with, track, t), t) end
   return result
@@ -127,7 +129,7 @@ function values.all(q, how, instants)
     local part = values.one(#boxes == 1 and q or values.at_data(q, unknowns, data), how, instants)
     total.steps = total.steps + part.steps
     if part.status ~= "complete" then
-      total.status, total.reason, total.t_reached = part.status, part.reason, part.t_reached
+      total.status, total.code, total.reason, total.t_reached = part.status, part.code, part.reason, part.t_reached
       return total
     end
     for j, list in ipairs(part.value) do

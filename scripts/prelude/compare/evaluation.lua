@@ -157,8 +157,10 @@ function evaluation.run(comparison, request, settings, engine)
   end
   local wrong = contradiction(comparison) or missed(comparison)
   comparison.contradicted = wrong ~= nil
-  if wrong or proofs == 0 then
-    comparison.status, comparison.reason = "unable", wrong or "no arithmetic proved an enclosure"
+  if wrong then
+    comparison.status, comparison.code, comparison.reason = "broken", "broken.contradiction", wrong
+  elseif proofs == 0 then
+    comparison.status, comparison.reason = "unable", "no arithmetic proved an enclosure"
   end
   comparison.measure = #names > 1 and judge.any(comparison.rows, "over_sample") and "over_sample" or "width"
 end

@@ -30,7 +30,8 @@ end
 
 -- What the end of a run says.
 local function take(row, run)
-  row.status, row.reason, row.t_reached = run.status, run.reason ~= "" and run.reason or nil, run.t_reached
+  row.status, row.code, row.t_reached = run.status, run.code, run.t_reached
+  row.reason = run.reason ~= "" and run.reason or nil
   row.steps, row.work, row.arithmetic = run.step_count, run.report, run.arithmetic
   row.unknowns, row.instructions = run.report.unknowns, run.report.tape_instructions
   row.rigorous = run.rigorous
@@ -133,7 +134,7 @@ local function outcome(comparison)
   for _, row in ipairs(comparison.rows) do complete = complete or row.rigorous and row.status == "complete" end
   comparison.contradicted = wrong ~= nil
   if wrong then
-    comparison.status, comparison.reason = "unable", wrong
+    comparison.status, comparison.code, comparison.reason = "broken", "broken.contradiction", wrong
   elseif not complete then
     comparison.status, comparison.reason = "unable", "no combination proved the simulation to its end"
   end

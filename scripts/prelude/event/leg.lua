@@ -100,13 +100,13 @@ end
 
 -- To the first of the events in the list, all of which end the leg: { status = "event", event, t, x, runs }, the event
 -- as ambit.event reads it, x: the set at t, just before any solution has it; or { status = "complete", x, runs }; or
--- { status = "unable", reason, t, runs }. runs = { { run, till }, ... }: where the states were up to t.
+-- { status = "unable", code, reason, t, runs }. runs = { { run, till }, ... }: where the states were up to t.
 function leg.to_event(base, system, initial, times, list, starts_on)
   local found = search(base, system, initial, times, list, starts_on)
   local run, runs, x = found.run, found.runs, found.x
   local first = found.last or found.results[1]
   if not first then
-    return { status = run.status, reason = run.reason, t = run.t_reached, x = leg.set(base, run, system.states),
+    return { status = run.status, code = run.code, reason = run.reason, t = run.t_reached, x = leg.set(base, run, system.states),
       runs = runs }
   end
   local t = first.t.lo
@@ -115,10 +115,10 @@ function leg.to_event(base, system, initial, times, list, starts_on)
     runs[#runs + 1] = { run = run, till = run.t_reached }
     x = leg.set(base, run, system.states)
     if run.status ~= "complete" then
-      return { status = run.status, reason = run.reason, t = run.t_reached, runs = runs }
+      return { status = run.status, code = run.code, reason = run.reason, t = run.t_reached, runs = runs }
     end
   end
-  if found.reason then return { status = "unable", reason = found.reason, t = t, runs = runs } end
+  if found.reason then return { status = "unable", code = "unable.event", reason = found.reason, t = t, runs = runs } end
   return { status = "event", event = first, t = t, x = x, runs = runs }
 end
 

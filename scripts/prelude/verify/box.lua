@@ -5,6 +5,7 @@
 -- the outcome of the run. job: request (as simulate's), times, conditions { name, kind, g }, outputs { [k] = state that
 -- carries condition k }, unknowns { expression }, lo, hi, inner { lo, hi } (uncertain.lua), budget
 -- { runs = number } or { seconds = number }, runs, start.
+local code = require "ambit.code"
 local core = require "ambit.core"
 
 local box = {}
@@ -49,6 +50,7 @@ function box.run(job, b)
     q.arithmetic_options, q.initial, job.times, g, names, kinds, job.unknowns, b.lo, b.hi, CUTS, nil,
     nil, nil, job.asked.times.last)
   job.report = job.report or report
+  code.refuse_broken(outcome)
   job.stopped = outcome.status == "stopped"
   b.outcome = outcome
   for n, finding in ipairs(findings) do b[of[n]] = join(b[of[n]], finding) end

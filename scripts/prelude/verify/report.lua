@@ -154,6 +154,20 @@ local function overall(list)
   return status
 end
 
+local function code_of(job, list)
+  local code
+  for k, c in ipairs(list) do
+    if c.status == "refuted" then return "ok.refuted" end
+    if c.status == "undecided" and not code then
+      local worst = job.conditions[k].worst
+      code = job.stopped and "stopped.request" or job.spent and "unable.budget"
+        or worst.outcome.status ~= "complete" and worst.outcome.code or worst[k].undefined and "unable.partial"
+        or "unable.undecided"
+    end
+  end
+  return code or "ok"
+end
+
 local function reasons(list)
   local lines = {}
   for _, c in ipairs(list) do
@@ -169,7 +183,7 @@ function report.of(job)
     list[k] = verdict(job, condition, k)
     by_name[condition.name] = list[k]
   end
-  local self = setmetatable({ list = list, conditions = by_name, status = overall(list), reason = reasons(list),
+  local self = setmetatable({ list = list, conditions = by_name, status = overall(list), code = code_of(job, list), reason = reasons(list),
     refinements = job.runs - 1, cpu_seconds = core.cpu() - job.start, report = job.report }, Report)
   for _, c in ipairs(list) do
     if c.status == self.status and not self.bound then self.bound, self.counterexample = c.bound, c.counterexample end

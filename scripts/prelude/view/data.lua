@@ -269,6 +269,7 @@ end
 local function status_of(view, request, notes)
   local run = request.run
   if run then
+    view.code = run.code
     view.status, view.reason, view.proved = run.status, run.status ~= "complete" and run.reason or "", run.rigorous
     return
   end
