@@ -123,7 +123,7 @@ ambit_expr ambit_graph_pown(ambit_graph *g, ambit_expr a, int32_t n) {
 ambit_expr ambit_store_rebuild(ambit_graph *g, ambit_expr e, ambit_expr a, ambit_expr b) {
   uint32_t op = ambit_at(g, e)->op;
   if (op == AMBIT_OP_POWN) return ambit_graph_pown(g, a, (int32_t)ambit_at(g, e)->b);
-  if (!ambit_op_has_kink(op)) return ambit_graph_op(g, op, a, b);
+  if (!ambit_op_has_kink(op) && ambit_at(g, e)->total) return ambit_graph_op(g, op, a, b);
   const char *other = ambit_graph_written_by(g, ambit_graph_writer(g, e));
   ambit_expr rebuilt = ambit_graph_op(g, op, a, b);
   ambit_graph_written_by(g, other);

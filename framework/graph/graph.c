@@ -111,7 +111,7 @@ static ambit_expr append(ambit_graph *g, const ambit_stored *stored) {
 
 /* Names and units of symbols are the list's, those of time are no copies. */
 static bool owns_texts(uint32_t op) {
-  return op == AMBIT_LEAF_CONSTANT || op == AMBIT_LEAF_UNKNOWN || ambit_op_has_kink(op);
+  return op == AMBIT_LEAF_CONSTANT || op == AMBIT_LEAF_UNKNOWN || !ambit_op_is_leaf(op);
 }
 
 void ambit_store_clear(ambit_stored *x) {
@@ -160,6 +160,12 @@ static void describe(const ambit_graph *g, ambit_stored *stored) {
   stored->angles = angles < ANGLES_MAX ? (uint32_t)angles : ANGLES_MAX;
 }
 
+/* May it be undefined where its operands are not? */
+static bool leaves_domain(const ambit_graph *g, const ambit_node *x) {
+  if (ambit_op_is_leaf(x->op) || x->total || !ambit_at(g, x->a)->total) return false;
+  return !ambit_op_is_binary(x->op) || ambit_at(g, x->b)->total;
+}
+
 /* Finds the node or enters it; birth: of a symbol. */
 static ambit_expr intern(ambit_graph *g, ambit_node node, uint64_t birth) {
   size_t size = g->table_size ? 2 * g->table_size : FIRST_TABLE;
@@ -168,7 +174,7 @@ static ambit_expr intern(ambit_graph *g, ambit_node node, uint64_t birth) {
   size_t place = find_place(g, &node, stored.hash);
   if (g->table[place] != AMBIT_NO_EXPR) return g->table[place];
   if (!ambit_op_is_leaf(node.op)) describe(g, &stored);
-  if (ambit_op_has_kink(node.op)) stored.node.text = g->maker;
+  if (ambit_op_has_kink(node.op) || leaves_domain(g, &stored.node)) stored.node.text = g->maker;
   ambit_expr e = append_copy(g, &stored);
   if (e != AMBIT_NO_EXPR) g->table[place] = e;
   return e;
@@ -292,6 +298,7 @@ ambit_expr ambit_graph_unknown(ambit_graph *g, const char *name, ambit_interval 
 }
 
 void ambit_graph_set_plain(ambit_graph *g, ambit_expr unknown) { g->stored[unknown].node.plain = true; }
+void ambit_graph_mark_partial(ambit_graph *g, ambit_expr unknown) { g->stored[unknown].node.total = false; }
 
 bool ambit_graph_name(ambit_graph *g, ambit_expr unknown, const char *name) {
   ambit_node *node = &g->stored[unknown].node;

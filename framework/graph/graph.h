@@ -63,6 +63,8 @@ ambit_expr ambit_graph_datum(
     ambit_graph *g, const char *name, const char *place, ambit_interval outer, ambit_interval inner);
 /* Marks an UNKNOWN as plain. */
 void ambit_graph_set_plain(ambit_graph *g, ambit_expr unknown);
+/* A fresh UNKNOWN stands for a quantity that has no value for a part of the data: nothing made of it is total. */
+void ambit_graph_mark_partial(ambit_graph *g, ambit_expr unknown);
 /* Calls an UNKNOWN that has no name so; false: out of memory. */
 bool ambit_graph_name(ambit_graph *g, ambit_expr unknown, const char *name);
 /* the same name is the same node */

@@ -113,6 +113,16 @@ uint32_t ambit_block_run(ambit_block *block) {
   return flags;
 }
 
+void ambit_block_run_each(ambit_block *block, uint32_t *flags) {
+  const ambit_tape *t = block->tape;
+  const ambit_arithmetic *full = block->arithmetic;
+  if (full->enter) full->enter(block->ctx);
+  for (uint32_t i = 0; i < t->ninstr; i++)
+    flags[i] = full->run[t->op[i]](
+        full, block->ctx, block->base, block->lanes, block->lanes, 1, t->dst + i, t->a + i, t->b + i);
+  if (full->leave) full->leave(block->ctx);
+}
+
 ambit_interval ambit_block_get(const ambit_block *block, uint32_t out, size_t lane) {
   ambit_interval x;
   block->arithmetic->bounds(block->ctx, element(block, block->tape->out[out], lane), 1, &x.lo, &x.hi);

@@ -17,6 +17,8 @@ void ambit_block_close(ambit_block *block);
 void ambit_block_set(ambit_block *block, uint32_t in, size_t lane, ambit_interval x, int32_t var);
 uint32_t ambit_block_run(ambit_block *block); /* no allocation; AMBIT_F_* over all lanes */
 /* Bounds that mean something; what is no enclosure is noted (ambit_bounds_check) and becomes the entire line. */
+/* Again, operation by operation: flags [ninstr] of each, over all lanes. Slow. */
+void ambit_block_run_each(ambit_block *block, uint32_t *flags);
 ambit_interval ambit_block_get(const ambit_block *block, uint32_t out, size_t lane);
 void *ambit_block_base(ambit_block *block, size_t *pitch);
 #endif

@@ -1,4 +1,4 @@
-/* kink.c -- the writers of non-smooth formulas: texts of their nodes. */
+/* kink.c -- the writers of formulas with kinks or edges: texts of their nodes. */
 #include "graph/kink.h"
 #include "graph/store.h"
 #include <stdio.h>
@@ -13,7 +13,7 @@ const char *ambit_graph_written_by(ambit_graph *g, const char *maker) {
 
 const char *ambit_graph_writer(const ambit_graph *g, ambit_expr e) {
   const ambit_node *x = ambit_at(g, e);
-  return ambit_op_has_kink(x->op) ? x->text : NULL;
+  return ambit_op_is_leaf(x->op) ? NULL : x->text;
 }
 
 const char *ambit_kink_text(const ambit_graph *g, ambit_expr e, ambit_arena *arena) {

@@ -1,5 +1,5 @@
-/* kink.h -- what a place where a formula is not smooth (abs, min, max) is called, for messages: what it says, and the
-** element that wrote it.
+/* kink.h -- what a place where a formula is not smooth (abs, min, max) or may not be defined (sqrt, /) is called, for
+** messages: what it says, and the element that wrote it.
 */
 #ifndef AMBIT_KINK_H
 #define AMBIT_KINK_H
@@ -12,7 +12,7 @@ static inline bool ambit_op_has_kink(uint32_t op) {
 /* From now on formulas are written by `maker`, or by nobody known (NULL); returns who it was before. The text must
 ** live until the next call. */
 const char *ambit_graph_written_by(ambit_graph *g, const char *maker);
-/* Who wrote e, if it is a kink that somebody known wrote; else NULL. */
+/* Who wrote e, if it is such a place that somebody known wrote; else NULL. */
 const char *ambit_graph_writer(const ambit_graph *g, ambit_expr e);
 /* "abs(v) of joint_friction `knee`", in the arena; NULL: out of memory. */
 const char *ambit_kink_text(const ambit_graph *g, ambit_expr e, ambit_arena *arena);

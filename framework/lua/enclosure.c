@@ -59,6 +59,9 @@ static int text(lua_State *L) {
                    ? ambit_lua_sampled_text((const ambit_lua_sampled *)(const void *)x, (int)digits, out)
                    : ambit_decimal_interval(out, x->x, (int)digits);
   lua_pushlstring(L, out, (size_t)length);
+  if (!(x->flags & AMBIT_F_PARTIAL) || ambit_interval_is_empty(x->x)) return 1;
+  lua_pushliteral(L, " (partial: undefined for part of the data)");
+  lua_concat(L, 2);
   return 1;
 }
 

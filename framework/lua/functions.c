@@ -100,12 +100,13 @@ static ambit_dimension power_dimension(lua_State *L, int32_t n) {
   return ambit_dimension_power(ambit_lua_dimension(L, 1, "pow"), (int64_t)n * (AMBIT_POWER_ONE / 2));
 }
 
-static int integer_power(lua_State *L, int32_t n, ambit_dimension d) {
+/* exponent_flags: of the set that the exponent is, of one point */
+static int integer_power(lua_State *L, int32_t n, ambit_dimension d, uint32_t exponent_flags) {
   if (is_enclosure(L, 1)) {
     ambit_lua_enclosure a = ambit_lua_to_enclosure(L, 1, "pow");
     ambit_interval r;
     uint32_t flags = ambit_interval_pown(&r, a.x, n);
-    ambit_lua_push_enclosure(L, r, flags | a.flags);
+    ambit_lua_push_enclosure(L, r, flags | a.flags | exponent_flags);
   } else {
     ambit_expr a = ambit_lua_to_expression(L, 1, NULL, "pow").e;
     ambit_lua_push_expression(L, ambit_graph_pown(AMBIT_LUA(L)->graph, a, n))->dimension = d;
@@ -133,12 +134,13 @@ static int power(lua_State *L) {
   ambit_dimension exponent = ambit_lua_dimension(L, 2, "pow");
   if (!ambit_dimension_is_number(exponent)) ambit_lua_dimension_op(L, AMBIT_OP_EXP, exponent, exponent, "exponent");
   if (half_integer_exponent(L, 2, &n)) {
+    uint32_t flags = is_enclosure(L, 2) ? ambit_lua_to_enclosure(L, 2, "exponent").flags : 0;
     ambit_dimension d = power_dimension(L, n);
-    if (n % 2 == 0) return integer_power(L, n / 2, d);
+    if (n % 2 == 0) return integer_power(L, n / 2, d, flags);
     lua_settop(L, 1);
     apply(L, AMBIT_OP_SQRT, 1, "pow");
     lua_replace(L, 1);
-    return integer_power(L, n, d);
+    return integer_power(L, n, d, flags);
   }
   if (wants_enclosure(L, 2)) {
     ambit_lua_enclosure a = ambit_lua_to_enclosure(L, 1, "pow"), b = ambit_lua_to_enclosure(L, 2, "pow");

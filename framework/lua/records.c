@@ -69,6 +69,8 @@ static void write_field(lua_State *L, ambit_records *r, const char *key) {
     ambit_records_close_object(r);
   } else if (lua_type(L, -1) == LUA_TNUMBER) {
     ambit_records_number(r, key, lua_tonumber(L, -1));
+  } else if (lua_isboolean(L, -1)) {
+    ambit_records_flag(r, key, lua_toboolean(L, -1));
   } else {
     ambit_records_text(r, key, luaL_tolstring(L, -1, NULL));
     lua_pop(L, 1);

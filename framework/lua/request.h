@@ -14,7 +14,8 @@ void ambit_lua_push_report(lua_State *L, const ambit_report *r);
 
 /* (arithmetic, options, {expression}, {leaf}, {value}) at 1..5 */
 ambit_evaluate_request ambit_lua_evaluate_request(lua_State *L);
-void ambit_lua_push_enclosures(lua_State *L, size_t n, const ambit_interval *x, uint32_t flags); /* {enclosure, ...} */
+/* {enclosure, ...}; partial [n]: 1 where it holds for a part of the data only, or NULL */
+void ambit_lua_push_enclosures(lua_State *L, size_t n, const ambit_interval *x, const uint8_t *partial);
 
 /* (system, solver, arithmetic or nil, solver options, arithmetic options, {initial}, {time}) at 1..7 */
 ambit_simulate_request ambit_lua_simulate_request(lua_State *L);

@@ -171,8 +171,11 @@ static ambit_expr enclosure_expression(lua_State *L, const ambit_lua_enclosure *
   ambit_graph *g = AMBIT_LUA(L)->graph;
   if (ambit_interval_is_empty(y->x)) wrong(L, what, "the enclosure is empty");
   if (!ambit_interval_is_bounded(y->x)) wrong(L, what, "the enclosure is not bounded");
-  if (ambit_interval_is_point(y->x)) return ambit_graph_number(g, y->x.lo);
-  return plain_datum(L, y->x, y->declared ? y->inner : AMBIT_EMPTY);
+  bool partial = (y->flags & AMBIT_F_PARTIAL) != 0;
+  if (ambit_interval_is_point(y->x) && !partial) return ambit_graph_number(g, y->x.lo);
+  ambit_expr e = plain_datum(L, y->x, y->declared ? y->inner : AMBIT_EMPTY);
+  if (partial && e != AMBIT_NO_EXPR) ambit_graph_mark_partial(g, e);
+  return e;
 }
 
 /* C would end the text at a zero byte, and read what is in front of it. */

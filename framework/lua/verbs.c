@@ -22,25 +22,32 @@ ambit_evaluate_request ambit_lua_evaluate_request(lua_State *L) {
   return q;
 }
 
-void ambit_lua_push_enclosures(lua_State *L, size_t n, const ambit_interval *x, uint32_t flags) {
+void ambit_lua_push_enclosures(lua_State *L, size_t n, const ambit_interval *x, const uint8_t *partial) {
   lua_createtable(L, (int)n, 0);
   for (size_t i = 0; i < n; i++) {
-    ambit_lua_push_enclosure(L, x[i], flags);
+    ambit_lua_push_enclosure(L, x[i], partial && partial[i] ? AMBIT_F_PARTIAL : 0);
     lua_rawseti(L, -2, (lua_Integer)i + 1);
   }
 }
 
-/* evaluate(arithmetic, options, {expression}, {leaf}, {value}) -> {enclosure}, report */
+/* evaluate(arithmetic, options, {expression}, {leaf}, {value}) -> {enclosure}, report, the operation that left its
+** domain first or "", is the arithmetic rigorous? */
 static int evaluate(lua_State *L) {
   ambit_evaluate_request q = ambit_lua_evaluate_request(L);
   ambit_interval *out = lua_newuserdatauv(L, (q.nexpr + 1) * sizeof *out, 0);
-  uint32_t flags = 0;
+  q.partial = lua_newuserdatauv(L, q.nexpr + 1, 0);
+  char blame[AMBIT_BLAME_MAX] = "";
+  q.blame = blame;
   ambit_report report = { 0 };
   ambit_failure f = { 0 };
-  if (ambit_evaluate(&q, out, &flags, &report, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
-  ambit_lua_push_enclosures(L, q.nexpr, out, flags);
+  if (ambit_evaluate(&q, out, NULL, &report, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
+  const ambit_arithmetic *arithmetic = NULL;
+  ambit_registry_arithmetic(q.registry, q.arithmetic, &arithmetic, &f);
+  ambit_lua_push_enclosures(L, q.nexpr, out, q.partial);
   ambit_lua_push_report(L, &report);
-  return 2;
+  lua_pushstring(L, blame);
+  lua_pushboolean(L, arithmetic && arithmetic->rigorous);
+  return 4;
 }
 
 /* -- simulate */

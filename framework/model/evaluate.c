@@ -11,9 +11,11 @@
 #include "model/bound.h"
 #include "model/context.h"
 #include "model/monotone.h"
+#include "model/partial.h"
 #include "model/share.h"
 #include "model/tally.h"
 #include <stdio.h>
+#include <string.h>
 
 typedef struct job {
   const ambit_evaluate_request *q;
@@ -60,6 +62,22 @@ static bool all_given(const job *j) {
   return true;
 }
 
+/* Behind the run, whose results have been read. */
+static ambit_status find_partial(job *j, uint32_t *flags, ambit_failure *f) {
+  const ambit_evaluate_request *q = j->q;
+  ambit_partial p = { q->graph, j->arena, &j->bound, j->tape, j->block, q->nexpr, (*flags & AMBIT_F_PARTIAL) != 0 };
+  if (q->partial) memset(q->partial, 0, q->nexpr);
+  if (q->blame) q->blame[0] = '\0';
+  if (!ambit_partial_possible(&p)) return AMBIT_OK;
+  char blame[AMBIT_BLAME_MAX];
+  uint8_t *partial = q->partial ? q->partial : ambit_arena_alloc(j->arena, q->nexpr + 1);
+  if (!partial) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  ambit_status status = ambit_partial_find(&p, partial, q->blame ? q->blame : blame, f);
+  for (size_t i = 0; i < q->nexpr; i++)
+    if (partial[i]) *flags |= AMBIT_F_PARTIAL;
+  return status;
+}
+
 static ambit_status run(job *j, ambit_interval *out, uint32_t *flags, ambit_failure *f) {
   ambit_work_evaluate(&j->tally.work, j->tape->ninstr, 1);
   for (size_t i = 0; i < j->bound.nunknown; i++)
@@ -77,7 +95,8 @@ static ambit_status run(job *j, ambit_interval *out, uint32_t *flags, ambit_fail
     else if (!ambit_interval_is_bounded(out[i]))
       *flags |= AMBIT_F_UNBOUNDED;
   }
-  return ambit_context_sound(&j->context, f);
+  ambit_status status = find_partial(j, flags, f);
+  return status == AMBIT_OK ? ambit_context_sound(&j->context, f) : status;
 }
 
 static void fill_report(const job *j, double ran, ambit_report *report) {

@@ -15,7 +15,11 @@ typedef struct ambit_evaluate_request {
   const ambit_expr *expr;
   size_t nbinding; /* `at`: leaf := expression (over unknowns) */
   const ambit_expr *leaf, *value;
+  uint8_t *partial; /* [nexpr], out: 1 where the result holds for a part of the data only; NULL: not asked for */
+  char *blame;      /* [AMBIT_BLAME_MAX], out: the operation that left its domain first, or ""; NULL */
 } ambit_evaluate_request;
+
+#define AMBIT_BLAME_MAX 256
 
 /* out [nexpr]; flags: AMBIT_F_*. Only uncertain data become variables of the arithmetic. A symbol without a value is
 ** INVALID and named. If the arithmetic tells derivatives, bounds are also sought at faces where a result is

@@ -144,6 +144,11 @@ void ambit_records_number(ambit_records *r, const char *key, double value) {
   put_number(r, value);
 }
 
+void ambit_records_flag(ambit_records *r, const char *key, bool value) {
+  put_text(r, key);
+  yajl_gen_bool(r->generator, value);
+}
+
 void ambit_records_interval(ambit_records *r, const char *key, ambit_interval value) {
   put_text(r, key);
   put_interval(r, value);

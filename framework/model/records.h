@@ -11,6 +11,7 @@
 #include "base/status.h"
 #include "num/interval.h"
 #include <ambit/solver.h>
+#include <stdbool.h>
 #include <stdio.h>
 
 typedef struct ambit_records ambit_records;
@@ -27,6 +28,7 @@ void ambit_records_watch(ambit_records *r, ambit_status (*before)(void *user, am
 void ambit_records_begin(ambit_records *r, const char *kind);
 void ambit_records_text(ambit_records *r, const char *key, const char *value);
 void ambit_records_number(ambit_records *r, const char *key, double value);
+void ambit_records_flag(ambit_records *r, const char *key, bool value);
 void ambit_records_interval(ambit_records *r, const char *key, ambit_interval value);
 void ambit_records_open_object(ambit_records *r, const char *key);
 void ambit_records_close_object(ambit_records *r);

@@ -32,21 +32,63 @@ function verb.with_status(value, facts)
   return setmetatable(value, meta)
 end
 
+-- partial = true: the scene knows that a part of the data may have no answer.
+function verb.check_partial(t, what)
+  if t.partial ~= nil and type(t.partial) ~= "boolean" then
+    check.fail("%s: partial: expected true or false, got %s", what, check.kind(t.partial))
+  end
+end
+
 local function write_values(paths, results)
   if not core.recording() then return end
-  for i, path in ipairs(paths) do core.record("value", { "name", path, "value", results[i] }) end
+  for i, path in ipairs(paths) do
+    local fields = { "name", path, "value", results[i] }
+    if results[i].partial then fields[5], fields[6] = "partial", true end
+    core.record("value", fields)
+  end
+end
+
+-- Paths of the results for which holds(x), as a subject: "x, y: "; nil: of none.
+local function subject_of(paths, results, holds)
+  local list = {}
+  for i, x in ipairs(results) do
+    if holds(x) then list[#list + 1] = paths[i] end
+  end
+  if #list == 0 then return nil end
+  local text = table.concat(list, ", ")
+  return text == "" and "" or text .. ": "
+end
+
+-- What is known about the results: status, code and reason. blame: the operation that left its domain.
+local function judge(paths, results, blame, rigorous, allowed)
+  local facts = { status = "complete", code = "ok", reason = "", partial = false }
+  local what = blame == "" and "it" or ("`%s`"):format(blame)
+  local nowhere = rigorous and subject_of(paths, results, function(x) return x:is_empty() end)
+  if nowhere then
+    facts.status, facts.code = "impossible", "domain.undefined"
+    facts.reason = ("%s%s is defined for none of the data"):format(nowhere, what)
+  end
+  local partly = subject_of(paths, results, function(x) return x.partial end)
+  facts.partial = partly ~= nil
+  if not partly or nowhere then return facts end
+  facts.status, facts.code = "partial", allowed and "ok.partial" or "unable.partial"
+  facts.reason = ("%s%s is undefined for part of the data, and the enclosure holds for the rest; narrow the data, or "
+    .. "say `partial = true`"):format(partly, what)
+  return facts
 end
 
 function verb.evaluate(t)
   check.table(t, "evaluate")
-  check.keys(t, { "at", "arithmetic" }, "evaluate", #t)
+  check.keys(t, { "at", "arithmetic", "partial" }, "evaluate", #t)
+  verb.check_partial(t, "evaluate")
   local expressions, paths, rebuild = shape.flatten(verb.subject(t, "evaluate"), "evaluate")
   local leaves, values = binding.resolve(t.at, expressions, "evaluate")
   local name, options = option.arithmetic(t.arithmetic == nil and "interval" or t.arithmetic, "evaluate: arithmetic")
   session.ask { expressions = expressions, paths = paths, leaves = leaves, values = values, arithmetic = name }
-  local results, report = core.evaluate(name, options, expressions, leaves, values)
+  local results, report, blame, rigorous = core.evaluate(name, options, expressions, leaves, values)
   write_values(paths, results)
-  local facts = { status = "complete", arithmetic = name, cpu_seconds = report.seconds_run, report = report }
+  local facts = judge(paths, results, blame, rigorous, t.partial)
+  facts.arithmetic, facts.cpu_seconds, facts.report = name, report.seconds_run, report
   session.finish("evaluate", facts, report, { "arithmetic", name, "options", options })
   return verb.with_status(rebuild(results), facts)
 end

@@ -323,7 +323,8 @@ static void a_false_invariant_is_found_out(void **unused) {
   m->initial[0] = number(m, 1), m->initial[1] = number(m, 0);
   c.invariant[0] = sub(m, m->state[0], number(m, 1)), c.name[0] = "wall";
   track k = track_run(m, 2, time, 0, NULL);
-  assert_int_equal(k.result.status, AMBIT_BROKEN);
+  assert_int_equal(k.result.status, AMBIT_UNABLE);
+  assert_string_equal(k.result.code, AMBIT_CODE_UNABLE_CONSTRAINT);
   if (!strstr(k.result.reason, "`wall`") || !strstr(k.result.reason, "t = ")) fail_msg("%s", k.result.reason);
   track_close(&k);
   model_close(m);

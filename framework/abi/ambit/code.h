@@ -33,6 +33,8 @@
   X(UNABLE_BUDGET, "unable.budget", "The budget was spent before all was decided.", "Raise `budget`.")                 \
   X(UNABLE_BOXES_MAX, "unable.boxes-max", "The search for roots took as many boxes as it may.",                        \
       "Raise `boxes_max`, search a smaller box, or narrow the data.")                                                  \
+  X(UNABLE_CONSTRAINT, "unable.constraint", "No state of the enclosure meets a constraint later on.",                  \
+      "No initial state does, or the equations of motion do not keep it.")                                             \
   X(UNABLE_CREEP, "unable.creep", "Steps became so short that the end is out of reach.",                               \
       "A solution may escape; if not, split the initial set or raise `tolerance`.")                                    \
   X(UNABLE_EIGENVALUES, "unable.eigenvalues", "No enclosure of the eigenvalues was found.", "Narrow the data.")        \
@@ -84,8 +86,6 @@
   X(BROKEN_CONTRADICTION, "broken.contradiction",                                                                      \
       "Two proofs, or a proof and a reference or sample, contradict each other.",                                      \
       "If the reference is right, a plugin or Ambit is wrong: report it.")                                             \
-  X(BROKEN_CONSTRAINT, "broken.constraint", "No state of the enclosure meets a constraint later on.",                  \
-      "No initial state does, or the equations of motion do not keep it.")                                             \
   X(BROKEN_RECORD, "broken.record", "A solver gave a record of the wrong form.", "Tell its author.")                   \
   X(BROKEN_ROUNDING, "broken.rounding", "This build or machine does not round as told.",                               \
       "Build without options that change floating point.")                                                             \

@@ -104,7 +104,7 @@ static ambit_status explain_apart(const lohner *s) {
         "the initial set does not meet the constraint `%s`: no initial state of it can satisfy it; mend the initial "
         "values",
         name);
-  return s->host->fail_code(s->host, AMBIT_BROKEN, AMBIT_CODE_BROKEN_CONSTRAINT,
+  return s->host->fail_code(s->host, AMBIT_UNABLE, AMBIT_CODE_UNABLE_CONSTRAINT,
       "at t = %.9g s no state of the enclosure satisfies the constraint `%s`: no initial state does, or the equations "
       "of motion do not keep it",
       s->t_next, name);
