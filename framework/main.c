@@ -2,13 +2,17 @@
 ** scripts/command. */
 #include "lua/core.h"
 #include "lua/interrupt.h"
+#include "lua/leave.h"
 #include <fenv.h>
 #include <lualib.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <sys/resource.h>
 
-#define EXIT_INTERRUPTED 130
-#define STACK_BYTES ((size_t)1 << 20)
+#define STACK_BYTES ((size_t)1 << 20) /* that are touched at the start */
+#define STACK_LEAST (4 * STACK_BYTES) /* that there must be */
+#define STACK_USUAL ((size_t)8 * STACK_BYTES)
 
 static int add_traceback(lua_State *L) {
   const char *message = lua_tostring(L, 1);
@@ -22,6 +26,34 @@ static int add_traceback(lua_State *L) {
 __attribute__((noinline)) static void reserve_stack(void) {
   volatile char room[STACK_BYTES];
   for (size_t i = 0; i < sizeof room; i += 4096) room[i] = 0;
+}
+
+/* Raises a low limit as far as it may be raised. False: too low. */
+static bool has_stack(size_t *bytes) {
+  struct rlimit limit;
+  if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return true;
+  if (limit.rlim_cur < STACK_USUAL && limit.rlim_cur < limit.rlim_max) {
+    limit.rlim_cur = limit.rlim_max < STACK_USUAL ? limit.rlim_max : STACK_USUAL;
+    setrlimit(RLIMIT_STACK, &limit);
+    getrlimit(RLIMIT_STACK, &limit);
+  }
+  *bytes = (size_t)limit.rlim_cur;
+  return limit.rlim_cur >= STACK_LEAST;
+}
+
+/* What the process needs before anything else; false: a sentence has been said. */
+static bool prepare(void) {
+  size_t stack = 0;
+  fesetenv(FE_DFL_ENV);     /* a library that was loaded before may have set flush-to-zero */
+  signal(SIGXFSZ, SIG_IGN); /* a file that may grow no more is then an error of write() */
+  if (!ambit_leave_reserve_files()) return false;
+  if (!has_stack(&stack)) {
+    fprintf(stderr, "ambit: the stack may hold only %zu kB; allow at least %zu kB (ulimit -s)\n", stack >> 10,
+        STACK_LEAST >> 10);
+    return false;
+  }
+  reserve_stack();
+  return ambit_leave_guard();
 }
 
 /* Protected: everything that may raise. Leaves the exit code. */
@@ -48,12 +80,11 @@ static int command(lua_State *L) {
 }
 
 int main(int argc, char **argv) {
-  fesetenv(FE_DFL_ENV); /* a library that was loaded before may have set flush-to-zero */
-  reserve_stack();
+  if (!prepare()) return EXIT_FAILURE;
   lua_State *L = luaL_newstate();
   if (!L || argc < 1) {
     fprintf(stderr, "ambit: out of memory\n");
-    return EXIT_FAILURE;
+    return ambit_leave(EXIT_FAILURE);
   }
   ambit_interrupt_watch(L);
   lua_pushcfunction(L, add_traceback);
@@ -65,9 +96,6 @@ int main(int argc, char **argv) {
   else
     fprintf(stderr, "ambit: %s\n", lua_tostring(L, -1));
   lua_close(L);
-  if (fflush(stdout) != 0 || ferror(stdout)) { /* the last flush, or one before it */
-    fprintf(stderr, "ambit: not everything could be written to standard output\n");
-    if (code == EXIT_SUCCESS) code = EXIT_FAILURE;
-  }
-  return ambit_interrupt_seen() ? EXIT_INTERRUPTED : code;
+  code = ambit_leave(code);
+  return ambit_interrupt_seen() ? ambit_interrupt_code() : code;
 }

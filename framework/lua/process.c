@@ -1,9 +1,11 @@
 /* process.c -- what Lua's own libraries do not say: loaded libraries, CPU time, terminals, where the script stands. */
 #include "lua/core.h"
 #include "lua/interrupt.h"
+#include "lua/leave.h"
 #include "num/decimal.h"
 #include <link.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
@@ -107,9 +109,17 @@ static int notes(lua_State *L) {
   return 0;
 }
 
+/* interrupted() -> was there a signal?, the exit code that it gives */
 static int interrupted(lua_State *L) {
   lua_pushboolean(L, ambit_interrupt_seen());
-  return 1;
+  lua_pushinteger(L, ambit_interrupt_code());
+  return 2;
+}
+
+/* leave(code): ends the process as the command does */
+static int leave(lua_State *L) {
+  int code = ambit_leave((int)luaL_checkinteger(L, 1)), signal = ambit_interrupt_code();
+  exit(signal ? signal : code);
 }
 
 /* literal(x) -> the shortest text that reads back as x */
@@ -122,7 +132,7 @@ static int literal(lua_State *L) {
 void ambit_lua_open_process(lua_State *L, ambit_lua *core) {
   static const luaL_Reg functions[] = { { "libraries", libraries }, { "cpu", cpu }, { "deadline", deadline },
     { "terminal", terminal }, { "where", where }, { "fail", fail }, { "progress", progress }, { "notes", notes },
-    { "interrupted", interrupted }, { "literal", literal }, { "codes", codes }, { NULL, NULL } };
+    { "interrupted", interrupted }, { "literal", literal }, { "codes", codes }, { "leave", leave }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
   lua_pushliteral(L, AMBIT_VERSION);
   lua_setfield(L, -2, "version");

@@ -101,7 +101,8 @@ static bool outranks(const ambit_merge *m, const ambit_failure *why) {
 
 void ambit_merge_fail(ambit_merge *m, uint32_t piece, uint32_t completed, const ambit_failure *why) {
   pthread_mutex_lock(&m->lock);
-  if (outranks(m, why) || (is_behind(m, piece, completed) && m->failed.status != AMBIT_BROKEN)) {
+  bool broken = m->failed.status == AMBIT_BROKEN;
+  if (outranks(m, why) || (is_behind(m, piece, completed) && (!broken || why->status == AMBIT_BROKEN))) {
     m->failed_piece = piece;
     m->failed_at = completed;
     m->failed = *why;

@@ -19,7 +19,8 @@ struct ambit_records {
   int file;
   yajl_gen generator;
   char *path;
-  bool failed; /* a write failed and was reported */
+  bool failed;     /* a write failed and was reported */
+  uint64_t length; /* bytes of the lines that were written */
   ambit_status (*before)(void *user, ambit_failure *f);
   void *user;
   bool inside;           /* `before` is writing */
@@ -208,8 +209,11 @@ ambit_status ambit_records_end(ambit_records *r, ambit_failure *f) {
   yajl_gen_reset(r->generator, "\n"); /* the separator of the next value ends this line, in the same buffer */
   yajl_gen_get_buf(r->generator, &text, &length);
   int problem = write_line(r, text, length);
+  r->length += length;
   if (problem == 0) return AMBIT_OK;
   r->failed = true;
+  bool torn = r->file != STDOUT_FILENO && ftruncate(r->file, (off_t)(r->length - length)) != 0; /* no part of a line */
+  (void)torn; /* of a pipe: nothing can be taken back */
   return ambit_fail(f, AMBIT_STOPPED, "cannot write records to %s: %s", r->path, strerror(problem));
 }
 

@@ -1,6 +1,7 @@
 -- main.lua -- the command line: `ambit <command> ...` -> exit code. Data goes to stdout, everything else to stderr.
 local core = require "ambit.core"
 local provenance = require "ambit.provenance"
+local scene = require "ambit.command.scene"
 
 local commands = {
   { "run", "run a scene" },
@@ -89,6 +90,7 @@ return function(argv)
         if word == "--" or (command.scene and word:sub(1, 1) ~= "-" and word ~= "-") then break end
         if word == "--help" or word == "-h" then return print(command.usage) or 0 end
       end
+      os.exit = scene.leave_by(function(wish) return wish end)
       local code, message = command.run(arguments)
       if code == 2 then return usage_error(message, command.usage) end
       return code

@@ -20,13 +20,37 @@ codes of verbs.]]
 
 local function complain(message) io.stderr:write("ambit: ", tostring(message), "\n") end
 
-local sentences = { "a plugin is broken, so nothing is proved", [3] = "not everything could be proved",
+local sentences = { "a plugin contradicts itself, or a proof another or a reference", [3] = "not everything could be proved",
   [4] = "it is proved that there is no answer" }
 
 local function close_records()
   local good, problem = pcall(core.records_close)
   if not good then complain(problem) end
   return good
+end
+
+-- The worst that happened: of the verbs, an error of the scene, a signal.
+local function worst_of(problem)
+  if core.interrupted() then return "stopped.request" end
+  if problem and code.family(session.worst) ~= "broken" then return "invalid" end
+  return session.worst
+end
+
+-- The end of the scene, however it came: the last record, what is to be said, the exit code. problem: the error that
+-- ended it; wish: what os.exit asked for, which may not make it better.
+local function finish(problem, wish)
+  local worst, signalled, by_signal = worst_of(problem), core.interrupted()
+  local exit = code.exit(worst)
+  if wish and wish ~= 0 then exit = wish end
+  if signalled then exit = by_signal end
+  if problem then complain(problem) end
+  local reason = problem and tostring(problem):match "^[^\n]*"
+  pcall(core.record, "end", { "code", worst, "exit", exit, "reason", reason })
+  if not close_records() then return 1 end
+  if signalled then complain "interrupted: what was recorded up to there is kept" end
+  local sentence = not problem and sentences[code.exit(worst)]
+  if sentence then complain(("%s (%s): see status, code and reason of the verbs"):format(sentence, worst)) end
+  return exit
 end
 
 local known = { json = true, quiet = false }
@@ -43,13 +67,9 @@ function command.run(list)
     if not good then return complain(problem) or 1 end
     if options.json == "-" then scene.print_to_stderr() end
   end
+  os.exit = scene.leave_by(function(wish) return finish(nil, wish) end)
   local good, problem = scene.run(file, words)
-  if not good then complain(problem) end
-  if not close_records() or not good then return 1 end
-  if core.interrupted() then complain "interrupted: what was recorded up to there is kept" end
-  local sentence = sentences[code.exit(session.worst)]
-  if sentence then complain(("%s (%s): see status, code and reason of the verbs"):format(sentence, session.worst)) end
-  return code.exit(session.worst)
+  return finish(not good and problem or nil)
 end
 
 return command

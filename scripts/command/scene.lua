@@ -39,6 +39,15 @@ end
 
 scene.explain = explain
 
+-- os.exit for a command: the exit code is what finish(wish) says, wish being what was asked for.
+function scene.leave_by(finish)
+  return function(wish)
+    if wish == nil or wish == true then wish = 0 elseif wish == false then wish = 1 end
+    if math.type(wish) ~= "integer" then error("os.exit: expected true, false or a whole number", 2) end
+    core.leave(finish(wish))
+  end
+end
+
 -- With the records on stdout, what the scene prints must not get between them.
 function scene.print_to_stderr()
   io.output(io.stderr)

@@ -152,6 +152,9 @@ describe("ambit run", function()
     local last_step
     for _, r in ipairs(records) do if r.record == "step" then last_step = r end end
     assert.equal(stdout, ("%.17g %.17g\n"):format(last_step.x.x[1], last_step.x.x[2]))
+    assert.equal("end", kinds[#kinds]) -- the last one says that none is missing
+    assert.equal(0, records[#records].exit)
+    records[#records], kinds[#kinds] = nil, nil
     assert.equal("result", kinds[#kinds])
     assert.equal("value", kinds[#kinds - 1])
     assert.equal("evaluate", records[#records].verb)
@@ -179,7 +182,8 @@ describe("ambit run", function()
       local kind = json.decode(line).record
       if kind ~= "plugin" then kinds[#kinds + 1] = kind end
     end
-    assert.same({ "provenance", "value", "result" }, kinds)
+    assert.same({ "provenance", "value", "result", "end" }, kinds)
+    has(stdout, '"record":"end","code":"invalid","exit":1')
   end)
 
   it("says when records cannot be written", function()
