@@ -171,13 +171,23 @@ static ambit_status fail(const ambit_host *h, ambit_status status, const char *f
   va_end(arguments);
   return own->outer->fail(own->outer, status, "%s", text);
 }
+
+static ambit_status fail_code(const ambit_host *h, ambit_status status, const char *code, const char *format, ...) {
+  const host_of *own = (const host_of *)(const void *)h;
+  char text[400];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  return own->outer->fail_code(own->outer, status, code, "%s", text);
+}
 static void note(const ambit_host *h, const char *format, ...) { (void)h, (void)format; }
 
 static ambit_status open_liar(const ambit_host *h, const ambit_problem *p, const double *option, void **self) {
   liar *l = h->alloc(h, sizeof *l);
   host_of *own = h->alloc(h, sizeof *own);
   if (!l || !own) return AMBIT_NOMEM;
-  *own = (host_of) { { sizeof own->host, h->abi, alloc, fail, note, service }, h };
+  *own = (host_of) { { sizeof own->host, h->abi, alloc, fail, note, service, fail_code }, h };
   *self = l;
   chosen->searches++;
   l->host = h, l->problem = *p;
