@@ -1,5 +1,6 @@
 /* leave.c -- see leave.h. Handlers of exit() know nothing but static data. */
 #include "lua/leave.h"
+#include <ambit/code.h>
 #include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,10 +20,10 @@ static void on_exit_by_others(void) {
   if (guarded == 0 || guarded != getpid()) return;
   guarded = 0;
   fflush(stdout);
-  fputs(
+  fprintf(stderr,
       "ambit: something ended the process by exit() while Ambit was at work, a plugin or a library; nothing is proved "
-      "(invalid.exit)\n",
-      stderr);
+      "(%s)\n",
+      AMBIT_CODE_INVALID_EXIT);
   _exit(EXIT_FAILURE);
 }
 
