@@ -35,7 +35,8 @@ function binding.resolve(at, expressions, what)
     local leaf = leaf_of[name]
     if leaf then
       leaves[#leaves + 1] = leaf.expression
-      values[#values + 1] = core.expression(at[name], leaf.unit ~= "1" and leaf.unit or nil, ("%s: at.%s"):format(what, name))
+      values[#values + 1] = core.expression(at[name], leaf.unit ~= "1" and leaf.unit or nil,
+        ("%s: at.%s"):format(what, name))
       core.name_data({ values[#values] }, name)
     else
       others = others or existing()

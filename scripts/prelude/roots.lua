@@ -80,7 +80,8 @@ function verb.bind(at, symbols, allowed, what)
     local leaf = symbols[name]
     if leaf then
       leaves[#leaves + 1] = leaf.expression
-      values[#values + 1] = core.expression(at[name], leaf.unit ~= "1" and leaf.unit or nil, ("%s: at.%s"):format(what, name))
+      values[#values + 1] = core.expression(at[name], leaf.unit ~= "1" and leaf.unit or nil,
+        ("%s: at.%s"):format(what, name))
       core.name_data({ values[#values] }, name)
     elseif not allowed[name] then
       check.fail("%s: at: there is no variable `%s`%s", what, tostring(name),

@@ -65,14 +65,16 @@ function enclosure:is_bounded() end
 ---A datum within a tolerance: one fresh unknown at each call.
 ---@param c ambit.datum
 ---@param tolerance number|string 0.1, "0.1", "1%", "0.1 mm"
+---@param name? string what reports call it; otherwise as the place where it is used first
 ---@return ambit.expression
-function ambit.around(c, tolerance) end
+function ambit.around(c, tolerance, name) end
 
 ---A datum somewhere in [lo, hi]: one fresh unknown at each call.
 ---@param lo number|string|ambit.expression
 ---@param hi number|string|ambit.expression
+---@param name? string what reports call it; otherwise as the place where it is used first
 ---@return ambit.expression
-function ambit.between(lo, hi) end
+function ambit.between(lo, hi, name) end
 
 ---@param is_exact boolean true: arithmetic on texts is Ambit's, as in the command; false: Lua's, which rounds
 ---@return "ambit"|"lua"|"watched" # whose it was
@@ -551,6 +553,7 @@ function ambit.hybrid(t) end
 ---@class ambit.counterexample
 ---@field initial table<string, ambit.enclosure>
 ---@field parameters table<string, ambit.enclosure>
+---@field data table<string, ambit.enclosure> by the names of the data
 ---@field t ambit.enclosure
 ---@field g ambit.enclosure
 local counterexample = {}

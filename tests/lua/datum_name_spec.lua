@@ -71,7 +71,8 @@ describe("the name of a datum", function()
 
   it("is that of its first use", function()
     local d = around(2, "1%")
-    ambit.ode { states = { "x" }, parameters = { b = 2 * d, a = d }, equations = function(s, p) return { p.a + p.b } end }
+    ambit.ode { states = { "x" }, parameters = { b = 2 * d, a = d },
+      equations = function(s, p) return { p.a + p.b } end }
     assert.same({ "a" }, names(d))
   end)
 
