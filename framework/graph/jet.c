@@ -196,7 +196,7 @@ static void integrate(ambit_jet *jet, uint32_t in, uint32_t slot, uint32_t k) {
     jet->jets.integrate(jet->self, in, slot, k);
     return;
   }
-  jet->jets.get(jet->self, slot, k, &mid, &rad, jet->mid, jet->rad);
+  get(jet, slot, k, &mid, &rad, jet->mid, jet->rad);
   ambit_rounding old = ambit_round_up();
   divide_all(jet->ndir, &mid, &rad, jet->mid, jet->rad, k + 1);
   ambit_rounding_restore(old);

@@ -74,9 +74,10 @@ static void first_call(uint32_t op, double x, double y, double *lo, double *hi) 
   ambit_failure f = { 0 };
   pthread_mutex_lock(&lock);
   if (!loaded_point) loaded_point = load(&f);
-  ambit_elementary_point point = loaded_point ? checked : ambit_elementary_coarse;
+  bool found = loaded_point != NULL;
+  ambit_elementary_point point = found ? checked : ambit_elementary_coarse;
   ambit_elementary_set_slow(point); /* before the note, whose receiver may compute */
-  if (!loaded_point) note_failure(&f);
+  if (!found) note_failure(&f);
   pthread_mutex_unlock(&lock);
   point(op, x, y, lo, hi);
 }

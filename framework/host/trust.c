@@ -29,7 +29,7 @@ ambit_status ambit_trust_folder(const char *name, ambit_failure *f) {
   }
   folder *made = malloc(sizeof *made + strlen(real) + 1);
   if (made) {
-    strcpy(made->name, real);
+    memcpy(made->name, real, strlen(real) + 1);
     pthread_mutex_lock(&lock);
     made->next = trusted;
     trusted = made;

@@ -331,6 +331,46 @@ static void differential_equations(void **unused) {
   fixture_host_close(&host);
 }
 
+/* -- an arithmetic whose series have negative radii */
+
+static int wrong_direction;
+
+static void negative_get(
+    const void *self, uint32_t slot, uint32_t k, double *mid, double *rad, double *dmid, double *drad) {
+  ambit_jets_general.get(self, slot, k, mid, rad, dmid, drad);
+  if (!wrong_direction) *rad = -0.5;
+  if (wrong_direction && drad) drad[0] = -0.25;
+}
+
+static void notes_negative_radii(void **unused) {
+  (void)unused;
+  for (wrong_direction = 0; wrong_direction < 2; wrong_direction++) {
+    fixture_host host;
+    fixture_host_open(&host);
+    ambit_arithmetic full = fixture_arithmetic(), own = full;
+    ambit_jets wrong = ambit_jets_general;
+    ambit_jet_source source = { &full, NULL };
+    ambit_fault fault = { 0 };
+    double mid, rad, dmid = 1, drad = 0;
+    wrong.get = negative_get;
+    own.jets = &wrong, own.fault = &fault, own.rigorous = 1;
+    fixture_tape *x = fixture_tape_open(&host);
+    uint32_t y = fixture_op(x, AMBIT_OP_SQR, fixture_input(x, AMBIT_DEGREE_ANY), 0);
+    fixture_output(x, y);
+    ambit_jet *jet;
+    assert_int_equal(service->open(&host.host, &x->tape, &own, &source, 1, 1, NULL, &jet), AMBIT_OK);
+    service->put(jet, 0, 0, 3, 0, &dmid, &drad);
+    assert_int_equal(service->advance(jet, 0), 0);
+    assert_int_equal(fault.seen, 0);
+    service->get(jet, y, 0, &mid, &rad, &dmid, &drad);
+    assert_int_equal(fault.seen, 1);
+    assert_int_equal(fault.what, AMBIT_FAULT_SERIES);
+    assert_true(fault.hi == (wrong_direction ? -0.25 : -0.5));
+    service->close(jet);
+    fixture_host_close(&host);
+  }
+}
+
 /* -- an arithmetic with more than tier 1 */
 
 static int dots, cleared;
@@ -544,6 +584,7 @@ int main(void) {
     cmocka_unit_test(slopes_are_tighter_than_derivatives),
     cmocka_unit_test(kinks_and_cuts_prove_nothing),
     cmocka_unit_test(kinks_of_parameters),
+    cmocka_unit_test(notes_negative_radii),
     cmocka_unit_test(differential_equations),
     cmocka_unit_test(products_by_dot),
     cmocka_unit_test(refusals),

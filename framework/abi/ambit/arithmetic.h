@@ -107,7 +107,7 @@ static inline void ambit_fault_note(const ambit_arithmetic *a, int32_t what, dou
 ** arithmetic that is not rigorous may cross by rounding, and stay. */
 static inline void ambit_bounds_check(const ambit_arithmetic *a, double *lo, double *hi) {
   const double infinity = __builtin_inf();
-  if (*lo <= *hi && *lo<infinity && * hi> - infinity) return;
+  if (*lo <= *hi && *lo != infinity && *hi != -infinity) return;
   if (*lo == infinity && *hi == -infinity) return;
   if (!a->rigorous && *lo > *hi) return;
   if (!(*lo <= *hi)) ambit_fault_note(a, AMBIT_FAULT_BOUNDS, *lo, *hi);
