@@ -22,6 +22,20 @@ local function existing()
   return known
 end
 
+-- The value of a variable, in its unit. Variables of one name are one in all models: any model's unit of it will do.
+function binding.value(leaf, value, what)
+  local function in_unit(unit) return core.expression(value, unit ~= "1" and unit or nil, what) end
+  local good, result = pcall(in_unit, leaf.unit)
+  if good then return result end
+  for _, system in pairs(session.odes) do
+    for i, name in ipairs(system.states) do
+      local fits, other = pcall(in_unit, name == leaf.name and system.units[i] or leaf.unit)
+      if fits then return other end
+    end
+  end
+  error(result, 0)
+end
+
 -- resolve(at, expressions, what) -> { leaf, ... }, { value, ... }
 function binding.resolve(at, expressions, what)
   if at == nil then return {}, {} end
@@ -35,8 +49,7 @@ function binding.resolve(at, expressions, what)
     local leaf = leaf_of[name]
     if leaf then
       leaves[#leaves + 1] = leaf.expression
-      values[#values + 1] = core.expression(at[name], leaf.unit ~= "1" and leaf.unit or nil,
-        ("%s: at.%s"):format(what, name))
+      values[#values + 1] = binding.value(leaf, at[name], ("%s: at.%s"):format(what, name))
       core.name_data({ values[#values] }, name)
     else
       others = others or existing()

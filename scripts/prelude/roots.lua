@@ -1,5 +1,6 @@
 -- roots.lua -- ambit.roots { { f1, f2 }, box = { x = { lo, hi }, y = { lo, hi } }, at = { name = value } }: every root
 -- in the box, proved. The first entry may be a function(s) that returns the expressions; s.x is the unknown x.
+local binding = require "ambit.binding"
 local check = require "ambit.check"
 local core = require "ambit.core"
 local formula = require "ambit.formula"
@@ -80,8 +81,7 @@ function verb.bind(at, symbols, allowed, what)
     local leaf = symbols[name]
     if leaf then
       leaves[#leaves + 1] = leaf.expression
-      values[#values + 1] = core.expression(at[name], leaf.unit ~= "1" and leaf.unit or nil,
-        ("%s: at.%s"):format(what, name))
+      values[#values + 1] = binding.value(leaf, at[name], ("%s: at.%s"):format(what, name))
       core.name_data({ values[#values] }, name)
     elseif not allowed[name] then
       check.fail("%s: at: there is no variable `%s`%s", what, tostring(name),

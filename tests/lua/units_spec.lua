@@ -201,6 +201,19 @@ describe("an ode", function()
       parameters = { g = "1 m" } } end, "`g`", "m/s^2")
   end)
 
+  it("takes values in its own units, though a namesake of its states has others", function()
+    local function decay(unit)
+      return ambit.ode { states = { namesake = unit },
+        equations = function(s) return { namesake = number "-1 1/s" * s.namesake } end }
+    end
+    local turning, sliding = decay "rad", decay "m"
+    for _, case in ipairs { { turning, "1 rad" }, { sliding, "1 m" } } do
+      local rate = ambit.evaluate { case[1]:rate "namesake", at = { namesake = case[2] } }
+      assert.is_true(rate:contains(-1))
+    end
+    fails(function() ambit.evaluate { sliding:rate "namesake", at = { namesake = "1 kg" } } end, "at.namesake", "kg")
+  end)
+
   it("is written to Lua so that it can be read again", function()
     local ode = ambit.ode { states = { { "x", "m" }, { "v", "m/s" } }, parameters = { k = "1 1/s^2" },
       equations = function(s, p) return { x = s.v, v = -p.k * s.x } end }
