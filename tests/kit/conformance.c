@@ -85,14 +85,14 @@ static int check_element(const conformance *c, ambit_registry *r, const char *na
   for (unsigned i = 0; i < runs; i++) {
     element_kit_report one = element_kit_run(element, name, c->seed + i);
     all.stages += one.stages, all.expressed += one.expressed, all.refused += one.refused;
-    all.compared += one.compared, all.powers += one.powers, all.reactions += one.reactions;
+    all.compared += one.compared, all.powers += one.powers, all.reactions += one.reactions, all.own += one.own;
     failures += one.failures;
     if (one.failures) tell(c, "finding", "element", one.first);
   }
-  tell_done(c, "quantities", all.compared + all.expressed + all.refused, failures);
+  tell_done(c, "quantities", all.compared, failures);
   snprintf(text, sizeof text,
-      "%u stages, %u quantities expressed, %u refused with a message, %u balances of power closed, %u of momentum",
-      all.stages, all.expressed, all.refused, all.powers, all.reactions);
+      "%u stages, %u quantities written, %u refused with a message, %u balances of power closed, %u of momentum",
+      all.stages, all.own, all.refused, all.powers, all.reactions);
   tell(c, "note", "", text);
   return failures ? BROKEN : CONFORMS;
 }

@@ -28,7 +28,7 @@ void element_kit_vanish(element_kit *k, const char *about, ambit_expr e) {
 
 ambit_expr element_kit_derivative(element_kit *k, ambit_expr e) {
   ambit_failure f = { 0 };
-  ambit_expr d = ambit_graph_time_derivative(k->graph, e, k->nleaf, k->leaf, k->rate, &f);
+  ambit_expr d = ambit_graph_rate_off_kinks(k->graph, e, k->nleaf, k->leaf, k->rate, &f);
   if (d == AMBIT_NO_EXPR) element_kit_complain(k, "%s", f.message);
   return d == AMBIT_NO_EXPR ? 0 : d;
 }
@@ -94,6 +94,7 @@ static void run_stage(element_kit *k, unsigned given) {
     element_kit_check_power(k);
     element_kit_check_momentum(k);
     element_kit_evaluate(k);
+    element_kit_count_own(k);
   }
   element_kit_close_stage(k);
 }
@@ -113,6 +114,6 @@ element_kit_report element_kit_run(const ambit_element *element, const char *nam
       k.moving = moving;
       run_stage(&k, given);
     }
-  if (report.failures == 0 && report.expressed == 0) element_kit_complain(&k, "it expresses nothing at all");
+  if (report.failures == 0 && report.own == 0) element_kit_complain(&k, "it expresses nothing at all");
   return report;
 }

@@ -22,3 +22,8 @@ if(TARGET test.plugins.elements)
   string(REPLACE ";" " " elements "${elements}")
   target_compile_definitions(test.plugins.elements PRIVATE "AMBIT_ELEMENTS=\"${elements}\"")
 endif()
+# an element with kinks, as a user would build it
+add_library(element_kink MODULE ${PROJECT_SOURCE_DIR}/tests/kit/kink_element.c)
+set_target_properties(element_kink PROPERTIES PREFIX "" OUTPUT_NAME kink C_VISIBILITY_PRESET hidden
+  LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests/plugins/element)
+target_link_libraries(element_kink PRIVATE ambit_flags)

@@ -5,7 +5,8 @@
 ** OUT frames carries an arbitrary wrench, each joint an arbitrary effort, in a field of gravity; parameters are
 ** random, in every combination of the optional ones, at rest and moving in time. Everything that the element
 ** expresses is compared with what follows from its poses by differentiation, at random points, with enclosures: the
-** difference must contain 0 and be narrow.
+** difference must contain 0 and be narrow. Formulas with abs, min and max are differentiated off the places where they
+** switch; some of the points lie close to rest, on both sides of it.
 **
 **   description   names, units, shapes, fallbacks, one sentence each
 **   quantities    each is expressed, declined, or refused by a message that names the part; unknown ones are declined
@@ -24,6 +25,7 @@
 typedef struct element_kit_report {
   unsigned stages;                       /* combinations of parameters */
   unsigned expressed, refused, declined; /* quantities, over all stages */
+  unsigned own;                          /* of these, what the element itself has written */
   unsigned compared;                     /* numbers that had to vanish, over all stages and points */
   unsigned powers, reactions;            /* balances of power and of momentum that were closed */
   unsigned failures;

@@ -66,6 +66,8 @@ const ambit_expr *element_kit_ask(element_kit *k, uint32_t part, uint32_t port, 
 const ambit_expr *element_kit_own(element_kit *k, uint32_t quantity);
 void element_kit_ask_whole(element_kit *k);
 void element_kit_check_declines(element_kit *k);
+/* What the subject has written on this stage; a frame or a joint that it carries must have its motion. */
+void element_kit_count_own(element_kit *k);
 
 /* In element_kit_motion.c */
 void element_kit_check_motion(element_kit *k);

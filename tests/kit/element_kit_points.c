@@ -7,7 +7,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define POINTS 3
+#define POINTS 5
+#define CLOSE 2        /* of these lie close to rest, */
+#define REST 0x1p-12   /* within this, of either sign */
 #define TOLERANCE 1e-8 /* of residuals of numbers of ordinary size */
 #define NORM_MAX 16
 #define NORM_SLACK 0x1p-51 /* a normalised vector of doubles is that close to a unit one, in each component */
@@ -43,11 +45,11 @@ static void put_on_norms(element_kit *k, size_t n, const ambit_expr *leaf, ambit
   }
 }
 
-static void choose_point(element_kit *k, size_t n, const ambit_expr *leaf, ambit_interval *in) {
+static void choose_point(element_kit *k, size_t n, const ambit_expr *leaf, ambit_interval *in, double scale) {
   for (size_t i = 0; i < n; i++) {
     const ambit_node *x = ambit_graph_node(k->graph, leaf[i]);
     ambit_interval range = x->op == AMBIT_LEAF_UNKNOWN ? x->value : (ambit_interval) { -1.5, 1.5 };
-    double v = ambit_random_in(&k->random, range);
+    double v = ambit_random_in(&k->random, range) * (x->op == AMBIT_LEAF_UNKNOWN ? 1 : scale);
     in[i] = (ambit_interval) { v, v };
   }
   put_on_norms(k, n, leaf, in);
@@ -77,7 +79,7 @@ void element_kit_evaluate(element_kit *k) {
   ambit_interval *slot = f.status == AMBIT_OK ? calloc(tape->nslot + 1, sizeof *slot) : NULL;
   bool *narrow = calloc(k->nresidual + 1, sizeof *narrow);
   for (int point = 0; slot && point < POINTS; point++) {
-    choose_point(k, n, leaf, in);
+    choose_point(k, n, leaf, in, point < POINTS - CLOSE ? 1 : REST);
     ambit_hull(tape, in, slot);
     compare(k, tape, slot, narrow);
   }

@@ -1,7 +1,7 @@
 # Plugins with one fault each, and the program that puts them through the conformance kit. It runs in the release build only: what it finds
 # depends on neither compiler nor sanitizer, and takes a minute.
 set(mutant_words "")
-foreach(kind flow roots reduction service)
+foreach(kind element flow roots reduction service)
   add_library(mutant_${kind} MODULE ${PROJECT_SOURCE_DIR}/tests/kit/mutants/${kind}_mutant.c)
   set_target_properties(mutant_${kind} PROPERTIES PREFIX "" OUTPUT_NAME ${kind}_mutant C_VISIBILITY_PRESET hidden
     LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests/mutants)
@@ -16,7 +16,9 @@ endforeach()
 add_executable(run_mutants ${PROJECT_SOURCE_DIR}/tests/kit/mutants/run_mutants.c)
 set_target_properties(run_mutants PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
 target_include_directories(run_mutants PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-target_link_libraries(run_mutants PRIVATE ambit_flags ${CMAKE_DL_LIBS})
+# the kit is a plugin of a program that has libambit
+target_link_options(run_mutants PRIVATE LINKER:--no-as-needed)
+target_link_libraries(run_mutants PRIVATE ambit_flags libambit ${CMAKE_DL_LIBS})
 add_dependencies(run_mutants service_conformance_kit)
 if(AMBIT_ONCE)
   add_test(NAME kit.mutants COMMAND run_mutants $<TARGET_FILE:service_conformance_kit> ${mutant_words})

@@ -104,6 +104,12 @@ describe("ambit check", function()
     end
   end)
 
+  it("takes elements with kinks", function()
+    local code, stdout = run("check " .. build .. "/tests/plugins/element/kink.so")
+    assert.equal(0, code, stdout)
+    has(stdout, "balances of power closed", "conforms: ")
+  end)
+
   it("passes options on", function()
     local code, stdout = run "check gsl method=rk4"
     assert.equal(0, code, stdout)
