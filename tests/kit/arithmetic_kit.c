@@ -78,6 +78,8 @@ static double any_double(kit_state *s) {
   uint64_t r = kit_random(s);
   if (r % 6 == 0) return nasty[(r >> 8) % (sizeof nasty / sizeof *nasty)];
   if (r % 6 == 1) return ldexp(kit_uniform(s, -1, 1), (int)((r >> 8) % 2098) - 1074);
+  if (r % 6 == 2)
+    return ldexp((double)((r >> 8) % 65536) - 32768, -(int)((r >> 32) % 20)); /* few bits: exact results */
   return kit_uniform(s, -8, 8);
 }
 

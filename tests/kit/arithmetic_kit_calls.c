@@ -3,6 +3,7 @@
 ** No function that changes the environment computes with doubles: compilers move such operations across the change.
 */
 #include "kit/arithmetic_kit_inside.h"
+#include "kit/conduct.h"
 #include <fenv.h>
 #include <math.h>
 #include <stdarg.h>
@@ -11,7 +12,7 @@
 #include <string.h>
 #if defined(__x86_64__) || defined(__i386__)
 #include <xmmintrin.h>
-#define CONTROL 0xe040u /* of MXCSR: rounding, flush-to-zero, denormals-are-zero; fegetround sees only the x87 unit */
+#define CONTROL 0xffc0u /* of MXCSR: rounding, flushing, traps; fegetround sees only the x87 unit */
 static unsigned control_get(void) { return _mm_getcsr() & CONTROL; }
 static void control_set(unsigned bits) { _mm_setcsr((_mm_getcsr() & ~CONTROL) | bits); }
 static unsigned control_with(unsigned flush) { return control_get() | flush; }
@@ -208,10 +209,13 @@ kit_set kit_through(kit_state *s, uint32_t slot, kit_set x) {
 uint32_t kit_run(
     kit_state *s, uint32_t op, size_t count, const uint32_t *dst, const uint32_t *a, const uint32_t *b, size_t lanes) {
   saved old = change(s);
+  size_t allocated = conduct_allocations();
   enter(s);
   uint32_t flags = s->full->run[op](s->full, s->ctx, s->block, s->pitch, lanes, count, dst, a, b);
   leave(s);
   restore(s, old, kit_op_name[op]);
+  allocated = conduct_allocations() - allocated;
+  if (allocated) kit_find(s, "allocations", "%s allocates %zu times", kit_op_name[op], allocated);
   return flags;
 }
 

@@ -3,7 +3,7 @@
 #define AMBIT_ARITHMETIC_KIT_INSIDE_H
 #include "kit/arithmetic_kit.h"
 
-enum { KIT_SLOTS = 64, KIT_PITCH = 21, KIT_NVAR = 3, KIT_OPTIONS = 128 };
+enum { KIT_SLOTS = 64, KIT_PITCH = 21, KIT_NVAR = 6, KIT_OPTIONS = 128 };
 
 typedef struct kit_set {
   double lo, hi;

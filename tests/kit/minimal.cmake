@@ -9,7 +9,7 @@ ambit_example_arithmetic(minimal tests/kit/minimal_arithmetic.c tests/plugins)
 ambit_example_arithmetic(double_double tests/kit/double_double_arithmetic.c tests/plugins)
 ambit_example_arithmetic(skeleton scripts/skeleton/arithmetic/skeleton.c tests/plugins)
 
-file(GLOB arithmetic_kit_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/kit/arithmetic_kit*.c)
+file(GLOB arithmetic_kit_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/kit/arithmetic_kit*.c ${PROJECT_SOURCE_DIR}/tests/kit/conduct*.c)
 add_library(arithmetic_kit STATIC ${arithmetic_kit_sources})
 target_include_directories(arithmetic_kit PRIVATE ${PROJECT_SOURCE_DIR}/tests)
 target_link_libraries(arithmetic_kit PRIVATE ambit_flags PUBLIC libambit PkgConfig::MPFR m)

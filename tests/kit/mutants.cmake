@@ -1,7 +1,7 @@
 # Plugins with one fault each, and the program that puts them through the conformance kit. It runs in the release build only: what it finds
 # depends on neither compiler nor sanitizer, and takes a minute.
 set(mutant_words "")
-foreach(kind element flow roots reduction service)
+foreach(kind arithmetic element flow roots reduction service)
   add_library(mutant_${kind} MODULE ${PROJECT_SOURCE_DIR}/tests/kit/mutants/${kind}_mutant.c)
   set_target_properties(mutant_${kind} PROPERTIES PREFIX "" OUTPUT_NAME ${kind}_mutant C_VISIBILITY_PRESET hidden
     LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests/mutants)
