@@ -298,7 +298,10 @@ ambit_expr ambit_graph_unknown(ambit_graph *g, const char *name, ambit_interval 
 }
 
 void ambit_graph_set_plain(ambit_graph *g, ambit_expr unknown) { g->stored[unknown].node.plain = true; }
-void ambit_graph_mark_partial(ambit_graph *g, ambit_expr unknown) { g->stored[unknown].node.total = false; }
+void ambit_graph_mark_partial(ambit_graph *g, ambit_expr unknown) {
+  ambit_node *node = &g->stored[unknown].node;
+  if (node->op == AMBIT_LEAF_UNKNOWN) node->total = false;
+}
 
 bool ambit_graph_name(ambit_graph *g, ambit_expr unknown, const char *name) {
   ambit_node *node = &g->stored[unknown].node;

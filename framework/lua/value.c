@@ -173,7 +173,9 @@ static ambit_expr enclosure_expression(lua_State *L, const ambit_lua_enclosure *
   if (!ambit_interval_is_bounded(y->x)) wrong(L, what, "the enclosure is not bounded");
   bool partial = (y->flags & AMBIT_F_PARTIAL) != 0;
   if (ambit_interval_is_point(y->x) && !partial) return ambit_graph_number(g, y->x.lo);
-  ambit_expr e = plain_datum(L, y->x, y->declared ? y->inner : AMBIT_EMPTY);
+  ambit_interval x = y->x; /* a point would be a constant, which everything shares: its neighbours make it a datum */
+  if (ambit_interval_is_point(x)) x = (ambit_interval) { nextafter(x.lo, -INFINITY), nextafter(x.hi, INFINITY) };
+  ambit_expr e = plain_datum(L, x, y->declared ? y->inner : AMBIT_EMPTY);
   if (partial && e != AMBIT_NO_EXPR) ambit_graph_mark_partial(g, e);
   return e;
 }

@@ -196,6 +196,7 @@ end
 
 local function classify(found)
   if found.status ~= "complete" then return "undecided" end
+  if #found.partly > 0 then return "undecided" end -- a part of the data has a configuration
   if #found.proved == 0 then return "none" end
   return #found.proved == 1 and "unique" or "several"
 end

@@ -381,8 +381,9 @@ function ambit.ode(t) end
 ---@field [1] "mpfr"
 ---@field precision integer? bits
 
----The same shape with enclosures; a table also has .status, .arithmetic, .cpu_seconds.
----@param t { [1]: any, at: table<string, ambit.datum>?, arithmetic: ambit.arithmetic? }
+---The same shape with enclosures; a table also has .status ("complete", "partial", "impossible"), .code, .reason,
+---.partial, .arithmetic, .cpu_seconds. partial = true: a part of the data may have no answer.
+---@param t { [1]: any, at: table<string, ambit.datum>?, arithmetic: ambit.arithmetic?, partial: boolean? }
 ---@return any
 function ambit.evaluate(t) end
 

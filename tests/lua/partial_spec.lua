@@ -1,0 +1,164 @@
+-- Answers for a part of the data say so: in print, in .partial, in records, by exit code 3 unless `partial = true`.
+local ambit = require "ambit"
+local session = require "ambit.session"
+
+local command = os.getenv "AMBIT_COMMAND" or "ambit"
+local arithmetics = { "interval", "affine", "gradient", "taylor_model", "mpfr" }
+
+local function evaluate(t)
+  local result = ambit.evaluate(t)
+  session.worst = "ok"
+  return result
+end
+
+-- Exit code and all output of a scene.
+local function scene(text)
+  local name = os.tmpname()
+  local file = assert(io.open(name, "w"))
+  file:write('local ambit = require "ambit"\n', text)
+  file:close()
+  local pipe = assert(io.popen(("'%s' run --quiet --json - %s 2>&1"):format(command, name)))
+  local output = pipe:read "a"
+  local _, _, code = pipe:close()
+  os.remove(name)
+  return code, output
+end
+
+local function has(text, ...)
+  for _, piece in ipairs { ... } do assert.truthy(text:find(piece, 1, true), text) end
+end
+
+describe("a partial answer", function()
+  it("says so in print, in every arithmetic", function()
+    for _, arithmetic in ipairs(arithmetics) do
+      local x = evaluate { ambit.sqrt(ambit.between(-1, 1)), arithmetic = arithmetic }
+      assert.is_true(x.partial, arithmetic)
+      has(tostring(x), "partial: undefined for part of the data")
+    end
+  end)
+
+  it("is told of each result by itself, with the operation to blame", function()
+    local x, y = ambit.between(-1, 1), ambit.between(2, 3)
+    for _, arithmetic in ipairs(arithmetics) do
+      local r = evaluate { { a = ambit.sqrt(y) / y, b = y + ambit.log(x) ^ 2, c = x * y }, arithmetic = arithmetic }
+      assert.is_false(r.a.partial, arithmetic)
+      assert.is_true(r.b.partial, arithmetic)
+      assert.is_false(r.c.partial, arithmetic)
+      assert.equal("partial", r.status)
+      assert.equal("unable.partial", r.code)
+      assert.is_true(r.partial)
+      has(r.reason, "b: `log(")
+    end
+  end)
+
+  it("names the element that wrote the operation", function()
+    local m = ambit.mechanism "two bars"
+    local a = m:rigid_link { from = m.world, offset = { ambit.between(-1, 1), 0, 0 } }
+    local r = evaluate { { d = 1 / m:distance(a, m.world) } }
+    assert.equal("unable.partial", r.code)
+    has(r.reason, "`")
+  end)
+
+  it("stays partial in what is made of it", function()
+    local s = ambit.sqrt(ambit.interval(-1, 1))
+    has(tostring(s), "partial")
+    has(tostring(s + 1), "partial")
+    has(tostring(s:hull(3)), "partial")
+    assert.is_true(evaluate { s * 2 }.partial)
+    assert.is_true(evaluate { ambit.sqrt(ambit.interval(-1, 0)) + ambit.between(0, 1) }.partial) -- of a point, [0, 0]
+  end)
+
+  it("ends a scene with 3, unless the scene says that it knows", function()
+    local code, output = scene "print(ambit.evaluate { ambit.sqrt(ambit.between(-1, 1)) })"
+    assert.equal(3, code)
+    has(output, "unable.partial", '"partial":true')
+    code, output = scene "print(ambit.evaluate { ambit.sqrt(ambit.between(-1, 1)), partial = true })"
+    assert.equal(0, code)
+    has(output, "ok.partial", "(partial: undefined for part of the data)")
+    code, output = scene "print(ambit.evaluate { ambit.log(ambit.between(-2, -1)), partial = true })"
+    assert.equal(4, code)
+    has(output, "domain.undefined", "is defined for none of the data")
+    assert.equal(0, (scene "ambit.evaluate { ambit.sqrt(ambit.between(0, 1)) }"))
+    code, output = scene "ambit.evaluate { ambit.between(0, 1), partial = 1 }"
+    assert.equal(1, code)
+    has(output, "partial: expected true or false")
+  end)
+end)
+
+-- Random expressions of one or two data, by Lua's own numbers as the oracle: wherever a sampled point has no value, the
+-- result that depends on it is partial; where the graph proves that all is defined, it is not.
+describe("partial, of random expressions,", function()
+  local seed = 12345
+  local function random(n)
+    seed = (seed * 1103515245 + 12345) % 2147483648
+    return (seed >> 8) % n
+  end
+  local unary = {
+    { "sqrt", function(a) return a >= 0 and math.sqrt(a) or nil end },
+    { "log", function(a) return a > 0 and math.log(a) or nil end },
+    { "asin", function(a) return a >= -1 and a <= 1 and math.asin(a) or nil end },
+    { "acos", function(a) return a >= -1 and a <= 1 and math.acos(a) or nil end },
+    { "sin", math.sin }, { "atan", math.atan }, { "abs", math.abs },
+    { "sqr", function(a) return a * a end },
+  }
+  local binary = {
+    { function(a, b) return a + b end, function(a, b) return a + b end },
+    { function(a, b) return a - b end, function(a, b) return a - b end },
+    { function(a, b) return a * b end, function(a, b) return a * b end },
+    { function(a, b) return a / b end, function(a, b) return b ~= 0 and a / b or nil end },
+  }
+
+  -- { build(data) -> expression, value(numbers) -> number or nil }
+  local function grow(depth)
+    local kind = depth == 0 and random(2) or 2 + random(8)
+    if kind == 0 then
+      local i = 1 + random(2)
+      return { function(d) return d[i] end, function(x) return x[i] end }
+    elseif kind == 1 then
+      local c = (random(17) - 8) / 4
+      return { function() return ambit.number(c) end, function() return c end }
+    elseif kind < 7 then
+      local f, a = unary[1 + random(#unary)], grow(depth - 1)
+      return { function(d) return ambit[f[1]](a[1](d)) end, function(x)
+        local y = a[2](x)
+        if y then return f[2](y) end
+      end }
+    end
+    local f, a, b = binary[1 + random(#binary)], grow(depth - 1), grow(depth - 1)
+    return { function(d) return f[1](a[1](d), b[1](d)) end, function(x)
+      local y, z = a[2](x), b[2](x)
+      if y and z then return f[2](y, z) end
+    end }
+  end
+
+  it("is set wherever a point has no value", function()
+    local tries = tonumber(os.getenv "AMBIT_PARTIAL_COUNT") or 150
+    local undefined = 0
+    for try = 1, tries do
+      local lo, hi, d = {}, {}, {}
+      for i = 1, 2 do
+        lo[i] = (random(17) - 8) / 4
+        hi[i] = lo[i] + random(9) / 4
+        d[i] = ambit.between(lo[i], hi[i])
+      end
+      local list, expressions = {}, {}
+      for k = 1, 4 do
+        list[k] = grow(3)
+        expressions[k] = list[k][1](d)
+      end
+      for _, arithmetic in ipairs(arithmetics) do
+        local r = evaluate { expressions, arithmetic = arithmetic }
+        for k = 1, 4 do
+          for p = 0, 15 do
+            local x = { lo[1] + (p % 4) / 3 * (hi[1] - lo[1]), lo[2] + (p // 4) / 3 * (hi[2] - lo[2]) }
+            if list[k][2](x) == nil and (p % 3 == 0 and p // 4 % 3 == 0) then -- corners: exact numbers
+              undefined = undefined + 1
+              assert.is_true(r[k].partial, ("try %d, result %d, %s"):format(try, k, arithmetic))
+            end
+          end
+        end
+      end
+    end
+    assert.is_true(undefined > tries)
+  end)
+end)
