@@ -35,8 +35,8 @@ its parts are left.knee, ..., what build returns is left.foot.]],
 ode { states = { "x" }, parameters = { a = 1 }, equations = function(s, p, t) return { x = -p.a * s.x } end }; with
 units, states = { x = "m" }, derivatives must be in them by s, unless check_units = false.]],
   evaluate = [[
-evaluate { expression or table of them, at = { name = value }, arithmetic = "interval", partial = false }: enclosures, in the same
-shape.]],
+evaluate { expression or table of them, at = { name = value }, arithmetic = "interval", partial = false }:
+enclosures, in the same shape.]],
   simulate = [[
 simulate { ode, initial = { x = 1 }, t = { 0, 1 }, solver = "lohner", <options of the solver>, split = { x = 8 } or 8,
 threads = 2, keep = "last", dense = true, events = { { g = function(s, p, t) ... end, name = "impact", direction =
