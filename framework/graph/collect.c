@@ -91,6 +91,8 @@ bool ambit_graph_is_due(const ambit_graph *g) {
   return g->living >= g->due || (g->collect_always && g->made != g->collected_at);
 }
 
+void ambit_graph_hasten(ambit_graph *g) { g->due = 0; }
+
 void ambit_graph_postpone(ambit_graph *g) { g->due = g->living + g->living / 4 + AMBIT_COLLECT_LEAST / 4; }
 void ambit_graph_collect_always(ambit_graph *g) { g->collect_always = true; }
 uint32_t ambit_graph_living(const ambit_graph *g) { return g->living; }

@@ -27,6 +27,7 @@ void ambit_graph_mark(ambit_graph *g, size_t n, const ambit_expr *e); /* AMBIT_N
 ** together is proportional to the nodes made. */
 bool ambit_graph_is_due(const ambit_graph *g);
 void ambit_graph_collect(ambit_graph *g);  /* out of memory: everything stays */
+void ambit_graph_hasten(ambit_graph *g);   /* one is due now */
 void ambit_graph_postpone(ambit_graph *g); /* one was due, but could not be done */
 /* For tests: one is due whenever a node has been made, and the numbers of freed nodes are never used again: whoever goes
 ** on using one is found, and aborts. */

@@ -24,6 +24,7 @@ typedef struct entry {
 
 struct ambit_registry {
   ambit_arena *arena;
+  ambit_arena *listed; /* texts of the newest listing */
   ambit_path path;
   entry *first; /* the latest */
   size_t count;
@@ -48,6 +49,7 @@ void ambit_registry_close(ambit_registry *r) {
   if (!r) return;
   ambit_slow_withdraw(r);
   for (entry *e = r->first; e; e = e->next) dlclose(e->loaded.handle);
+  ambit_arena_close(r->listed);
   ambit_arena_close(r->arena);
   free(r);
 }
@@ -280,9 +282,11 @@ const ambit_loaded *ambit_registry_loaded(const ambit_registry *r, size_t i, con
 
 size_t ambit_registry_list(ambit_registry *r, size_t room, ambit_listing *out) {
   size_t n = 0;
-  for (size_t k = 0; k < AMBIT_KINDS; k++) {
+  ambit_arena_close(r->listed);
+  r->listed = ambit_arena_open();
+  for (size_t k = 0; k < AMBIT_KINDS && r->listed; k++) {
     ambit_found *found;
-    size_t count = ambit_path_list(r->arena, &r->path, ambit_plugin_kind[k], &found);
+    size_t count = ambit_path_list(r->listed, &r->path, ambit_plugin_kind[k], &found);
     for (size_t i = 0; i < count; i++, n++) {
       if (n >= room) continue;
       out[n] = (ambit_listing) { ambit_plugin_kind[k], found[i].name, found[i].file,

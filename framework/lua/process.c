@@ -4,6 +4,7 @@
 #include "lua/leave.h"
 #include "num/decimal.h"
 #include <link.h>
+#include <malloc.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -129,10 +130,32 @@ static int literal(lua_State *L) {
   return 1;
 }
 
+/* settle(): at the start of the next function of the core, all that nothing holds is freed */
+static int settle(lua_State *L) {
+  ambit_graph_hasten(AMBIT_LUA(L)->graph);
+  return 0;
+}
+
+/* heap() -> bytes in use, Lua's among them (nil: nobody counts them), nodes of the graph */
+static int heap(lua_State *L) {
+#if defined(__GLIBC__) && (__GLIBC__ > 2 || __GLIBC_MINOR__ >= 33)
+  struct mallinfo2 m = mallinfo2();
+  if (m.uordblks + m.hblkhd > 0) /* sanitizers have a heap of their own */
+    lua_pushinteger(L, (lua_Integer)(m.uordblks + m.hblkhd));
+  else
+    lua_pushnil(L);
+#else
+  lua_pushnil(L);
+#endif
+  lua_pushinteger(L, ambit_graph_living(AMBIT_LUA(L)->graph));
+  return 2;
+}
+
 void ambit_lua_open_process(lua_State *L, ambit_lua *core) {
   static const luaL_Reg functions[] = { { "libraries", libraries }, { "cpu", cpu }, { "deadline", deadline },
     { "terminal", terminal }, { "where", where }, { "fail", fail }, { "progress", progress }, { "notes", notes },
-    { "interrupted", interrupted }, { "literal", literal }, { "codes", codes }, { "leave", leave }, { NULL, NULL } };
+    { "interrupted", interrupted }, { "literal", literal }, { "codes", codes }, { "leave", leave },
+    { "settle", settle }, { "heap", heap }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
   lua_pushliteral(L, AMBIT_VERSION);
   lua_setfield(L, -2, "version");

@@ -5,6 +5,11 @@ add_test(NAME budget COMMAND ${LUA_PROGRAM} tests/budget/check.lua $<TARGET_FILE
   WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
 add_test(NAME budget.notices COMMAND ${LUA_PROGRAM} tests/budget/notice.lua $<TARGET_FILE:ambit>
   WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
-set_tests_properties(budget budget.notices PROPERTIES TIMEOUT 600 ENVIRONMENT "${budget_environment}")
+# What nobody holds is freed, and nobody can tell when.
+add_test(NAME budget.memory COMMAND $<TARGET_FILE:ambit> run --quiet tests/budget/memory.lua
+  WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+add_test(NAME budget.collect COMMAND ${LUA_PROGRAM} tests/budget/collect.lua $<TARGET_FILE:ambit>
+  WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+set_tests_properties(budget budget.notices budget.memory budget.collect PROPERTIES TIMEOUT 600 ENVIRONMENT "${budget_environment}")
 add_custom_target(budget COMMAND ${CMAKE_COMMAND} -E env ${budget_environment}
   ${LUA_PROGRAM} tests/budget/check.lua $<TARGET_FILE:ambit> --rewrite WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} VERBATIM)
