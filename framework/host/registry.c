@@ -282,16 +282,18 @@ const ambit_loaded *ambit_registry_loaded(const ambit_registry *r, size_t i, con
 
 size_t ambit_registry_list(ambit_registry *r, size_t room, ambit_listing *out) {
   size_t n = 0;
-  ambit_arena_close(r->listed);
-  r->listed = ambit_arena_open();
-  for (size_t k = 0; k < AMBIT_KINDS && r->listed; k++) {
+  ambit_arena *arena = ambit_arena_open();
+  for (size_t k = 0; k < AMBIT_KINDS && arena; k++) {
     ambit_found *found;
-    size_t count = ambit_path_list(r->listed, &r->path, ambit_plugin_kind[k], &found);
+    size_t count = ambit_path_list(arena, &r->path, ambit_plugin_kind[k], &found);
     for (size_t i = 0; i < count; i++, n++) {
       if (n >= room) continue;
       out[n] = (ambit_listing) { ambit_plugin_kind[k], found[i].name, found[i].file,
         find_named(r, ambit_plugin_kind[k], found[i].name) != NULL };
     }
   }
+  ambit_arena *unused = room ? r->listed : arena;
+  if (room) r->listed = arena;
+  ambit_arena_close(unused);
   return n;
 }

@@ -42,7 +42,7 @@ typedef struct ambit_listing {
   const char *kind, *name, *file;
   int loaded;
 } ambit_listing;
-/* By file names, loads nothing; the texts are valid until the next call. */
+/* By file names, loads nothing; the texts are valid until the next call with room. */
 size_t ambit_registry_list(ambit_registry *r, size_t room, ambit_listing *out);
 /* options by name -> the flat array that open() takes: declaration order, shapes flattened; NaN where an option that
 ** may be absent (fallback "") is. Numbers are the nearest double. Unknown name: error with the nearest. `owner`:
