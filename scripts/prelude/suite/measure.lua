@@ -98,7 +98,8 @@ local function check_steps(run)
   end
 end
 
-local outcome_of = { complete = "proved", unable = "unable", stopped = "late", empty = "proved" }
+local outcome_of = { complete = "proved", unable = "unable", impossible = "unable", stopped = "late", empty = "proved",
+  broken = "wrong" }
 
 local function fill_reference(row, references, value_at)
   for _, reference in ipairs(references) do

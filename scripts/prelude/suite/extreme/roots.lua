@@ -30,7 +30,7 @@ local bad = {
   { "a kink", asked { f = function(a, s) return a.abs(s.x) - 1 end, box = { -2, 2 } }, "equation 1", "derivative" },
 }
 
-local outcome_of = { complete = "proved", unable = "unable", stopped = "late" }
+local outcome_of = { complete = "proved", unable = "unable", stopped = "late", broken = "wrong" }
 
 -- A point that holds the truth, among these.
 local function holds(a, points, truth)
