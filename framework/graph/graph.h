@@ -106,8 +106,8 @@ size_t ambit_graph_terms(const ambit_graph *g, ambit_expr e, size_t room, ambit_
 ** needs fewer operations than e and never more than `limit` terms, otherwise e itself. An identity on the domain of
 ** e. */
 ambit_expr ambit_graph_simplify(ambit_graph *g, ambit_expr e, size_t limit);
-/* The leaves (UNKNOWN, SYMBOL, TIME) that e[0..ne) reach, in the order in which they were made; returns how many, writes at
-** most room. */
+/* The leaves (UNKNOWN, SYMBOL, TIME) that e[0..ne) reach, in the order in which they were made; returns how many,
+** writes at most room. */
 size_t ambit_graph_leaves(const ambit_graph *g, size_t ne, const ambit_expr *e, size_t room, ambit_expr *leaf);
 size_t ambit_graph_size(const ambit_graph *g, size_t ne, const ambit_expr *e); /* distinct operations below */
 /* "0.5*sin(beta1) + x"; at most room bytes, always terminated; returns the full length. */

@@ -1,7 +1,7 @@
 /* symbols.h -- the names of variables, each with its first unit and its place in the order of leaves.
 **
-** They are kept as long as the graph: a symbol that nobody holds is freed, and when its name is used again it is what it
-** was. Memory grows with the number of different names only.
+** They are kept as long as the graph: a symbol that nobody holds is freed, and when its name is used again it is what
+** it was. Memory grows with the number of different names only.
 */
 #ifndef AMBIT_SYMBOLS_H
 #define AMBIT_SYMBOLS_H

@@ -83,20 +83,21 @@ end
 local function main(what, n)
   local doit = memory.questions()
   doit.scenes = memory.scene
-  print "| what | times | bytes left by each | living, MB | most so far, MB | time of the second half over the first's |"
+  print "| what | times | bytes left by each | living, MB | most so far, MB | second half's time / first's |"
   print "|---|---:|---:|---:|---:|---:|"
   if what then
     assert(doit[what], "there is no such question: scenes, " .. table.concat(memory.verbs, ", "))
     print_row(what, n, memory.measure(n, doit[what]))
     return
   end
-  local times = { evaluate = 100000, simulate = 20000, roots = 10000, verify = 2000, sample = 20000, sensitivity = 20000 }
+  local times = { evaluate = 100000, simulate = 20000, roots = 10000, verify = 2000, sample = 20000,
+    sensitivity = 20000 }
   print_row("a three-link arm, built, run for .01 s, dropped", 20000, memory.measure(20000, memory.scene))
   for _, name in ipairs(memory.verbs) do
     print_row(("`%s`"):format(name), times[name], memory.measure(times[name], doit[name]))
   end
 end
 
-if not ... or type(...) ~= "string" or not (...):find "memory$" then main(arg and arg[1], tonumber(arg and arg[2] or 1000)) end
+if arg and arg[0] and arg[0]:find "bench/memory%.lua$" then main(arg[1], tonumber(arg[2] or 1000)) end
 
 return memory

@@ -5,7 +5,8 @@ local scenes = { "double_pendulum", "manipulator", "n_link_chain", "four_bar", "
   "inverse_kinematics", "ur5", "verify_arm", "slider_crank_loop" }
 
 local function records(scene, environment)
-  local pipe = assert(io.popen(("%s '%s' run --quiet --json - scripts/%s.lua 2>/dev/null"):format(environment, ambit, scene)))
+  local command = ("%s '%s' run --quiet --json - scripts/%s.lua 2>/dev/null"):format(environment, ambit, scene)
+  local pipe = assert(io.popen(command))
   local text = pipe:read "a"
   local good = pipe:close()
   return good and text:gsub('"[a-z_]*seconds[a-z_]*":[-+0-9.e]+', "")

@@ -4,7 +4,8 @@ package.path = (arg[0]:match ".*/" or "./") .. "../../scripts/bench/?.lua;" .. p
 local ambit = require "ambit"
 local memory = require "memory"
 
-local times = { scenes = 600, evaluate = 4000, simulate = 2000, roots = 1000, verify = 800, sample = 2000, sensitivity = 2000 }
+local times = { scenes = 600, evaluate = 4000, simulate = 2000, roots = 1000, verify = 800, sample = 2000,
+  sensitivity = 2000 }
 local NODES = 1000   -- what the module, the questions and nothing else may hold
 local SETTLING = 4096 -- bytes by which tables of Lua and of the allocator differ between two counts
 local bad = 0
