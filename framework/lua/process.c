@@ -141,7 +141,7 @@ static int heap(lua_State *L) {
 #if defined(__GLIBC__) && (__GLIBC__ > 2 || __GLIBC_MINOR__ >= 33)
   struct mallinfo2 m = mallinfo2();
   if (m.uordblks + m.hblkhd > 0) /* sanitizers have a heap of their own */
-    lua_pushinteger(L, (lua_Integer)(m.uordblks + m.hblkhd));
+    lua_pushinteger(L, (lua_Integer)m.uordblks + (lua_Integer)m.hblkhd);
   else
     lua_pushnil(L);
 #else
