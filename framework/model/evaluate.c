@@ -65,7 +65,8 @@ static bool all_given(const job *j) {
 /* Behind the run, whose results have been read. */
 static ambit_status find_partial(job *j, uint32_t *flags, ambit_failure *f) {
   const ambit_evaluate_request *q = j->q;
-  ambit_partial p = { q->graph, j->arena, &j->bound, j->tape, j->block, q->nexpr, (*flags & AMBIT_F_PARTIAL) != 0 };
+  ambit_partial p = { q->graph, j->arena, &j->bound, j->tape, j->block, q->nexpr, (*flags & AMBIT_F_PARTIAL) != 0,
+    !(j->seal & AMBIT_SEAL_KEEP) };
   if (q->partial) memset(q->partial, 0, q->nexpr);
   if (q->blame) q->blame[0] = '\0';
   if (!ambit_partial_possible(&p)) return AMBIT_OK;

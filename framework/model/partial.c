@@ -34,13 +34,17 @@ static ambit_status trace(const ambit_partial *p, uint32_t *cause, ambit_failure
 
 /* -- in the graph */
 
-static bool starts_taint(const ambit_node *x) { return !x->total && (x->constant || x->op == AMBIT_LEAF_UNKNOWN); }
+/* Constants that the tape computes itself raise flags of their own. */
+static bool starts_taint(const ambit_partial *p, const ambit_node *x) {
+  bool is_leaf = x->op == AMBIT_LEAF_UNKNOWN || x->op == AMBIT_LEAF_CONSTANT;
+  return !x->total && (is_leaf || (x->constant && p->folded));
+}
 
 /* taint [walk->count]: by constants and data that are partial themselves */
 static void spread(const ambit_partial *p, const ambit_walk *walk, bool *taint) {
   for (size_t i = 0; i < walk->count; i++) {
     const ambit_node *x = ambit_graph_node(p->graph, walk->node[i]);
-    taint[i] = starts_taint(x);
+    taint[i] = starts_taint(p, x);
     if (walk->a[i] != i) taint[i] = taint[i] || taint[walk->a[i]] || taint[walk->b[i]];
   }
 }

@@ -17,7 +17,8 @@ typedef struct ambit_partial {
   const ambit_tape *tape;
   ambit_block *block; /* has run; its results are lost */
   size_t nexpr;
-  bool left; /* running it, some operation left its domain */
+  bool left;   /* running it, some operation left its domain */
+  bool folded; /* the tape holds constants in place of operations on constants */
 } ambit_partial;
 
 /* May one of the results be partial at all? Cheap. */

@@ -215,6 +215,14 @@ static int32_t emit(const solver *s, ambit_sink *sink, double from, double to) {
   return !stop && sink->progress ? sink->progress(sink, share_done(p, to), NULL) : stop;
 }
 
+/* One step towards `to`. Nearer than a few roundings of the time no method can step: the states stay. */
+static int step(solver *s, double *t, double to, double *h) {
+  gsl_odeiv2_driver *d = s->driver;
+  if (fabs(to - *t) <= 4 * DBL_EPSILON * fabs(to)) return *t = to, GSL_SUCCESS;
+  if (fabs(*h) > s->step_max) *h = copysign(s->step_max, *h);
+  return gsl_odeiv2_evolve_apply(d->e, d->c, d->s, &s->system, t, to, h, s->x);
+}
+
 static ambit_status run(void *self, ambit_sink *sink) {
   solver *s = self;
   const ambit_problem *p = &s->problem;
@@ -225,8 +233,7 @@ static ambit_status run(void *self, ambit_sink *sink) {
   for (uint32_t next = 1; next < p->ntime; next += t == p->time[next]) {
     double from = t;
     if (steps++ >= s->steps_max) return too_many(s, t);
-    if (fabs(h) > s->step_max) h = copysign(s->step_max, h);
-    int code = gsl_odeiv2_evolve_apply(d->e, d->c, d->s, &s->system, &t, p->time[next], &h, s->x);
+    int code = step(s, &t, p->time[next], &h);
     if (s->counted) s->counted->tried = d->e->count + d->e->failed_steps;
     if (code != GSL_SUCCESS || t == from || !all_finite(s->x, p->nx))
       return give_up(s, from, code ? code : GSL_EFAILED);

@@ -215,7 +215,7 @@ describe("events", function()
     for kind in text:gmatch '"record":"(%a+)"' do
       if kind ~= "provenance" and kind ~= "plugin" then kinds[#kinds + 1] = kind end
     end
-    assert.same({ "event", "step", "step", "event", "result" }, kinds)
+    assert.same({ "event", "step", "step", "event", "result", "end" }, kinds)
     assert.is_truthy(text:find '"event":1,"x":{"x":%[0.5,0.5%]},"rigorous":true')
     assert.is_truthy(text:find '"event":2,"x":{"x":%[2,2%]},"rigorous":false') -- the run ends before all are there
   end)

@@ -271,4 +271,13 @@ describe("instants as text, drawn at random", function()
       holds(run(ramp, t, { solver = solver }).x.x, ("%d/%d"):format(b * b - a * a, d * d), 1e4, scale ^ 2)
     end
   end)
+
+  it("is reached by every method of a solver that proves nothing", function()
+    local fall = ambit.ode { states = { "x" }, equations = function(st) return { x = -st.x } end }
+    for _, method in ipairs { "rk4", "rk8pd", "msbdf" } do
+      local run = ambit.simulate { fall, initial = { 1 }, t = { 0, "3.1" }, solver = "gsl", method = method }
+      assert.equal("complete", run.status)
+      assert.is_true(math.abs(run.x.x:mid() - math.exp(-3.1)) < 1e-5)
+    end
+  end)
 end)
