@@ -48,6 +48,17 @@ static ambit_status host_fail(const ambit_host *host, ambit_status status, const
   return status;
 }
 
+static ambit_status host_fail_code(
+    const ambit_host *host, ambit_status status, const char *code, const char *format, ...) {
+  kit_host *h = (kit_host *)(uintptr_t)host;
+  va_list arguments;
+  (void)code;
+  va_start(arguments, format);
+  vsnprintf(h->message, sizeof h->message, format, arguments);
+  va_end(arguments);
+  return status;
+}
+
 static void host_note(const ambit_host *host, const char *format, ...) { (void)host, (void)format; }
 
 static const void *host_service(const ambit_host *host, const char *id) {
@@ -56,7 +67,8 @@ static const void *host_service(const ambit_host *host, const char *id) {
 }
 
 void kit_host_open(kit_host *h, const ambit_host *inner) {
-  *h = (kit_host) { .host = { sizeof h->host, inner->abi, host_alloc, host_fail, host_note, host_service },
+  *h = (kit_host) { .host = { sizeof h->host, inner->abi, host_alloc, host_fail, host_note, host_service,
+                        host_fail_code },
     .inner = inner };
 }
 
