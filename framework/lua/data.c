@@ -123,7 +123,10 @@ static int between(lua_State *L) {
   if (a.lo > b.hi) ambit_lua_error(L, "between: the interval is reversed: %g is greater than %g", a.lo, b.hi);
   ambit_interval range = { a.lo, b.hi };
   if (!ambit_interval_is_bounded(range)) ambit_lua_error(L, "between: the ends must be finite");
-  if (lo.e != hi.e) lo.e = ambit_lua_datum(L, name, range, between_all(a, b));
+  ambit_interval inner = between_all(a, b);
+  if (lo.e != hi.e && range.lo == range.hi && !(inner.lo <= inner.hi))
+    ambit_lua_error(L, "between: no number is known to lie between the ends, both are %g but for a rounding", range.lo);
+  if (lo.e != hi.e) lo.e = ambit_lua_datum(L, name, range, inner);
   *ambit_lua_push_expression(L, lo.e) = lo;
   return 1;
 }

@@ -32,4 +32,18 @@ function uncertain.data(expressions)
   return unknowns, lo, hi, inner, names
 end
 
+-- Do the initial values of a request meet the constraints (closed loops) by themselves, whatever the data? Then every
+-- choice of the data is a start of a solution, and a single one of them can be followed. Otherwise doubles would miss
+-- the constraints: of a single choice nothing is known, only of a whole set that holds some start.
+function uncertain.are_points_starts(q)
+  local invariants = core.system_invariants(q.system.system)
+  local leaves, values = { core.time() }, { core.expression(q.times[1]) }
+  table.move(q.system.symbols, 1, #q.system.symbols, 2, leaves)
+  table.move(q.initial, 1, #q.initial, 2, values)
+  for _, x in ipairs(core.evaluate("interval", {}, invariants, leaves, values)) do
+    if x.lo ~= 0 or x.hi ~= 0 then return false end
+  end
+  return true
+end
+
 return uncertain

@@ -44,19 +44,6 @@ local function uncertain_data(q, list)
   return uncertain.data(all)
 end
 
--- Do the initial values meet the constraints (closed loops) by themselves, whatever the data? Then every choice of the
--- data is a start of a solution, and a single one of them can be followed. Otherwise doubles would miss them.
-local function are_points_starts(q)
-  local invariants = core.system_invariants(q.system.system)
-  local leaves, values = { core.time() }, { core.expression(q.times[1]) }
-  table.move(q.system.symbols, 1, #q.system.symbols, 2, leaves)
-  table.move(q.initial, 1, #q.initial, 2, values)
-  for _, x in ipairs(core.evaluate("interval", {}, invariants, leaves, values)) do
-    if x.lo ~= 0 or x.hi ~= 0 then return false end
-  end
-  return true
-end
-
 -- The solver's tolerance, if it has one.
 local function tolerance_of(q)
   for i = 1, #q.options, 2 do
@@ -78,7 +65,7 @@ function verb.verify(t)
   local unknowns, lo, hi, inner, names = uncertain_data(q, list)
   local job = { asked = q, request = q, conditions = list, unknowns = unknowns, lo = lo, hi = hi, inner = inner,
     names = names,
-    sound_points = are_points_starts(q), budget = read_budget(t.budget), tolerance = tolerance_of(q) }
+    sound_points = uncertain.are_points_starts(q), budget = read_budget(t.budget), tolerance = tolerance_of(q) }
   search.run(job)
   local result = report.of(job)
   session.finish("verify", result, result.report,

@@ -265,6 +265,19 @@ describe("certify", function()
     assert.is_true(r.error.x < 0.633)
   end)
 
+  it("follows no single datum that constraints may exclude", function()
+    local core, odes = require "ambit.core", require "ambit.ode"
+    local rest = ambit.ode { states = { "x" }, equations = function() return { x = 0 } end }
+    local z = ambit.ode { states = { "z" }, equations = function() return { z = 0 } end }
+    -- cos(x) = 1: of [0, 1e-8] only 0 is a start, but doubles do not tell
+    local stretched = odes.of_system(core.system(rest.states, rest.units, rest.symbols, rest.rates,
+      { ambit.cos(rest.symbols[1]) - 1 }, { "stretched" }), "stretched", false, {})
+    local r = ambit.certify { stretched, z, t = { 0, 1 }, nodes = 2, criterion = "bounds",
+      initial = { x = ambit.between(0, "1e-8"), z = ambit.between(0, "1e-8") },
+      outputs = { o = function(s) return s.x end }, reduced_outputs = { o = function(s) return s.z end } }
+    assert.is_true(r.error.o == nil or r.error.o >= 1e-8)
+  end)
+
   it("takes the text of an error bound for no more than it says", function()
     local bound = require "ambit.certify.bound"
     local function read(text) return select(2, bound.read({ x = text }, { { name = "x" } }, "certify")).x end

@@ -88,6 +88,7 @@ local function stock(code)
 end
 
 describe("arithmetic on texts in a host's Lua", function()
+  if require "ambit.core".is_sanitized then return end -- a stock lua5.4 cannot load what the sanitizers made
   it("has Lua's results", function()
     assert.equal("-124.14 0.25 11 integer 1 8.0 nil\n", stock [[
       require "ambit"

@@ -2,15 +2,24 @@
 -- instants, how far the supremum and the infimum of an output of the reduced model are off those of the detailed one.
 --
 -- sup Y is known from above by an enclosure over all data, and from below by what the output surely is for single
--- choices of the data; so are inf Y and those of the reduced model. The bound holds for the true ranges.
+-- choices of the data, or for all of them where constraints may exclude single ones; so are inf Y and those of the
+-- reduced model. The bound holds for the true ranges.
 local core = require "ambit.core"
 local couple = require "ambit.certify.couple"
 local run = require "ambit.certify.run"
+local uncertain = require "ambit.uncertain"
 local values = require "ambit.certify.values"
 
 local bounds = {}
 
 local MOST_CORNERS = 4 -- uncertain data of which all corners are tried; otherwise each by itself
+
+-- The data as they are: a whole set holds a start of the system, of its single points that is not known.
+local function whole(lo, hi)
+  local at = {}
+  for j in ipairs(lo) do at[j] = core.interval(lo[j], hi[j]) end
+  return { at }
+end
 
 -- Choices of the data, within the tolerances: the middle, and corners.
 local function choices(lo, hi, inner)
@@ -43,7 +52,7 @@ end
 local function inner(q, how, instants, total)
   local unknowns, lo, hi, inside = run.data(q)
   local least, most = {}, {}
-  for _, at in ipairs(choices(lo, hi, inside)) do
+  for _, at in ipairs(uncertain.are_points_starts(q) and choices(lo, hi, inside) or whole(lo, hi)) do
     local data = {}
     for j, x in ipairs(at) do data[j] = core.expression(x) end
     local part = values.one(values.at_data(q, unknowns, data), how, instants)

@@ -60,8 +60,12 @@ local function choice(job, part)
     middle[j] = math.min(math.max(0.5 * lo + 0.5 * hi, lo), hi)
   end
   for j, x in ipairs(box.allowed(job, middle)) do
-    local known = job.inner.lo[j] <= job.inner.hi[j]
-    local value = known and core.interval(x, x) or core.interval(job.lo[j], job.hi[j])
+    local value = core.interval(job.lo[j], job.hi[j])
+    if not job.sound_points then -- some choice of these meets the constraints
+      value = core.interval(part.lo[j], part.hi[j])
+    elseif job.inner.lo[j] <= job.inner.hi[j] then
+      value = core.interval(x, x)
+    end
     self.values[j], self.data[job.names[j]] = core.expression(value), value
   end
   for i, name in ipairs(q.system.states) do self.initial[name] = self:value(q.initial[i]) end
