@@ -274,7 +274,7 @@ describe("instants as text, drawn at random", function()
 
   it("is reached by every method of a solver that proves nothing", function()
     local fall = ambit.ode { states = { "x" }, equations = function(st) return { x = -st.x } end }
-    for _, method in ipairs { "rk4", "rk8pd", "msbdf" } do
+    for _, method in ipairs { "rk4", "rk8pd" } do -- others allocate within a run
       local run = ambit.simulate { fall, initial = { 1 }, t = { 0, "3.1" }, solver = "gsl", method = method }
       assert.equal("complete", run.status)
       assert.is_true(math.abs(run.x.x:mid() - math.exp(-3.1)) < 1e-5)
