@@ -145,6 +145,9 @@ void ambit_lua_open_foreign(lua_State *L, ambit_lua *core);    /* foreign.c: plu
 
 /* A metatable for the named type with the given functions, all with the state as upvalue; left on the stack. */
 void ambit_lua_new_type(lua_State *L, ambit_lua *core, const char *type, const luaL_Reg *functions);
+/* Ends a __gc of the object at 1: finalisers and tables with weak keys may still reach it, and whoever does is refused,
+** since it has no type any more. Returns 0. */
+int ambit_lua_retire(lua_State *L);
 void ambit_lua_set_functions(lua_State *L, ambit_lua *core, const luaL_Reg *functions);
 
 int luaopen_ambit_core(lua_State *L);

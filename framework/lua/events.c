@@ -13,7 +13,7 @@ static int release(lua_State *L) {
   ambit_held_set_clear(&w->set);
   free(w->lo);
   memset(w, 0, sizeof *w);
-  return 0;
+  return ambit_lua_retire(L);
 }
 
 /* -- making one */

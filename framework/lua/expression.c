@@ -10,11 +10,12 @@ static ambit_lua_expression *self(lua_State *L) { return luaL_checkudata(L, 1, A
 /* __gc, not in the standard environment: it only takes the expression off the list. */
 static int forget(lua_State *L) {
   ambit_lua_box *box = luaL_checkudata(L, 1, AMBIT_TYPE_EXPRESSION);
-  if (!box->link) return 0;
-  *box->link = box->next;
-  if (box->next) box->next->link = box->link;
-  box->link = NULL;
-  return 0;
+  if (box->link) {
+    *box->link = box->next;
+    if (box->next) box->next->link = box->link;
+    box->link = NULL;
+  }
+  return ambit_lua_retire(L);
 }
 
 /* An expression that shares much can stand for a text of astronomical length. */

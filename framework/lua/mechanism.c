@@ -15,7 +15,7 @@ static int close(lua_State *L) {
   ambit_mechanism **m = luaL_checkudata(L, 1, AMBIT_TYPE_MECHANISM);
   if (*m) ambit_mechanism_close(*m);
   *m = NULL;
-  return 0;
+  return ambit_lua_retire(L);
 }
 
 /* mechanism(name) */

@@ -31,7 +31,7 @@ static int close(lua_State *L) {
   ambit_graph_release(&s->holder);
   ambit_arena_close(s->arena);
   memset(s, 0, sizeof *s);
-  return 0;
+  return ambit_lua_retire(L);
 }
 
 static const char *text_at(lua_State *L, ambit_arena *arena, int idx, lua_Integer i) {

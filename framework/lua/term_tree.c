@@ -26,7 +26,7 @@ static int close(lua_State *L) {
   held_tree *held = luaL_checkudata(L, 1, TYPE);
   ambit_graph_release(&held->holder);
   ambit_term_tree_close(&held->tree);
-  return 0;
+  return ambit_lua_retire(L);
 }
 
 /* A number not below 0 and not above the greatest that fits. */

@@ -16,7 +16,7 @@ static int close(lua_State *L) {
   free(track->dense);
   ambit_held_set_clear(&track->set);
   memset(track, 0, sizeof *track);
-  return 0;
+  return ambit_lua_retire(L);
 }
 
 static bool reserve(ambit_track *track, size_t steps) {

@@ -6,6 +6,12 @@
 #include <stdio.h>
 #include <string.h>
 
+int ambit_lua_retire(lua_State *L) {
+  lua_pushnil(L);
+  lua_setmetatable(L, 1);
+  return 0;
+}
+
 ambit_lua_expression *ambit_lua_push_expression(lua_State *L, ambit_expr e) {
   if (e == AMBIT_NO_EXPR) ambit_lua_error(L, "out of memory while building an expression");
   ambit_lua *core = AMBIT_LUA(L);

@@ -41,7 +41,7 @@ end
 local function finish(problem, wish)
   local worst, signalled, by_signal = worst_of(problem), core.interrupted()
   local exit = code.exit(worst)
-  if wish and wish ~= 0 then exit = wish end
+  if wish and wish ~= 0 then exit = wish % 256 ~= 0 and wish or 1 end -- the system keeps 8 bits
   if signalled then exit = by_signal end
   if problem then complain(problem) end
   local reason = problem and tostring(problem):match "^[^\n]*"

@@ -336,7 +336,7 @@ return {
     uncertain = 2,
     unknowns = 3,
     asked = 1437,
-    nodes = 696,
+    nodes = 702,
     tape_slots = 96,
     tape_instructions = 76,
     allocations_run = 0,
