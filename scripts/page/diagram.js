@@ -111,7 +111,10 @@ class Diagram {
 
   // -- drawing
 
+  // The tip and the focus stay with their mark: a page is drawn again whenever its size changes.
   draw() {
+    const told = this.picked && !tip.isHidden() ? this.picked : null;
+    const focused = told && told.group === document.activeElement;
     const marks = this.shown = this.marks();
     this.scales(marks);
     this.place(marks);
@@ -121,7 +124,9 @@ class Diagram {
     this.drawFront(this.front(marks));
     for (const mark of marks) this.drawMark(mark);
     this.describe(marks);
-    this.pick(null);
+    const again = told && marks.find(mark => mark.row === told.row);
+    if (again && focused) this.hold(again);
+    else this.pick(again);
   }
 
   drawAxes() {
@@ -194,15 +199,26 @@ class Diagram {
 
   // -- hands
 
+  // The tip of another diagram is none of this one's.
   pick(mark) {
-    if (this.picked) this.picked.group.classList.remove("picked");
-    this.rows.forEach(row => row.classList.remove("picked"));
+    const before = this.picked;
     this.picked = mark;
-    if (!mark) return tip.hide();
+    if (before) {
+      before.group.classList.remove("picked");
+      this.rows.forEach(row => row.classList.remove("picked"));
+      if (!mark) tip.hide();
+    }
+    if (!mark) return;
     mark.group.classList.add("picked");
     this.rows[mark.number].classList.add("picked");
     const box = this.svg.getBoundingClientRect();
-    return tip.show(tip.row(this.rows[mark.number]), box.left + mark.px, box.top + mark.py);
+    tip.show(tip.row(this.rows[mark.number]), box.left + mark.px, box.top + mark.py);
+  }
+
+  // The only mark that Tab leads to has the focus.
+  hold(mark) {
+    for (const other of this.shown) other.group.setAttribute("tabindex", mark === other ? 0 : -1);
+    mark.group.focus({ preventScroll: true });
   }
 
   nearest(event) {
@@ -218,9 +234,7 @@ class Diagram {
   step(way) {
     const order = [...this.shown].sort((a, b) => a.px - b.px || a.py - b.py);
     const next = order[(order.indexOf(this.picked) + way + order.length) % order.length];
-    if (!next) return;
-    for (const mark of order) mark.group.setAttribute("tabindex", mark === next ? 0 : -1);
-    next.group.focus({ preventScroll: true });
+    if (next) this.hold(next);
   }
 
   listen() {

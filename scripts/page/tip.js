@@ -12,6 +12,8 @@ const tip = {
 
   hide() { by("tip").hidden = true; },
 
+  isHidden() { return by("tip").hidden; },
+
   // The cells of a row of a table that say something.
   row(row) {
     const heads = row.closest("table").tHead.rows[0].cells, list = make("dl");

@@ -52,32 +52,66 @@ function front(section, data, quantity) {
   }
 }
 
-// The words under the pointer, under a finger and at the focus are those of the row of the table.
-async function tips(section, data) {
-  const svg = section.querySelector("svg.plot"), marks = [...section.querySelectorAll(".mark")];
-  if (marks.length === 0) return;
+// The middle of a mark in the window.
+function middle(mark) {
+  const { left, top, width, height } = mark.getBoundingClientRect();
+  return [left + width / 2, top + height / 2];
+}
+
+// The tip is there and has the words of the row of a mark at that place; marks may lie on each other.
+function told(what, marks, [x, y]) {
+  const box = by("tip").getBoundingClientRect(), said = by("tip").textContent;
+  check(!by("tip").hidden, `${what} shows no tip`);
+  const near = marks.filter(mark => Math.hypot(middle(mark)[0] - x, middle(mark)[1] - y) < 1);
+  check(near.some(mark => said.includes(mark.getAttribute("aria-label").split(": ")[0])), `${what}: the tip says ${said}`);
+  check(box.left >= 0 && box.right <= innerWidth, `${what}: the tip leaves the window`);
+}
+
+const point = (svg, type, [x, y]) =>
+  svg.dispatchEvent(new PointerEvent(type, { clientX: x, clientY: y, bubbles: true }));
+
+// The words under the pointer, under a finger and at the focus are those of the row of the table. The marks are asked
+// for when they are needed: the diagram is drawn again when the browser says its size, which may be late.
+async function tips(section) {
+  const svg = section.querySelector("svg.plot"), marks = () => [...section.querySelectorAll(".mark")];
+  if (marks().length === 0) return;
   svg.scrollIntoView({ block: "center" });
   await wait(50);
   for (const type of ["pointermove", "pointerdown"]) {
-    const at = marks[0].getBoundingClientRect();
-    const place = { clientX: at.left + at.width / 2, clientY: at.top + at.height / 2, bubbles: true };
-    svg.dispatchEvent(new PointerEvent(type, place));
-    check(!by("tip").hidden, `${type} shows no tip`);
-    const said = by("tip").textContent;
-    check(data.rows.some(row => said.includes(row.label)), `the tip says ${said}`);
-    const box = by("tip").getBoundingClientRect();
-    check(box.left >= 0 && box.right <= innerWidth, "the tip leaves the window");
+    for (const mark of marks()) {
+      const place = middle(mark);
+      point(svg, type, place);
+      told(type, marks(), place);
+    }
     fits();
-    svg.dispatchEvent(new PointerEvent("pointermove", { clientX: -500, clientY: -500, bubbles: true }));
+    point(svg, "pointermove", [-500, -500]);
     check(by("tip").hidden, "the tip stays when the pointer has left");
   }
-  marks.find(mark => mark.tabIndex === 0).focus();
+  drawnAgain(section, svg, marks);
+  marks().find(mark => mark.tabIndex === 0).focus();
   check(!by("tip").hidden, "the focus shows no tip");
   const first = by("tip").textContent;
   press(svg, "ArrowRight");
-  if (marks.length > 1) check(by("tip").textContent !== first, "the arrow keys do not go on");
+  if (marks().length > 1) check(by("tip").textContent !== first, "the arrow keys do not go on");
   press(document.body, "Escape");
   check(by("tip").hidden, "Escape does not hide the tip");
+  document.activeElement.blur();
+}
+
+// A tip outlives that its diagram is drawn again, as long as its mark is there, and so does the focus.
+function drawnAgain(section, svg, marks) {
+  const legend = [...section.querySelectorAll(".diagram .legend button:not(.plain)")];
+  const redraw = () => legend.forEach(made => { made.click(); made.click(); });
+  const others = legend.slice(1), twice = () => others.forEach(made => { made.click(); made.click(); });
+  const place = middle(marks()[0]);
+  point(svg, "pointermove", place);
+  twice();
+  told("after it was drawn again", marks(), place);
+  redraw();
+  check(by("tip").hidden, "the tip stays without its mark");
+  marks()[0].focus();
+  twice();
+  check(document.activeElement === marks()[0], "the focus is lost when the diagram is drawn again");
   document.activeElement.blur();
 }
 
@@ -93,7 +127,7 @@ async function diagram(section, data) {
     front(section, data, quantity);
   }
   if (quantities.length > 0) quantities.find(made => made.dataset.value === data.measure).click();
-  await tips(section, data);
+  await tips(section);
   const legend = [...section.querySelectorAll(".diagram .legend button:not(.plain)")];
   same(legend.length, new Set(data.rows.map(row => row.family)).size, "curves in the legend");
   const marks = () => section.querySelectorAll(".mark").length, before = marks();
