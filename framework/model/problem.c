@@ -277,11 +277,23 @@ static ambit_status seal_invariants(build *b) {
   return seal_jacobian(b, b->ninvariant, g, "invariant", name, &p->invariant_jacobian);
 }
 
+/* A system without an implicit form: the tape of f, and no unknowns. */
+static ambit_status seal_implicit(build *b) {
+  ambit_implicit *implicit = room(b, 1, sizeof *implicit);
+  uint32_t *none = room(b, 1, sizeof *none);
+  if (!implicit || !none) return no_memory(b);
+  *implicit = (ambit_implicit) { .size = sizeof *implicit, .stage_end = none, .pivot = none };
+  b->p->implicit = implicit;
+  return ambit_tape_seal(b->graph, b->arena, b->p->nx, b->rate, count_inputs(b), b->input, b->p->nx,
+      AMBIT_TAPE_SERIES | b->q->seal, &implicit->tape, b->f);
+}
+
 static ambit_status seal_wanted(build *b) {
   uint32_t want = b->q->want;
   ambit_problem *p = b->p;
   ambit_status status = AMBIT_OK;
   if (want & (AMBIT_WANT_RHS | AMBIT_WANT_SERIES)) status = seal_flow(b, p->nx, b->rate, &p->rhs);
+  if (status == AMBIT_OK && (want & AMBIT_WANT_IMPLICIT)) status = seal_implicit(b);
   if (status == AMBIT_OK && (want & AMBIT_WANT_JACOBIAN))
     status = seal_jacobian(b, p->nx, b->rate, "right-hand side of state", p->name, &p->jacobian);
   if (status == AMBIT_OK && (want & AMBIT_WANT_SLOPE) && p->np) status = seal_slope(b, &p->slope);

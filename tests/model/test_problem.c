@@ -85,6 +85,19 @@ static void their_data_become_parameters(void **unused) {
   close_scene(&s);
 }
 
+static void what_has_no_implicit_form_comes_without_unknowns(void **unused) {
+  (void)unused;
+  scene s;
+  open_scene(&s);
+  assert_int_equal(build(&s, AMBIT_WANT_RHS), AMBIT_OK);
+  assert_null(s.problem.implicit);
+  assert_int_equal(build(&s, AMBIT_WANT_IMPLICIT), AMBIT_OK);
+  const ambit_implicit *i = s.problem.implicit;
+  assert_true(!s.problem.rhs && i->size == sizeof *i && i->na == 0 && i->nstage == 0 && i->stage_end && i->pivot);
+  assert_true(i->tape->nin == 3 && i->tape->nout == 2 && (i->tape->flags & AMBIT_TAPE_SERIES));
+  close_scene(&s);
+}
+
 static void their_jacobian_comes_with_jacobians(void **unused) {
   (void)unused;
   scene s;
@@ -129,6 +142,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(invariants_nobody_wants_are_not_built),
     cmocka_unit_test(their_data_become_parameters),
+    cmocka_unit_test(what_has_no_implicit_form_comes_without_unknowns),
     cmocka_unit_test(their_jacobian_comes_with_jacobians),
     cmocka_unit_test(no_derivative_is_an_error_only_where_one_is_needed),
     cmocka_unit_test(strangers_are_named),

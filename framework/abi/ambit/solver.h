@@ -22,6 +22,9 @@
 /* one variable more in the arithmetic's context, behind those of the unknowns: the time within a step, number nu of
 ** set(); a context without it (an older host's) only gives wider results */
 #define AMBIT_WANT_TIME 128u
+/* x' and equations for further unknowns that enter linearly, instead of formulas that divide: ambit_implicit; without
+** AMBIT_WANT_RHS the formulas of x' = f are not even built where there is an implicit form */
+#define AMBIT_WANT_IMPLICIT 256u
 
 /* What a solver solves. FLOW: x' = f from a start. ROOTS: f(x, p) = 0 with as many equations as unknowns x; rhs and jacobian are those of f, x0
 ** is the box to be searched, there is no time; invariant: further equations that a root satisfies too, or absent. */
@@ -39,6 +42,23 @@
 /* ROOTS: the further equations hold at every root of f that they do not exclude as soon as its enclosure is narrow
 ** (redundant ones that single out some of isolated roots): they narrow and exclude, roots are proved by f alone */
 #define AMBIT_WISH_IMPLIED 4u
+
+/* A system in implicit form: unknowns a (accelerations, dependent speeds, multipliers) with R(x, a, p, t) = 0 and
+** x' = F(x, a, p, t). They are solved for in stages: the equations of stage s are affine in the unknowns of stage s,
+** depend on those of earlier stages in any way and on those of later stages not at all; dR_s/da_s is square. Where all
+** of them are regular, R = 0 determines a, and F is f. A solver proves that they are, on the sets that it encloses. F may
+** depend on all unknowns, affinely on those of each stage. No instruction divides by a pivot of dR/da. A system that has
+** no such form has na = 0 and nstage = 0: then the tape is that of f. */
+typedef struct ambit_implicit {
+  uint32_t size, na, nstage, pad;
+  /* a SERIES tape; inputs: x [nx], a [na], p [np], then t if uses_time; outputs: F [nx], R [na] */
+  const ambit_tape *tape;
+  /* [nstage] unknowns and equations of stage s: from stage_end[s - 1] (0 for the first) up to stage_end[s] - 1 */
+  const uint32_t *stage_end;
+  /* [na] the order, stage by stage, in which unknowns are best eliminated, unknown pivot[k] by equation pivot[k]: joints
+  ** from the tips to the base, multipliers behind them */
+  const uint32_t *pivot;
+} ambit_implicit;
 
 /* Inputs of rhs, jacobian: x [nx], p [np], then t if uses_time. Inputs of initial: the unknowns [nu];
 ** its outputs: x(t0) [nx], p [np]. An unknown that several data share occurs once: correlation is kept. */
@@ -62,6 +82,7 @@ typedef struct ambit_problem {
   /* [nworker] contexts like actx, one for each thread; worker[0] is actx; NULL unless wanted */
   void *const *worker;
   const ambit_reduction *reduction; /* AMBIT_SOLVES_REDUCTION; else NULL */
+  const ambit_implicit *implicit;   /* AMBIT_WANT_IMPLICIT; else NULL */
 } ambit_problem;
 
 /* A set of states that still knows what it depends on: for every u in the box of the unknowns, with
