@@ -8,6 +8,7 @@
 #include <fenv.h>
 #include <link.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -88,7 +89,7 @@ static void *open_library(const char *file, char reason[AMBIT_REASON_MAX]) {
   return NULL;
 }
 
-/* The file that was looked at is the one that is mapped: the loader opens it by its name once more. */
+/* The file that was looked at is the one that is mapped: the loader opens it by its real name once more. */
 static void *open_unchanged(const char *file, struct stat *about, char reason[AMBIT_REASON_MAX]) {
   struct stat after;
   if (stat(file, about) != 0) {
@@ -105,8 +106,15 @@ static void *open_unchanged(const char *file, struct stat *about, char reason[AM
 }
 
 ambit_status ambit_load_file(const char *file, const char *id, ambit_loaded *loaded, char reason[AMBIT_REASON_MAX]) {
-  if (!ambit_object_check(file, reason, AMBIT_REASON_MAX)) return AMBIT_INVALID;
-  void *handle = open_unchanged(file, &loaded->about, reason);
+  /* Resolved once: a link that somebody turns elsewhere in between leads nowhere else. */
+  char *real = realpath(file, NULL);
+  if (!real) {
+    snprintf(reason, AMBIT_REASON_MAX, "%s", errno == ENOENT ? "no such file" : strerror(errno));
+    return AMBIT_INVALID;
+  }
+  bool good = ambit_object_check(real, reason, AMBIT_REASON_MAX);
+  void *handle = good ? open_unchanged(real, &loaded->about, reason) : NULL;
+  free(real);
   if (!handle) return AMBIT_INVALID;
   const void *entry = find_entry(handle, reason);
   if (!entry) return refuse(handle, AMBIT_INVALID);

@@ -25,7 +25,7 @@ static ambit_status hash(
   struct stat now;
   ambit_status status = find_digest(r, &digest, f);
   if (status != AMBIT_OK) return status;
-  int open_file = open(file, O_RDONLY | O_CLOEXEC);
+  int open_file = open(file, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY); /* a pipe has nothing to read, and ends */
   if (open_file < 0) return ambit_fail(f, AMBIT_INVALID, "cannot say whence this comes: %s: %s", file, strerror(errno));
   status = digest->sha256(open_file, sha256);
   bool same = fstat(open_file, &now) == 0 && (!about || ambit_trust_same(about, &now)); /* after it was read */
@@ -58,4 +58,12 @@ ambit_status ambit_provenance_slow(ambit_registry *r, ambit_identity *out, ambit
 ambit_status ambit_provenance_file(
     ambit_registry *r, const char *file, char sha256[AMBIT_DIGEST_TEXT], ambit_failure *f) {
   return hash(r, file, NULL, sha256, f);
+}
+
+ambit_status ambit_provenance_text(
+    ambit_registry *r, const void *text, size_t bytes, char sha256[AMBIT_DIGEST_TEXT], ambit_failure *f) {
+  const ambit_digest_service *digest;
+  ambit_status status = find_digest(r, &digest, f);
+  if (status == AMBIT_OK) digest->sha256_bytes(text, bytes, sha256);
+  return status;
 }

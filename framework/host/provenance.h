@@ -20,7 +20,10 @@ typedef struct ambit_identity {
 ambit_status ambit_provenance_plugin(ambit_registry *r, size_t i, ambit_identity *out, ambit_failure *f);
 /* The slow path of the elementary functions (slow.h), which is not of a registry; UNABLE: it is not loaded. */
 ambit_status ambit_provenance_slow(ambit_registry *r, ambit_identity *out, ambit_failure *f);
-/* A file as it lies there now: a scene, the kernel (ambit_trust_kernel). */
+/* A file as it lies there now: the kernel (ambit_trust_kernel). */
 ambit_status ambit_provenance_file(
     ambit_registry *r, const char *file, char sha256[AMBIT_DIGEST_TEXT], ambit_failure *f);
+/* A text that was read: a scene, which may come out of a pipe. */
+ambit_status ambit_provenance_text(
+    ambit_registry *r, const void *text, size_t bytes, char sha256[AMBIT_DIGEST_TEXT], ambit_failure *f);
 #endif

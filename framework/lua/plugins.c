@@ -182,20 +182,27 @@ static int loaded(lua_State *L) {
   return 1;
 }
 
-/* sha256([file]) -> of a file as it lies there, and its name; without a file: of the kernel's */
+/* sha256(text) -> of a text */
 static int sha256(lua_State *L) {
-  char text[AMBIT_DIGEST_TEXT];
+  char digits[AMBIT_DIGEST_TEXT];
   ambit_failure f = { 0 };
-  if (lua_isnoneornil(L, 1)) {
-    char *kernel = ambit_trust_kernel();
-    lua_settop(L, 0);
-    lua_pushstring(L, kernel ? kernel : "");
-    free(kernel);
-  }
-  const char *file = luaL_checkstring(L, 1);
-  if (ambit_provenance_file(AMBIT_LUA(L)->registry, file, text, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
-  lua_pushstring(L, text);
-  lua_pushvalue(L, 1);
+  size_t bytes;
+  const char *text = luaL_checklstring(L, 1, &bytes);
+  if (ambit_provenance_text(AMBIT_LUA(L)->registry, text, bytes, digits, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
+  lua_pushstring(L, digits);
+  return 1;
+}
+
+/* kernel() -> its file, and the SHA-256 of that as it lies there */
+static int kernel(lua_State *L) {
+  char digits[AMBIT_DIGEST_TEXT];
+  ambit_failure f = { 0 };
+  char *name = ambit_trust_kernel();
+  lua_pushstring(L, name ? name : "");
+  free(name);
+  if (ambit_provenance_file(AMBIT_LUA(L)->registry, lua_tostring(L, -1), digits, &f) != AMBIT_OK)
+    ambit_lua_raise(L, &f);
+  lua_pushstring(L, digits);
   return 2;
 }
 
@@ -229,7 +236,7 @@ static int nearest(lua_State *L) {
 
 void ambit_lua_open_plugins(lua_State *L, ambit_lua *core) {
   static const luaL_Reg functions[] = { { "plugin", plugin }, { "list", list }, { "nearest", nearest },
-    { "trust", trust }, { "provenance", provenance }, { "loaded", loaded }, { "sha256", sha256 },
+    { "trust", trust }, { "provenance", provenance }, { "loaded", loaded }, { "sha256", sha256 }, { "kernel", kernel },
     { "allow_shadow", allow_shadow }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
 }

@@ -62,7 +62,8 @@ function command.run(list)
   core.notes(not options.quiet)
   if not options.quiet then scene.note_strays(words, known) end
   if options.json then
-    provenance.begin(nil, file)
+    local text, why = provenance.read(file)
+    if not text then return complain(why) or 1 end
     local good, problem = pcall(provenance.records, options.json)
     if not good then return complain(problem) or 1 end
     if options.json == "-" then scene.print_to_stderr() end

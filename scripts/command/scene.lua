@@ -30,9 +30,8 @@ end
 
 -- Loads and runs file with the given words; false and the message with traceback if that fails.
 function scene.run(file, words)
-  provenance.begin(nil, file)
   _G.arg = table.move(words, 1, #words, 1, { [0] = file })
-  local chunk, problem = loadfile(file)
+  local chunk, problem = provenance.load(file)
   if not chunk then return false, problem end
   return xpcall(chunk, explain, table.unpack(words))
 end

@@ -82,7 +82,6 @@ function command.run(list)
   end
   local problem = files.problem(options)
   if problem then return complain(problem) or 1 end
-  if file then provenance.begin(nil, file) end
   local good, selected = pcall(function()
     return select_cases.of(file and select_cases.file(file) or select_cases.own(), options)
   end)

@@ -4,11 +4,33 @@ local core = require "ambit.core"
 
 local provenance = {}
 
-local command, scene -- what the command line said
+local command, scene -- of the command line: its word, and { file, text, sha256 }
 local elsewhere = {} -- "kind.name" of the plugins that child processes loaded
 
--- The name of the command, and (or) the file of the scene.
-function provenance.begin(name, file) command, scene = name or command, file or scene end
+function provenance.begin(name) command = name end
+
+-- -- the scene
+
+-- The text of a scene's file, read once: what is hashed is what runs, and a pipe can be read but once. nil and a
+-- message: it cannot be read.
+function provenance.read(name)
+  if scene and scene.file == name then return scene.text end
+  local file, problem = io.open(name, "rb")
+  if not file then return nil, "cannot open " .. problem end
+  local text, why = file:read "a"
+  file:close()
+  if not text then return nil, ("cannot read %s: %s"):format(name, why) end
+  scene = { file = name, text = text }
+  return text
+end
+
+-- The function of a scene's file, as loadfile makes it; nil and a message.
+function provenance.load(name)
+  local text, problem = provenance.read(name)
+  if not text then return nil, problem end
+  text = text:gsub("^\xEF\xBB\xBF", ""):gsub("^#[^\n]*", "")
+  return load(text, "@" .. name)
+end
 
 -- -- plugins of child processes
 
@@ -44,8 +66,14 @@ local function distinct(plugins)
   return list
 end
 
-local function file_of(name)
-  local sha256, file = core.sha256(name)
+local function scene_of()
+  if not scene then return nil end
+  scene.sha256 = scene.sha256 or core.sha256(scene.text)
+  return { file = scene.file, sha256 = scene.sha256 }
+end
+
+local function kernel_of()
+  local file, sha256 = core.kernel()
   return { file = file, sha256 = sha256 }
 end
 
@@ -53,7 +81,7 @@ end
 -- file, sha256, shadows = "yes" or nil }, ... in the order in which they were loaded }, trusted = { folder, ... } }
 function provenance.now()
   load_elsewhere()
-  local all = { ambit = core.version, command = command, scene = scene and file_of(scene), kernel = file_of() }
+  local all = { ambit = core.version, command = command, scene = scene_of(), kernel = kernel_of() }
   local plugins, trusted = core.provenance()
   all.plugins = distinct(plugins)
   all.trusted = #trusted > 0 and trusted or nil
@@ -111,8 +139,8 @@ function provenance.records(name)
   local function add(key, value) fields[#fields + 1], fields[#fields + 2] = key, value end
   local function add_file(key, entry) add(key, { "file", entry.file, "sha256", entry.sha256 }) end
   if command then add("command", command) end
-  if scene then add_file("scene", file_of(scene)) end
-  add_file("kernel", file_of())
+  if scene then add_file("scene", scene_of()) end
+  add_file("kernel", kernel_of())
   local _, trusted = core.provenance()
   if #trusted > 0 then add("trusted", table.concat(trusted, ":")) end
   core.record("provenance", fields)

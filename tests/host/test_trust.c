@@ -1,8 +1,11 @@
 /* test_trust.c -- what may speak: plugins that take shipped names (findings S5), files and folders that others may
 ** write. Works as root and as a user; a folder of somebody else can be made by root only.
 */
+#include "host/load.h"
 #include "host/registry.h"
 #include "host/trust.h"
+#include <dlfcn.h>
+#include <link.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -93,6 +96,23 @@ static void looks_at_real_names(void **state) {
   unlink(link.root);
 }
 
+/* The loader is given the name that was looked at, not the link, which may lead elsewhere by then. */
+static void maps_the_real_file(void **state) {
+  place *p = *state;
+  char link[96], reason[AMBIT_REASON_MAX] = "";
+  snprintf(link, sizeof link, "%.40s-link.so", p->root);
+  assert_int_equal(symlink(p->file, link), 0);
+  ambit_loaded loaded;
+  struct link_map *map;
+  if (ambit_load_file(link, "arithmetic.small", &loaded, reason) != AMBIT_OK) fail_msg("%s", reason);
+  assert_int_equal(dlinfo(loaded.handle, RTLD_DI_LINKMAP, &map), 0);
+  char *real = realpath(p->file, NULL);
+  assert_string_equal(map->l_name, real);
+  free(real);
+  dlclose(loaded.handle);
+  unlink(link);
+}
+
 static void refuses_what_belongs_to_others(void **state) {
   place *p = *state;
   if (geteuid() != 0) skip();
@@ -159,6 +179,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test_setup_teardown(refuses_what_others_may_write, set_up, tear_down),
     cmocka_unit_test_setup_teardown(looks_at_real_names, set_up, tear_down),
+    cmocka_unit_test_setup_teardown(maps_the_real_file, set_up, tear_down),
     cmocka_unit_test_setup_teardown(refuses_what_belongs_to_others, set_up, tear_down),
     cmocka_unit_test(refuses_shipped_names),
     cmocka_unit_test(knows_its_own),

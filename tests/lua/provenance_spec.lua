@@ -130,6 +130,41 @@ ambit.evaluate { ambit.around(1, "1%%"), arithmetic = "minimal" }]]):format(fold
     os.remove(own)
   end)
 
+  it("is that of the text that runs, read once, also out of a pipe", function()
+    local hash = sha256sum(scene)
+    for _, words in ipairs { "/dev/stdin", "/dev/fd/0" } do
+      local text, code = shell(("cat %s | '%s' run --quiet --json - %s 2>&1"):format(scene, command, words))
+      assert.equal(0, code)
+      assert.truthy(text:find(('"scene":{"file":"%s","sha256":"%s"}'):format(words, hash), 1, true), text)
+      assert.truthy(text:find('"record":"value"', 1, true) and text:find('"record":"step"', 1, true), text)
+    end
+    local own = write(os.tmpname(), [[
+#!/usr/bin/env -S ambit run
+local file = io.open(arg[0], "w")
+file:write "other"
+file:close()
+print(require "ambit".provenance().scene.sha256, debug.getinfo(1).currentline)]])
+    hash = sha256sum(own)
+    assert.equal(hash .. "\t5\n", (shell(("'%s' run --quiet %s"):format(command, own))))
+    os.remove(own)
+    local text, code = shell(("echo 'return {}' | '%s' stability --json - /dev/stdin 2>&1"):format(command))
+    assert.equal(1, code)
+    assert.truthy(text:find("an empty one", 1, true), text)
+  end)
+
+  it("needs a scene that can be read", function()
+    local output = os.tmpname()
+    for file, problem in pairs { ["/nowhere/x.lua"] = "cannot open /nowhere/x.lua: No such file or directory",
+      ["/tmp"] = "cannot read /tmp: Is a directory" } do
+      for _, option in ipairs { "", "--json " .. output } do
+        local text, code = shell(("'%s' run --quiet %s %s 2>&1"):format(command, option, file))
+        assert.equal(1, code)
+        assert.truthy(text:find(problem, 1, true), text)
+      end
+    end
+    os.remove(output)
+  end)
+
   it("costs nothing where nobody asks", function()
     local text = shell(("'%s' run --quiet %s"):format(command, write(os.tmpname(), [[
 local ambit = require "ambit"

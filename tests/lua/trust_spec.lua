@@ -91,6 +91,20 @@ print(ambit.evaluate { ambit.between(5, 6), arithmetic = "minimal" })]])
   it("is removed", function() os.execute("rm -r " .. root) end)
 end)
 
+describe("a named pipe in a plugin's place", function()
+  it("is refused at once", function()
+    local root = os.tmpname()
+    os.remove(root)
+    os.execute(("umask 022; mkdir -p %s/solver && mkfifo %s/solver/pipe.so"):format(root, root))
+    for _, words in ipairs { "plugins pipe", "check " .. root .. "/solver/pipe.so" } do
+      local code, output = ambit(root, words)
+      assert.equal(1, code, words)
+      assert.truthy(output:find("pipe.so: not a regular file", 1, true), output)
+    end
+    os.execute("rm -r " .. root)
+  end)
+end)
+
 describe("the current folder", function()
   it("gives no modules to the command", function()
     local folder = os.tmpname()

@@ -2,6 +2,7 @@
 local case = require "ambit.suite.case"
 local check = require "ambit.check"
 local over = require "ambit.suite.over"
+local provenance = require "ambit.provenance"
 
 local select_cases = {}
 
@@ -18,7 +19,7 @@ end
 
 -- A user's file of cases: it returns a list of them.
 function select_cases.file(name)
-  local chunk, problem = loadfile(name)
+  local chunk, problem = provenance.load(name)
   if not chunk then error(problem, 0) end
   local list = chunk()
   if type(list) ~= "table" or #list == 0 then
