@@ -1,7 +1,6 @@
 /* core.c -- the module `ambit` and its C half `ambit.core`. */
 #include "lua/core.h"
 #include "base/meter.h"
-#include "lua/embedded.h"
 #include "num/rounding.h"
 #include <stdlib.h>
 #include <string.h>
@@ -74,8 +73,7 @@ static void collect(lua_State *L, ambit_lua *core) {
 /* A Lua error that passes leaves the standard environment behind. */
 static int in_standard_environment(lua_State *L) {
   ambit_lua *core = AMBIT_LUA(L);
-  if (core->profile && !core->framed) return ambit_lua_call_framed(L);
-  core->framed = false;
+  if (core->profile && !ambit_lua_is_framed(L)) return ambit_lua_call_framed(L);
   lua_CFunction f = lua_tocfunction(L, lua_upvalueindex(2));
   ambit_rounding outside = ambit_round_nearest();
   if (ambit_graph_is_due(core->graph)) collect(L, core);
@@ -139,30 +137,5 @@ int luaopen_ambit_core(lua_State *L) {
   ambit_lua_open_profile(L, core);
   ambit_lua_open_text(L, core);
   ambit_lua_open_foreign(L, core);
-  return 1;
-}
-
-static int embedded_load(lua_State *L) {
-  const ambit_embedded *file = lua_touserdata(L, lua_upvalueindex(1));
-  if (luaL_loadbufferx(L, file->text, file->size, file->chunk, "t") != LUA_OK) return lua_error(L);
-  lua_insert(L, 1);
-  lua_call(L, lua_gettop(L) - 1, 1);
-  return 1;
-}
-
-/* `require "ambit"`: the embedded files become loadable as ambit.*, then the prelude's own init makes the module. */
-int luaopen_ambit(lua_State *L) {
-  luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_PRELOAD_TABLE);
-  for (const ambit_embedded *file = ambit_embedded_files; file->name; file++) {
-    lua_pushlightuserdata(L, (void *)(uintptr_t)file);
-    lua_pushcclosure(L, embedded_load, 1);
-    lua_setfield(L, -2, file->name);
-  }
-  lua_pushcfunction(L, luaopen_ambit_core);
-  lua_setfield(L, -2, "ambit.core");
-  lua_pop(L, 1);
-  lua_getglobal(L, "require");
-  lua_pushliteral(L, "ambit.init");
-  lua_call(L, 1, 1);
   return 1;
 }

@@ -30,7 +30,6 @@ typedef struct ambit_lua {
   ambit_arena *arena;            /* texts that must live as long as the state */
   bool progress;                 /* draw a progress bar on stderr */
   struct ambit_profile *profile; /* of `ambit profile`, or NULL */
-  bool framed;                   /* the function that is called next has its frame in the profile */
   double deadline;               /* when runs are stopped, s of CPU time of this process; 0: never */
   const char *text_mode;         /* "ambit", "watched", "lua": whose is arithmetic on texts (text.c); NULL: Lua's */
   char text_rounded[80];         /* "scene.lua:12: " where Lua's arithmetic rounded a text (text.c), or "" */
@@ -109,8 +108,10 @@ ambit_dimension ambit_lua_dimension(lua_State *L, int idx, const char *what);
 ambit_dimension ambit_lua_dimension_op(
     lua_State *L, uint32_t op, ambit_dimension a, ambit_dimension b, const char *what);
 
-/* profile.c: calls the running function once more, in a frame of the profile; `framed` then says not to do it again. */
+/* profile.c: calls the running function once more, in a frame of the profile. */
 int ambit_lua_call_framed(lua_State *L);
+/* Is this the call that ambit_lua_call_framed made? */
+bool ambit_lua_is_framed(lua_State *L);
 
 /* Each adds its functions to the table on top of the stack (the state as upvalue). */
 void ambit_lua_open_functions(lua_State *L, ambit_lua *core);  /* functions.c: sin, pow, ... */

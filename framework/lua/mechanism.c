@@ -72,13 +72,17 @@ static int add(lua_State *L) {
   return 1;
 }
 
-/* written_by(mechanism, who or nil): formulas are that element's from now on, for messages about kinks */
+/* written_by(mechanism, who, f, ...) -> f(...); formulas written meanwhile are that element's, for messages about kinks.
+** f cannot yield: it is called from C, and would leave the others in the middle of it. */
 static int written_by(lua_State *L) {
-  static const char writer = 0;
-  ambit_graph_written_by(ambit_mechanism_graph(self(L)), luaL_optstring(L, 2, NULL));
-  lua_settop(L, 2);
-  lua_rawsetp(L, LUA_REGISTRYINDEX, &writer); /* the graph needs the text until it is told the next one */
-  return 0;
+  ambit_graph *g = ambit_mechanism_graph(self(L));
+  const char *other = ambit_graph_written_by(g, luaL_checkstring(L, 2));
+  int outcome = lua_pcall(L, lua_gettop(L) - 3, LUA_MULTRET, 0);
+  ambit_graph_written_by(g, other);
+  if (outcome == LUA_OK) return lua_gettop(L) - 2;
+  if (lua_isstring(L, -1) && strstr(lua_tostring(L, -1), "attempt to yield across a C-call"))
+    ambit_lua_error(L, "%s: a function that writes a formula cannot yield", lua_tostring(L, 2));
+  return lua_error(L);
 }
 
 /* pull(mechanism, part, port, quantity, count) -> {expression, ...}; part < 0: of the mechanism */

@@ -82,8 +82,19 @@ static void enter_function(lua_State *L) {
   lua_pop(L, 2);
 }
 
+/* The function is called by itself. A hook of the scene (debug.sethook) may call others in between. */
+bool ambit_lua_is_framed(lua_State *L) {
+  lua_Debug self, caller;
+  if (!lua_getstack(L, 1, &caller) || !lua_getstack(L, 0, &self)) return false;
+  luaL_checkstack(L, 2, "too many arguments");
+  lua_getinfo(L, "f", &self);
+  lua_getinfo(L, "f", &caller);
+  bool same = lua_rawequal(L, -1, -2);
+  lua_pop(L, 2);
+  return same;
+}
+
 int ambit_lua_call_framed(lua_State *L) {
-  ambit_lua *core = AMBIT_LUA(L);
   lua_Debug self;
   uint32_t depth = ambit_meter_depth();
   int arguments = lua_gettop(L);
@@ -92,9 +103,7 @@ int ambit_lua_call_framed(lua_State *L) {
   lua_getstack(L, 0, &self);
   lua_getinfo(L, "f", &self);
   lua_insert(L, 1);
-  core->framed = true;
   int outcome = lua_pcall(L, arguments, LUA_MULTRET, 0);
-  core->framed = false;
   ambit_meter_unwind(depth);
   return outcome == LUA_OK ? lua_gettop(L) : lua_error(L);
 }

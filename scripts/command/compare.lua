@@ -77,12 +77,12 @@ local function settings_of(options)
 end
 
 local function run_scene(file, words, json)
-  local exit = os.exit
-  os.exit = function() error(scene.leave, 0) end -- what the scene asked for is still to be compared
+  local exit = _G.os.exit
+  _G.os.exit = function() error(scene.leave, 0) end -- what the scene asked for is still to be compared
   if json == "-" then scene.print_to_stderr() end
   asked.begin()
   local good, problem = scene.run(file, words)
-  os.exit = exit
+  _G.os.exit = exit
   return good or problem == scene.leave, problem
 end
 

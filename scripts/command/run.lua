@@ -68,7 +68,7 @@ function command.run(list)
     if not good then return complain(problem) or 1 end
     if options.json == "-" then scene.print_to_stderr() end
   end
-  os.exit = scene.leave_by(function(wish) return finish(nil, wish) end)
+  _G.os.exit = scene.leave_by(function(wish) return finish(nil, wish) end)
   local good, problem = scene.run(file, words)
   return finish(not good and problem or nil)
 end

@@ -62,11 +62,12 @@ end
 function scene.discard_output()
   local null = io.open("/dev/null", "w")
   local stdout = io.stdout
+  local library = _G.io -- the scene's
   io.output(null)
   _G.print = function() end
-  io.stdout = null
-  os.exit = function() error(scene.leave, 0) end
-  return function() io.stdout = stdout io.output(stdout) end
+  library.stdout = null
+  _G.os.exit = function() error(scene.leave, 0) end
+  return function() library.stdout = stdout io.output(stdout) end
 end
 
 local function unknown_option(word, name, known)

@@ -52,12 +52,12 @@ local function requests()
 end
 
 local function run_scene(file, words)
-  local exit = os.exit
-  os.exit = function() error(scene.leave, 0) end -- what the scene has made is still to be shown
+  local exit = _G.os.exit
+  _G.os.exit = function() error(scene.leave, 0) end -- what the scene has made is still to be shown
   session.runs = {}
   session.keep()
   local good, problem = scene.run(file, words)
-  os.exit = exit
+  _G.os.exit = exit
   return good or problem == scene.leave, problem
 end
 

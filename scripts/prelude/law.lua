@@ -74,11 +74,8 @@ function law.record(self, d, t, values, param, value)
     of_frame(self, t, values, param, what, arguments)
   end
   arguments[#arguments + 1] = core.time()
-  core.written_by(self.handle, t.name and ("%s `%s`"):format(d.name, t.name) or d.name) -- whose kinks these are
-  local results = table.pack(pcall(formula.call, value, what, table.unpack(arguments)))
-  core.written_by(self.handle)
-  if not table.remove(results, 1) then error(results[1], 0) end
-  results.n = results.n - 1
+  local who = t.name and ("%s `%s`"):format(d.name, t.name) or d.name -- whose kinks these are
+  local results = table.pack(core.written_by(self.handle, who, formula.call, value, what, table.unpack(arguments)))
   if results[1] == nil then check.fail("%s: the function returned nothing", what) end
   if results.n > 1 then
     check.fail("%s: the function returned %d values: expected one, or a list of them in a table", what, results.n)

@@ -392,6 +392,14 @@ describe("bad input of a force element", function()
     end)
   end)
 
+  it("a function that yields, in the middle of which others would write formulas", function()
+    local m, at = slider()
+    local add = coroutine.wrap(function()
+      m:force_law { from = m.world, to = at, force = function(l) coroutine.yield() return -l end }
+    end)
+    refuses("force_law: a function that writes a formula cannot yield", add)
+  end)
+
   it("a function that returns more than one value, or where none can be", function()
     local m, at, joint = slider()
     refuses("joint_spring: stiffness: the function returned 2 values",

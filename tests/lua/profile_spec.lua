@@ -302,6 +302,18 @@ describe("the command profile", function()
     os.remove(folded)
   end)
 
+  it("takes a scene whose hook calls Ambit between a function and its frame", function()
+    local p, code, stderr = profile(ode .. [[
+local x = ambit.around(1, "1%")
+debug.sethook(function() return x + 1 end, "cr")
+run { solver = "lohner" }
+debug.sethook()]])
+    assert.equal("", stderr)
+    assert.equal(0, code)
+    assert.truthy(named(p.frames, "verb", "simulate lohner"))
+    check_sums(p)
+  end)
+
   it("profiles a scene that fails until it fails", function()
     local p, code, stderr = profile(ode .. [[run { solver = "lohner" } error "broken here"]])
     assert.equal(1, code)

@@ -1,0 +1,68 @@
+/* embedded.c -- the Lua half of Ambit becomes loadable as ambit.*, in an environment of its own.
+**
+** A scene may redefine globals and what libraries hold (`type = 3`, `table.concat = nil`). Ambit's own modules see a
+** copy from when Ambit was loaded; _G in it is the true one. Methods of strings (`("x"):rep(2)`) are the exception:
+** Lua finds them in the one table `string`.
+*/
+#include "lua/embedded.h"
+#include "lua/core.h"
+
+static const char environment_key = 0; /* its address is the key in the Lua registry */
+
+/* Pushes a copy of the table at idx. */
+static void push_copy(lua_State *L, int idx) {
+  idx = lua_absindex(L, idx);
+  lua_newtable(L);
+  for (lua_pushnil(L); lua_next(L, idx);) {
+    lua_pushvalue(L, -2);
+    lua_insert(L, -2);
+    lua_rawset(L, -4);
+  }
+}
+
+/* Pushes the environment; the first time that is the globals, and copies of the libraries in them. */
+static void push_environment(lua_State *L) {
+  static const char *const libraries[] = { "coroutine", "debug", "io", "math", "os", "string", "table", "utf8" };
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &environment_key) == LUA_TTABLE) return;
+  lua_pop(L, 1);
+  lua_pushglobaltable(L);
+  push_copy(L, -1);
+  lua_remove(L, -2);
+  for (size_t i = 0; i < sizeof libraries / sizeof *libraries; i++) {
+    if (lua_getfield(L, -1, libraries[i]) == LUA_TTABLE) {
+      push_copy(L, -1);
+      lua_setfield(L, -3, libraries[i]);
+    }
+    lua_pop(L, 1);
+  }
+  lua_pushvalue(L, -1);
+  lua_rawsetp(L, LUA_REGISTRYINDEX, &environment_key);
+}
+
+static int load_file(lua_State *L) {
+  const ambit_embedded *file = lua_touserdata(L, lua_upvalueindex(1));
+  if (luaL_loadbufferx(L, file->text, file->size, file->chunk, "t") != LUA_OK) return lua_error(L);
+  push_environment(L);
+  if (!lua_setupvalue(L, -2, 1)) lua_pop(L, 1); /* _ENV; a file without globals has none */
+  lua_insert(L, 1);
+  lua_call(L, lua_gettop(L) - 1, 1);
+  return 1;
+}
+
+/* `require "ambit"`: the embedded files become loadable, then the prelude's own init makes the module. */
+int luaopen_ambit(lua_State *L) {
+  luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_PRELOAD_TABLE);
+  for (const ambit_embedded *file = ambit_embedded_files; file->name; file++) {
+    lua_pushlightuserdata(L, (void *)(uintptr_t)file);
+    lua_pushcclosure(L, load_file, 1);
+    lua_setfield(L, -2, file->name);
+  }
+  lua_pushcfunction(L, luaopen_ambit_core);
+  lua_setfield(L, -2, "ambit.core");
+  lua_pop(L, 1);
+  push_environment(L);
+  lua_getfield(L, -1, "require");
+  lua_pushliteral(L, "ambit.init");
+  lua_call(L, 1, 1);
+  return 1;
+}

@@ -1,0 +1,88 @@
+-- globals_spec.lua -- Ambit's own modules do not see what a scene makes of globals and libraries; nor does a scene see
+-- globals of theirs.
+local command = os.getenv "AMBIT_COMMAND"
+
+local function shell(text)
+  local pipe = assert(io.popen(text))
+  local output = pipe:read "a"
+  local _, _, code = pipe:close()
+  return output, code
+end
+
+local function run(scene)
+  local name = os.tmpname()
+  local file = assert(io.open(name, "w"))
+  assert(file:write(scene))
+  file:close()
+  local output, code = shell(("'%s' run --quiet %s 2>&1"):format(command, name))
+  os.remove(name)
+  output = output:gsub("[%d.]+ [mµ]+s", "TIME"):gsub(name, "SCENE")
+  return output, code
+end
+
+-- Everything that a scene can take away, methods of strings excepted.
+local spoil = [[
+local ambit, print, pairs = require "ambit", print, pairs
+local stay = { _G = true, string = true }
+for _, name in pairs { "table", "math", "os", "io", "debug", "coroutine", "utf8" } do
+  for key in pairs(_G[name]) do _G[name][key] = 3 end
+end
+for name in pairs(_G) do if not stay[name] then _G[name] = "spoilt" end end
+string = false
+]]
+
+local body = [[
+local f = ambit.ode { states = { "x" }, parameters = { k = ambit.around(1, "1%") },
+  equations = function(s, p) return { x = -p.k * s.x } end }
+print(ambit.evaluate { ambit.sin(ambit.around(1, "1%")), arithmetic = "affine" })
+print(ambit.simulate { f, initial = { x = 1 }, t = 1, events = { { name = "half", g = function(s) return s.x - "0.5" end } } })
+print(ambit.verify { f, initial = { x = 1 }, t = 1, safe = function(s) return 2 - s.x end })
+print(ambit.sensitivity { f, initial = { x = 1 }, t = 1 })
+print(ambit.roots { function(x) return x.x^2 - 2 end, box = { x = { 0, 2 } } })
+print(ambit.sample { f, initial = { x = 1 }, t = 1, n = 3 })
+print(ambit.reduce { f, initial = { x = 1 }, t = 1, outputs = { "x" }, error = { x = "0.1" } })
+local m = ambit.mechanism { "arm", gravity = { 0, "-9.81", 0 } }
+local tip = m:rigid_link { from = m:revolute { from = m.world, axis = "z", name = "q" }, offset = { ambit.around(1, "1%"), 0, 0 } }
+m:point_mass { at = tip, mass = 1 }
+print(ambit.equilibria { m:dynamics(), box = { q = { -1, 1 } } })
+print(m:position(tip).x, m:mass_matrix())
+]]
+
+describe("what a scene makes of globals", function()
+  it("changes no answer", function()
+    local expected, code = run("local ambit = require 'ambit'\n" .. body)
+    assert.equal(0, code, expected)
+    local spoilt, spoilt_code = run(spoil .. body)
+    assert.equal(expected, spoilt)
+    assert.equal(0, spoilt_code)
+  end)
+
+  it("changes no message", function()
+    for _, mistake in ipairs {
+      "ambit.simulate { f, inital = 1 }", "ambit.evaluate { ambit.number 'one' }", "ambit.around(1)", "ambit.mechanism(3)",
+      "ambit.ode { states = { 'x' }, equations = function(s) return { y = s.x } end }", "local x = ambit.nothing + 1",
+      "ambit.ode { states = { 'x' }, equations = function(s) if s.x == 0 then return s end return s end }",
+      "ambit.roots { box = {} }", "ambit.mechanism 'a':revolute { form = 1 }",
+    } do
+      local _, lines = spoil:gsub("\n", "")
+      local expected, code = run("local ambit = require 'ambit'" .. ("\n"):rep(lines) .. mistake)
+      local spoilt, spoilt_code = run(spoil .. mistake)
+      assert.equal(1, code, mistake)
+      assert.equal(expected, spoilt)
+      assert.equal(1, spoilt_code)
+    end
+  end)
+
+  it("is not what Ambit makes of them", function()
+    local known = {}
+    for name in pairs(_G) do known[name] = true end
+    local output, code = run [[
+local known = {}
+for name in pairs(_G) do known[name] = true end
+local ambit = require "ambit"
+ambit.evaluate { ambit.around(1, "1%") }
+for name in pairs(_G) do if not known[name] then print(name) end end]]
+    assert.equal("", output)
+    assert.equal(0, code)
+  end)
+end)
