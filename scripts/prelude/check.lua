@@ -13,7 +13,7 @@ end
 function check.kind(value)
   local meta = getmetatable(value)
   if type(value) == "userdata" and type(meta) == "string" then return (meta:gsub("^ambit%.", "")) end
-  if type(meta) == "table" and type(meta.__name) == "string" then return meta.__name end
+  if type(meta) == "table" and type(rawget(meta, "__name")) == "string" then return rawget(meta, "__name") end
   return type(value)
 end
 

@@ -50,6 +50,26 @@ local refused = {
     local function choose() return x == 1 and 2 or 3 end
     return { x = s.v, v = choose() }
   end,
+  ["an expression behind what is changed elsewhere"] = function(s)
+    local rates, shelf = {}, { y = 1 }
+    for name in pairs(s) do rates[name], shelf[name] = s.v, 2 end
+    local function note(y) rates.y = y end
+    if s.x == 0 then note(1) end
+    return rest
+  end,
+  ["what a helper returns on all its ways"] = function(s)
+    local function twice(x) if mode == 4 then return 2 * x end return x + x end
+    if twice(s.x) == 2 then return rest end
+    return rest
+  end,
+  ["a local of a loop that a function inside has"] = function(s)
+    for i = 1, 2 do
+      local x = s.x * i
+      local function choose() return x == 1 end
+      if choose() then return rest end
+    end
+    return rest
+  end,
   ["a condition"] = function(s) if s.x then return rest end return rest end,
   ["a condition with not"] = function(s) if not s.x then return rest end return rest end,
   ["a condition with and"] = function(s) return { x = s.v, v = s.x and 1 or 2 } end,
@@ -58,6 +78,20 @@ local refused = {
 }
 
 local cache = {}
+local shelf, list, number, helper = { x = length }, { length }, length, nil
+local function sometimes(x) if mode == 4 then return 2 * x end end
+local function set_number() number = 1 end
+local function call(f) f() end
+local hidden = { set_number }
+
+-- Objects that answer nothing but with an error.
+local function angry()
+  local function no() error "do not touch" end
+  return setmetatable({}, { __index = no, __newindex = no, __tostring = no, __name = 3, __pairs = no, __eq = no,
+    __metatable = setmetatable({}, { __index = no }) })
+end
+local touchy = { angry(), angry(), inner = angry() }
+
 local function optional(a, b)
   b = b or 1
   if b == nil then b = 2 end
@@ -124,6 +158,71 @@ local accepted = {
     if mode == 4 then y = s.x end
     if y == 0 then y = 1 end
     return { x = s.v, v = y }
+  end,
+  ["a function that returns nothing on one way"] = function(s)
+    local y = sometimes(s.x)
+    if y == 3 then return rest end
+    if y then return { x = s.v, v = y } end
+    return { x = s.v, v = -s.x }
+  end,
+  ["a local that is written behind the function that has it"] = function(s)
+    local x = s.x
+    local function choose() return x == 1 and 2 or 3 end
+    x = 1
+    return { x = s.v, v = choose() }
+  end,
+  ["a local that is written in a loop behind the function that has it"] = function(s)
+    local x, choose = s.x, nil
+    for i = 1, 2 do
+      if i == 2 then x = 1 end
+      choose = choose or function() return x end
+    end
+    return { x = s.v, v = choose() == 1 and 2 or 3 }
+  end,
+  ["a local that a function inside a function writes"] = function(s)
+    local x = s.x
+    local function outer() return function() x = 1 end end
+    outer()()
+    if x == 1 then return rest end
+    return rest
+  end,
+  ["a table whose field has a key that is computed"] = function(s)
+    for _, name in ipairs { "x", "v" } do shelf[name] = 1 end
+    if shelf.x == 1 then return { x = s.v, v = -s.x } end
+    return rest
+  end,
+  ["a table that is handed to a function of Lua"] = function(s)
+    table.insert(list, 1, 1)
+    if list[1] == 1 then return { x = s.v, v = -s.x } end
+    return rest
+  end,
+  ["a variable outside that another function writes"] = function(s)
+    number = length
+    if mode == 3 then set_number() end
+    if number == 1 then return { x = s.v, v = -s.x } end
+    return rest
+  end,
+  ["a variable outside that a function writes, called by others"] = function(s)
+    pcall(set_number)
+    if number == 1 then call(set_number) end
+    return { x = s.v, v = -s.x }
+  end,
+  ["a variable outside that a function nobody knows writes"] = function(s)
+    for _, f in ipairs(hidden) do f() end
+    if number == 1 then return { x = s.v, v = -s.x } end
+    return rest
+  end,
+  ["a function that is made later"] = function(s)
+    helper = helper or function(y) return y end
+    if helper(1) == 1 then return { x = s.v, v = -s.x } end
+    return rest
+  end,
+  ["objects that raise errors when they are touched"] = function(s)
+    local one, two = touchy[1], touchy.inner
+    local same = one ~= nil and rawequal(one, touchy[2]) or two == nil or optional == one
+    local function take(object) return object end
+    take(one) take(two)
+    return { x = s.v, v = same and 1 or -s.x }
   end,
   ["comparisons of Ambit itself"] = function(s)
     local m = ambit.mechanism "a"

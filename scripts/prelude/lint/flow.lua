@@ -6,14 +6,20 @@
 --   { kind = "expression", name, sure }     an expression; sure: worked out here, not handed over and perhaps left out
 --   { kind = "value", value }               a value of Lua: of a constant, or outside the function
 --   { kind = "closure", f, upvalues }       a function made inside
--- Where ways meet that disagree, nobody knows: what is reported is an expression on every way.
+--   { kind = "table" }                      a table made inside
+-- Where ways meet that disagree, nobody knows: what is reported is an expression on every way. What is changed
+-- somewhere (variables of the functions around, fields of tables) is known nowhere; since that is found on the way, the
+-- search is repeated until nothing new is found.
 local bytecode = require "ambit.lint.bytecode"
-local check = require "ambit.check"
+local changes = require "ambit.lint.changes"
 
-local op, fields, wide, jump = bytecode.op, bytecode.fields, bytecode.wide, bytecode.jump
+local op, fields, wide, jump, next_of = bytecode.op, bytecode.fields, bytecode.wide, bytecode.jump, changes.next_of
 
 local DEEPEST = 5      -- calls of functions within functions
-local MOST_STEPS = 2e5 -- instructions followed in all; beyond nothing more is reported
+local MOST_STEPS = 2e5 -- instructions followed in one search; beyond nothing more is reported
+local MOST_PASSES = 9  -- searches until nothing new is changed; beyond nothing is reported
+
+local own_table = { kind = "table" }
 
 local flow = {}
 
@@ -22,9 +28,10 @@ local function is_nil(v) return v ~= nil and v.kind == "value" and v.value == ni
 local function expression(name, sure) return { kind = "expression", name = name, sure = sure } end
 local function constant(value) return { kind = "value", value = value } end
 
--- A value of Lua as it is followed.
+-- A value of Lua as it is followed. Nothing of the scene's is called: its objects may raise errors.
 local function of_value(value, name, sure)
-  return check.kind(value) == "expression" and expression(name, sure) or constant(value)
+  if type(value) == "userdata" and getmetatable(value) == "ambit.expression" then return expression(name, sure) end
+  return constant(value)
 end
 
 flow.of_value = of_value
@@ -54,28 +61,86 @@ local function is_maker(f)
   return makers[f]
 end
 
+-- -- what is changed
+
+local every = {} -- stands for all tables, or all keys
+
+-- Somebody writes t[key]; t: a table or `every`, key: nil if it is computed
+local function note_store(run, t, key)
+  if key == nil or key ~= key then key = every end
+  local keys = run.stored[t] or {}
+  run.stored[t] = keys
+  if not keys[key] then keys[key], run.news = true, true end
+end
+
+local function note_static_stores(run, f) changes.stores(f, function(key) note_store(run, every, key) end) end
+
+local function is_stored(run, t, key)
+  local one, all = run.stored[t], run.stored[every]
+  return one and (one[key] or one[every]) or all and (all[key] or all[every])
+end
+
+-- Variables around a function of the scene's that it writes, or functions made in it.
+local function note_upvalues(run, f, code)
+  for i in pairs(changes.upvalues(code)) do
+    local good, id = pcall(debug.upvalueid, f, i + 1)
+    if good and id and not run.changed[id] then run.changed[id], run.news = true, true end
+  end
+end
+
+-- A function that is handed to somebody may be called at any time.
+local function note_function(run, v)
+  if v and v.kind == "closure" then note_static_stores(run, v.f) end
+  if not (v and v.kind == "value" and type(v.value) == "function") then return end
+  local code = bytecode.read(v.value)
+  if code then
+    note_upvalues(run, v.value, code)
+    note_static_stores(run, code)
+  end
+end
+
+-- Called is what nobody knows: it may change everything that it can reach.
+local function note_stranger(run)
+  if not run.strangers then run.strangers, run.news = true, true end
+end
+
+-- What a function is handed to another one for: { count, [0] = v, ... }
+local function note_arguments(run, arguments)
+  for i = 0, arguments.count - 1 do
+    local v = arguments[i]
+    note_function(run, v)
+    if v and v.kind == "value" and type(v.value) == "table" and not run.given[v.value] then
+      note_store(run, v.value, nil)
+    end
+  end
+end
+
 -- -- tables
 
 -- t[key] without a side effect: of plain tables, of vectors and their like, of the tables that functions are given.
 local function field(run, t, key)
-  if not (t and t.kind == "value") or type(t.value) ~= "table" or key == nil then return nil end
-  local meta = getmetatable(t.value)
-  if meta == nil then
-    if run.stored[key] then return nil end -- the function itself may change it
-    return of_value(rawget(t.value, key), tostring(key), false)
+  if not (t and t.kind == "value") or type(t.value) ~= "table" or key == nil or is_stored(run, t.value, key) then
+    return nil
   end
-  local is_given = run.given[t.value] or type(meta) == "table" and meta.is_shape
-  if not (is_given or run.globals == t.value) then return nil end
+  local name, meta = type(key) == "string" and key or nil, debug.getmetatable(t.value)
+  local raw, given = rawget(t.value, key), run.given[t.value]
+  local is_own = meta and (given or rawget(meta, "is_shape")) or false
+  if meta == nil or raw ~= nil then
+    local v = of_value(raw, name, is_own)
+    return (given or not (run.strangers and is_expression(v))) and v or nil
+  end
+  if not (is_own or rawequal(run.globals, t.value)) then return nil end
   local good, value = pcall(function() return t.value[key] end)
-  return good and of_value(value, tostring(key), is_given) or nil
+  return good and of_value(value, name, is_own) or nil
 end
 
 -- t[?]: an expression where the table that a function is given holds nothing else
 local function any_field(run, t)
   if not (t and t.kind == "value" and run.given[t.value]) then return nil end
   local some = false
-  for _, value in pairs(t.value) do
-    if check.kind(value) ~= "expression" then return nil end
+  if run.stored[t.value] or run.stored[every] and run.stored[every][every] then return nil end
+  for _, value in pairs(t.value) do -- made by Ambit
+    if not is_expression(of_value(value)) then return nil end
     some = true
   end
   return some and expression(nil, true) or nil
@@ -140,6 +205,22 @@ step[op.SELF] = function(run, f, frame, a, b, c, k)
   local object = frame[b]
   frame[a + 1], frame[a] = object, k and field(run, object, f.constants[c].value) or nil
 end
+step[op.NEWTABLE] = function(_, _, frame, a) frame[a] = own_table end
+
+local function store_into(run, t, key)
+  if t == own_table then return end
+  note_store(run, t and t.kind == "value" and type(t.value) == "table" and t.value or every, key)
+end
+
+step[op.SETFIELD] = function(run, f, frame, a, b) store_into(run, frame[a], changes.key(f, op.SETFIELD, b)) end
+step[op.SETI] = function(run, f, frame, a, b) store_into(run, frame[a], changes.key(f, op.SETI, b)) end
+step[op.SETTABUP] = function(run, f, frame, a, b)
+  store_into(run, frame.upvalues[a], changes.key(f, op.SETTABUP, b))
+end
+step[op.SETTABLE] = function(run, _, frame, a, b)
+  local key = frame[b]
+  store_into(run, frame[a], key and key.kind == "value" and key.value or nil)
+end
 
 local function arithmetic(_, _, frame, a, b, c)
   local operand = is_expression(frame[b]) and frame[b] or frame[c]
@@ -174,7 +255,7 @@ local follow
 
 -- What the scene's own function returns: its first value.
 local function call_closure(run, f, upvalues, arguments)
-  if run.depth >= DEEPEST then return nil end
+  if run.depth >= DEEPEST then return note_stranger(run) end
   run.depth = run.depth + 1
   local result = follow(run, f, upvalues, arguments)
   run.depth = run.depth - 1
@@ -187,9 +268,17 @@ local function upvalues_of(run, f)
     local name, value = debug.getupvalue(f, i)
     if not name then break end
     if name == "_ENV" then run.globals = value end
-    list[i - 1] = of_value(value, name, false)
+    local v = of_value(value, name, false)
+    local known = not run.changed[debug.upvalueid(f, i)] and not (run.strangers and is_expression(v))
+    list[i - 1] = known and v or nil
   end
   return list
+end
+
+local function text_of(value)
+  local kind = type(value)
+  local is_plain = kind == "string" or kind == "number" or kind == "boolean" or kind == "nil"
+  return kind .. (is_plain and tostring(value) or ("%p"):format(value))
 end
 
 -- The same for calls of which the same would be found.
@@ -197,7 +286,7 @@ local function key_of(run, arguments)
   local parts = { run.quiet and "quiet" or "aloud" }
   for i = 0, arguments.count - 1 do
     local v = arguments[i]
-    parts[#parts + 1] = v == nil and "?" or v.kind == "value" and type(v.value) .. tostring(v.value)
+    parts[#parts + 1] = v == nil and "?" or v.kind == "value" and text_of(v.value)
       or v.kind == "closure" and tostring(v) or v.kind
   end
   return table.concat(parts, "\0")
@@ -212,11 +301,15 @@ local function call_value(run, f, arguments)
     return nil
   end
   local info = type(f) == "function" and debug.getinfo(f, "S")
-  if not info or info.what ~= "Lua" or info.source:sub(1, 9) == "=(ambit) " then return nil end
+  if not info then return note_stranger(run) end -- an object that can be called
+  if info.what == "C" then return note_arguments(run, arguments) end
+  if info.source:sub(1, 9) == "=(ambit) " then return nil end
   local known, key = run.functions[f] or { code = bytecode.read(f) }, key_of(run, arguments)
   run.functions[f] = known
-  if not known.code or known[key] then return known[key] and known[key].result end
+  if not known.code then return note_stranger(run) end
+  if known[key] then return known[key].result end
   known[key] = {} -- also while it is followed: what calls itself is followed once
+  note_upvalues(run, f, known.code)
   local found = run.found
   known[key].result = call_closure(run, known.code, upvalues_of(run, f), arguments)
   if run.found ~= found then run.found.source = run.found.source or info.short_src end
@@ -230,8 +323,14 @@ step[op.CALL] = function(run, _, frame, a, b, c)
   for i, v in pairs(arguments) do
     if i ~= "count" and v.sure then arguments[i] = expression(v.name, false) end
   end
-  if f and f.kind == "closure" then r1 = call_closure(run, f.f, f.upvalues, arguments) end
-  if f and f.kind == "value" then r1, r2, r3 = call_value(run, f.value, arguments) end
+  if f and f.kind == "closure" then
+    r1 = call_closure(run, f.f, f.upvalues, arguments)
+  elseif f and f.kind == "value" then
+    r1, r2, r3 = call_value(run, f.value, arguments)
+  else
+    note_stranger(run)
+    note_arguments(run, arguments)
+  end
   for i in pairs(frame) do
     if type(i) == "number" and i >= a then frame[i] = nil end
   end
@@ -245,14 +344,15 @@ step[op.TFORCALL] = function(run, _, frame, a, _, c)
   if over and c >= 2 then frame[a + 5] = any_field(run, over) end
 end
 
-step[op.CLOSURE] = function(_, f, frame, a, _, _, _, _, word)
+step[op.CLOSURE] = function(_, f, frame, a, _, _, _, pc, word)
   local inner, upvalues = f.functions[wide(word)], {}
   for i, upvalue in pairs(inner.upvalues) do
-    if upvalue.in_stack then upvalues[i] = frame[upvalue.index] else upvalues[i] = frame.upvalues[upvalue.index] end
-  end
-  for pc = 0, #inner.code do
-    local o, _, b = fields(inner.code[pc])
-    if o == op.SETUPVAL and inner.upvalues[b].in_stack then frame[inner.upvalues[b].index] = nil end
+    local index = upvalue.index
+    if not upvalue.in_stack then
+      upvalues[i] = frame.upvalues[index]
+    elseif index ~= a and not changes.is_written_behind(f, pc, index) then
+      upvalues[i] = frame[index]
+    end
   end
   frame[a] = { kind = "closure", f = inner, upvalues = upvalues }
 end
@@ -263,38 +363,7 @@ step[op.VARARG] = function(_, _, frame, a)
   end
 end
 
--- What writes no register; any other instruction may write four from its A on.
-local silent = {}
-for name in ("SETUPVAL SETTABUP SETTABLE SETI SETFIELD MMBIN MMBINI MMBINK CLOSE TBC JMP LT LE LTI LEI GTI GEI RETURN \z
-  RETURN0 RETURN1 SETLIST VARARGPREP EXTRAARG TFORPREP TFORLOOP"):gmatch "%S+" do silent[op[name]] = true end
-
 local function other(_, _, frame, a) for i = a, a + 3 do frame[i] = nil end end
-
--- Where it may go on: up to two instructions.
-local tests = {}
-for name in ("EQ LT LE EQK EQI LTI LEI GTI GEI TEST TESTSET"):gmatch "%S+" do tests[op[name]] = true end
-
-local function next_of(o, pc, word)
-  if tests[o] then return pc + 1, pc + 2 end
-  if o == op.JMP then return pc + 1 + jump(word) end
-  if o == op.LFALSESKIP then return pc + 2 end
-  if o == op.RETURN or o == op.RETURN0 or o == op.RETURN1 then return nil end
-  if o == op.FORPREP then return pc + 1, pc + 2 + wide(word) end
-  if o == op.FORLOOP or o == op.TFORLOOP then return pc + 1, pc + 1 - wide(word) end
-  if o == op.TFORPREP then return pc + 1 + wide(word) end
-  return pc + 1
-end
-
--- What functions change outside of themselves: names of fields, and upvalues, about which nobody knows then.
-local function note_stores(run, f, upvalues)
-  for pc = 0, #f.code do
-    local o, _, b = fields(f.code[pc])
-    if o == op.SETFIELD or o == op.SETTABUP then run.stored[f.constants[b].value] = true end
-    if o == op.SETI then run.stored[b] = true end
-    if o == op.SETUPVAL and upvalues then upvalues[b] = nil end
-    if o == op.CLOSURE then note_stores(run, f.functions[wide(f.code[pc])], nil) end
-  end
-end
 
 local function copy_of(frame)
   local copy = {}
@@ -322,8 +391,9 @@ end
 local function take(run, f, frame, pc)
   local word = f.code[pc]
   local o, a, b, c, k = fields(word)
-  local act = step[o] or not silent[o] and other
+  local act = step[o] or not changes.silent[o] and other
   if act then act(run, f, frame, a, b, c, k, pc, word) end
+  for _, register in ipairs(changes.shared(f)) do frame[register] = nil end
   run.steps = run.steps + 1
   return o, a, b, word
 end
@@ -341,14 +411,15 @@ local function heads_of(f)
   return heads
 end
 
--- From a head to where the ways part, calling at_end(pc, frame) for each way; -> a returned value, does it return?
+-- From a head to where the ways part, calling at_end(pc, frame) for each way; -> the first returned value, does it
+-- return?
 local function walk(run, f, heads, pc, frame, at_end)
   while f.code[pc] do
     local o, a, b, word = take(run, f, frame, pc)
     local one, two = next_of(o, pc, word)
     if not one then
-      local returns = o == op.RETURN1 or o == op.RETURN and b ~= 1
-      return returns and frame[a] or nil, returns
+      if o == op.RETURN0 or o == op.RETURN and b == 1 then return constant(nil), true end
+      return frame[a], true
     end
     if two or heads[one] then
       at_end(one, frame)
@@ -376,9 +447,10 @@ local function nothing() end
 
 -- Reports what is wrong in f, unless the run is quiet, and returns its first result.
 function follow(run, f, upvalues, arguments)
-  note_stores(run, f, upvalues)
+  for i in pairs(changes.upvalues(f)) do upvalues[i] = nil end
   local heads, start, quiet = heads_of(f), { upvalues = upvalues }, run.quiet
   for i = 0, f.parameters - 1 do start[i] = arguments[i] end
+  for _, register in ipairs(changes.shared(f)) do start[register] = nil end
   run.quiet = true
   local frames, settled = settle(run, f, heads, start)
   run.quiet = quiet
@@ -395,22 +467,41 @@ function follow(run, f, upvalues, arguments)
   return result
 end
 
+-- One search, with what earlier ones found to be changed.
+local function pass(run, f, code, arguments)
+  run.depth, run.steps, run.quiet, run.functions, run.news, run.found = 0, 0, false, {}, false, nil
+  local values = { count = arguments.n }
+  for i = 1, arguments.n do values[i - 1] = of_value(arguments[i], nil, false) end
+  note_upvalues(run, f, code)
+  follow(run, code, upvalues_of(run, f), values)
+end
+
+-- Tables that a formula is given: of variables, vectors; no mechanism.
+local function given_of(arguments)
+  local given = {}
+  for i = 1, arguments.n do
+    local value = arguments[i]
+    local meta = type(value) == "table" and debug.getmetatable(value)
+    if type(value) == "table" and not (meta and rawget(meta, "__name")) then given[value] = true end
+  end
+  return given
+end
+
 -- f called with these arguments -> nil, or what is wrong: { name, what = "compared" or "condition", line, source }
 function flow.search(f, arguments)
   local own = debug.getinfo(f, "S").source:sub(1, 9) == "=(ambit) "
   local read = bytecode.known and not own and bytecode.read(f)
   if not read then return nil end
-  local run = { depth = 0, steps = 0, quiet = false, stored = {}, given = {}, functions = {} }
-  local values = { count = arguments.n }
-  for i = 1, arguments.n do
-    local value = arguments[i]
-    local meta = getmetatable(value)
-    if type(value) == "table" and not (meta and meta.__name) then run.given[value] = true end -- no mechanism
-    values[i - 1] = of_value(value, nil, false)
+  local run = { given = given_of(arguments), stored = {}, changed = {}, strangers = false }
+  for _ = 1, MOST_PASSES do
+    pass(run, f, read, arguments)
+    if not run.found then return nil end -- more changes can only take from what is known
+    if not run.news then
+      run.found.source = run.found.source or debug.getinfo(f, "S").short_src
+      return run.found
+    end
   end
-  follow(run, read, upvalues_of(run, f), values)
-  if run.found then run.found.source = run.found.source or debug.getinfo(f, "S").short_src end
-  return run.found
+  return nil
 end
 
 return flow
