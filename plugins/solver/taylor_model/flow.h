@@ -41,6 +41,8 @@ typedef struct piece {
   uint32_t depth;        /* times it was split */
   uint32_t level;        /* how coarsely sub-ranges are taken together for slopes */
   int done, tolerant;    /* at the output instant; truncation does not count, for there is no room for more pieces */
+  double parent_rest;    /* relative truncation for which its parent was split; 0: for another reason, or not */
+  double futile;         /* relative truncation that no split mends */
   enum why why;          /* of the last step that was not made */
   uint32_t culprit;      /* state that is too wide */
   const char *kink;      /* that the last step could not pass, as the tape names it; NULL: none known */

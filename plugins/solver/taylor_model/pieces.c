@@ -23,6 +23,7 @@ static void copy(const flow *f, piece *to, const piece *from) {
   memcpy(to->tube_lo, from->tube_lo, nx * sizeof(double)), memcpy(to->tube_hi, from->tube_hi, nx * sizeof(double));
   memcpy(to->pad, from->pad, nx * sizeof(double));
   to->t = from->t, to->guess = from->guess, to->depth = from->depth, to->level = from->level;
+  to->parent_rest = from->why == WHY_DEFECT ? from->parent_rest : 0, to->futile = from->futile;
   to->done = to->tolerant = 0;
 }
 

@@ -19,6 +19,7 @@
 #define SMALL 1e-4
 #define NEGLIGIBLE 1e-6 /* of the largest state */
 #define SHARE 0.3       /* truncation in time may be this share of the truncation in the unknowns */
+#define HELPED 0.95     /* a half whose truncation is above this share of the whole's was split for nothing */
 
 /* -- series */
 
@@ -201,6 +202,15 @@ static int is_proved(worker *w, piece *p) {
   return 1;
 }
 
+/* How much truncation in the unknowns no split mends: where halves have as much of it as the whole, it is rounding of
+** terms that cancel, as in a state that starts at zero and stays there. It is forgotten when the truncation falls. */
+static double find_futile(piece *p, double rest) {
+  if (p->parent_rest > 0 && rest > HELPED * p->parent_rest) p->futile = 2 * rest;
+  p->parent_rest = 0;
+  p->futile = smaller(p->futile, 2 * rest);
+  return p->futile;
+}
+
 static double rescaled(const worker *w, double ratio) {
   double factor = ratio > 0 ? pow(AIM / ratio, 1.0 / (w->flow->options.time_order + 1.0)) : GROWTH;
   if (!(factor > 0.2)) factor = 0.2;
@@ -218,7 +228,7 @@ static enum why try_step(worker *w, piece *p, double goal) {
     ambit_work_try(w->counted);
     int bounded = measure_defect(w), cut_short = w->at_goal || w->step.length < 0.99 * length;
     ratio r = bounded ? compare(w) : (ratio) { INFINITY, INFINITY };
-    double rest = r.rest <= o->split_tolerance ? r.rest : p->tolerant ? o->split_tolerance : 0;
+    double rest = r.rest <= o->split_tolerance ? r.rest : p->tolerant || p->futile > 0 ? o->split_tolerance : 0;
     double allowed = larger(o->tolerance, SHARE * rest);
     double over = bounded ? r.time / allowed : INFINITY;
     if (!(over <= 1)) { /* never again as long: an infinite ratio would otherwise shrink and grow in turn */
@@ -230,7 +240,10 @@ static enum why try_step(worker *w, piece *p, double goal) {
       length = over > 0 ? smaller(rescaled(w, over), most) : most;
       continue;
     }
-    if (r.rest > o->split_tolerance && !p->tolerant) return WHY_DEFECT;
+    if (r.rest > larger(o->split_tolerance, find_futile(p, r.rest)) && !p->tolerant) {
+      p->parent_rest = r.rest;
+      return WHY_DEFECT;
+    }
     if (is_proved(w, p)) {
       p->guess = most < o->step_max ? 1.1 * w->step.length
                  : cut_short        ? larger(length, rescaled(w, over))
