@@ -14,6 +14,13 @@ target_include_directories(test_hostile PRIVATE ${LUA_INCLUDE_DIRS})
 target_link_libraries(test_hostile PRIVATE ambit_flags)
 set_target_properties(test_hostile PROPERTIES PREFIX "" OUTPUT_NAME hostile LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests/lua)
 
+# Motions of random mechanisms, integrated by formulas of their own: tests/oracle/multibody.h
+add_library(test_multibody MODULE ${PROJECT_SOURCE_DIR}/tests/oracle/multibody.c ${PROJECT_SOURCE_DIR}/tests/oracle/multibody_flow.c ${PROJECT_SOURCE_DIR}/tests/oracle/multibody_lua.c)
+target_include_directories(test_multibody PRIVATE ${LUA_INCLUDE_DIRS})
+target_link_libraries(test_multibody PRIVATE ambit_flags)
+set_target_properties(test_multibody PROPERTIES PREFIX "" OUTPUT_NAME multibody C_VISIBILITY_PRESET hidden
+  LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests/lua)
+
 set(lua_environment "AMBIT_PATH=${PROJECT_BINARY_DIR}/tests/lua/plugins:${PROJECT_BINARY_DIR}/tests/plugins:${PROJECT_BINARY_DIR}/plugins"
   "LUA_CPATH=${PROJECT_BINARY_DIR}/${AMBIT_LUA_DIR}/?.so\\;${PROJECT_BINARY_DIR}/tests/lua/?.so\\;\\;" "AMBIT_COMMAND=$<TARGET_FILE:ambit>" "NO_COLOR=1")
 
@@ -75,3 +82,15 @@ ambit_scene(reduce_arm 0 "2 of 4 states are left")
 add_test(NAME lua.event_zeros COMMAND ambit run --quiet tests/lua/event_zeros.lua 160 WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
 set_tests_properties(lua.event_zeros PROPERTIES TIMEOUT 600 ENVIRONMENT "${lua_environment}"
   PASS_REGULAR_EXPRESSION "160 systems, [0-9]+ zeros: [^\n]* 0 lost\n")
+
+# Motions of random mechanisms. Full length: `ambit run tests/lua/random_mechanisms.lua --mechanisms 200 --draws 500`.
+function(ambit_random_mechanisms name expected)
+  add_test(NAME lua.random_mechanisms.${name} COMMAND ambit run --quiet tests/lua/random_mechanisms.lua --joints 4 --data 6
+    --time 0.1 --draws 6 --seconds 1000 ${ARGN} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  set_tests_properties(lua.random_mechanisms.${name} PROPERTIES TIMEOUT 600 ENVIRONMENT "${lua_environment}"
+    PASS_REGULAR_EXPRESSION "${expected}")
+endfunction()
+ambit_random_mechanisms(lohner "12 mechanisms, 12 complete, [^\n]* 0 outside\n" --mechanisms 12 --solver lohner)
+ambit_random_mechanisms(taylor_model "4 mechanisms, 4 complete, [^\n]* 0 outside\n" --mechanisms 4 --solver taylor_model)
+ambit_random_mechanisms(suited "12 mechanisms, 12 complete, [^\n]* 0 outside\n" --mechanisms 12)
+ambit_random_mechanisms(beyond "motions, [0-9]+ values: [1-9][0-9]* outside\n" --mechanisms 12 --solver lohner --beyond 2)

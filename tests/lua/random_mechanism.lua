@@ -1,0 +1,280 @@
+-- random_mechanism.lua -- mechanisms at random, each twice: as a scene of Ambit with uncertain data, and as the table
+-- that the oracle `multibody` integrates with drawn ones. For random_mechanisms.lua.
+local ambit = require "ambit"
+local multibody = require "multibody"
+local linkage = require "random_linkage"
+
+local random_mechanism = {}
+
+local DATA = { "mass", "turn", "scale", "torque", "amplitude", "stiffness", "rest", "damping", "armature" }
+local LISTS = { "offset", "centre" }
+local AXES = { x = { 1, 0, 0 }, y = { 0, 1, 0 }, z = { 0, 0, 1 } }
+
+-- Random numbers that are the same on every machine.
+function random_mechanism.source(seed)
+  local state = seed
+  local r = {}
+  function r.integer(n) -- 1 .. n
+    state = state * 6364136223846793005 + 1442695040888963407
+    return (state >> 33) % n + 1
+  end
+  function r.unit() return r.integer(1 << 30) / (1 << 30) end
+  function r.between(lo, hi) return lo + (hi - lo) * r.unit() end
+  function r.one_of(list) return list[r.integer(#list)] end
+  function r.chance(p) return r.unit() <= p end
+  -- Of each datum a number in [-most, most]: corners and points of the inside in turn.
+  function r.draw(data, number, most)
+    local list = {}
+    for k in ipairs(data) do
+      local s = r.between(-1, 1)
+      list[k] = most * (number % 2 == 0 and s or s > 0 and 1 or -1)
+    end
+    return list
+  end
+  for _ = 1, 4 do r.integer(2) end
+  return r
+end
+
+-- -- what both sides are made of: bodies as the oracle takes them, with what only Ambit needs
+
+local function body(r, parent, name)
+  local a, b, c = r.between(0.05, 0.3), r.between(0.05, 0.3), r.between(0.05, 0.3)
+  local mass = r.between(0.3, 3)
+  local function moment(p, q) return mass * (p * p + q * q) / 12 end
+  local x, y, z = moment(b, c), moment(a, c), moment(a, b)
+  local off = 0.05 * math.min(x, y, z)
+  return {
+    name = name, parent = parent, mass = mass, scale = 1, centre = { r.between(-0.2, 0.2), r.between(-0.2, 0.2), r.between(-0.2, 0.2) },
+    entries = { x, r.between(-off, off), r.between(-off, off), y, r.between(-off, off), z },
+    offset = { r.between(-0.4, 0.4), r.between(-0.4, 0.4), r.between(-0.4, 0.4) },
+    turn_axis = r.one_of { "x", "y", "z" }, turn = r.chance(0.5) and r.between(-1, 1) or 0,
+    torque = 0, amplitude = 0, rate = 0, stiffness = 0, rest = 0, damping = 0, armature = 0,
+  }
+end
+
+local function massless(parent, name)
+  return { name = name, parent = parent, mass = 0, scale = 1, centre = { 0, 0, 0 }, entries = { 0, 0, 0, 0, 0, 0 },
+    offset = { 0, 0, 0 }, turn_axis = "z", turn = 0, torque = 0, amplitude = 0, rate = 0, stiffness = 0, rest = 0,
+    damping = 0, armature = 0 }
+end
+
+local function drive(r, b)
+  if r.chance(0.4) then b.stiffness, b.rest = r.between(1, 20), r.between(-0.5, 0.5) end
+  if r.chance(0.5) then b.damping = r.between(0.01, 0.3) end
+  if r.chance(0.3) then b.armature = r.between(0.01, 0.1) end
+  if r.chance(0.4) then b.torque = r.between(-3, 3) end
+  if r.chance(0.2) then b.amplitude, b.rate = r.between(-2, 2), r.between(1, 8) end
+end
+
+-- Joints of several coordinates, as hinges and slides one after the other.
+local COMPOUND = {
+  universal = { { "turn", "x" }, { "turn", "y" } },
+  cylindrical = { { "slide", "z" }, { "turn", "z" } },
+  spherical = { { "turn", "z" }, { "turn", "y" }, { "turn", "x" } },
+}
+
+local function add_compound(r, plan, kind, parent, name)
+  local last = body(r, parent, name)
+  local parts = COMPOUND[kind]
+  for k, part in ipairs(parts) do
+    local b = k == #parts and last or massless(k == 1 and parent or #plan.bodies, name)
+    if k == #parts then b.parent = #plan.bodies end
+    b.slides, b.axis, b.state = part[1] == "slide", part[2], name .. "." .. k
+    plan.bodies[#plan.bodies + 1] = b
+  end
+  local first = plan.bodies[#plan.bodies - #parts + 1] -- carries what lies before the joint
+  first.offset, last.offset = last.offset, { 0, 0, 0 }
+  first.turn_axis, first.turn, last.turn = last.turn_axis, last.turn, 0
+  first.compound, first.count = kind, #parts
+end
+
+-- A tree of n coordinates.
+local function tree(r, n)
+  local plan = { bodies = {}, loops = {}, gravity = { 0, 0, -9.81 }, name = ("tree of %d"):format(n) }
+  while #plan.bodies < n do
+    local at = #plan.bodies
+    local parent = at == 0 and 0 or r.chance(0.75) and at or r.integer(at)
+    while parent > 0 and plan.bodies[parent].mass == 0 do parent = parent + 1 end
+    local name, left = "j" .. at + 1, n - at
+    local kind = r.chance(0.2) and r.one_of { "universal", "cylindrical", "spherical" }
+    if kind and #COMPOUND[kind] <= left then
+      add_compound(r, plan, kind, parent, name)
+    else
+      local b = body(r, parent, name)
+      b.axis, b.slides, b.state = r.one_of { "x", "y", "z" }, r.chance(0.2), name
+      drive(r, b)
+      plan.bodies[at + 1] = b
+    end
+  end
+  plan.q, plan.v = {}, {}
+  for i = 1, n do
+    plan.q[i] = plan.bodies[i].slides and r.between(-0.3, 0.3) or r.between(-1, 1)
+    plan.v[i] = r.between(-1, 1)
+  end
+  return plan
+end
+
+-- -- which numbers are uncertain
+
+-- Every number that may be: { table, key }
+local function candidates(plan)
+  local list, seen = {}, {}
+  local function add_list(of) -- a link's length may be that of several bodies
+    for k = 1, seen[of] and 0 or #of do if of[k] ~= 0 then list[#list + 1] = { of, k } end end
+    seen[of] = true
+  end
+  for _, b in ipairs(plan.bodies) do
+    for _, key in ipairs(DATA) do
+      if b[key] ~= 0 and not (key == "scale" and b.mass == 0) then list[#list + 1] = { b, key } end
+    end
+    for _, key in ipairs(LISTS) do add_list(b[key]) end
+  end
+  for _, loop in ipairs(plan.loops) do
+    add_list(loop.a_length)
+    add_list(loop.b_length)
+  end
+  for _, key in ipairs { "q", "v" } do
+    for i = 1, #plan.bodies do
+      if plan[key][i] and not (plan.dependent and plan.dependent[i]) then list[#list + 1] = { plan[key], i, true } end
+    end
+  end
+  return list
+end
+
+local function choose_data(r, plan, most)
+  local list, data = candidates(plan), {}
+  local n = math.min(#list, 4 + r.integer(math.max(1, most - 4)))
+  for k = 1, n do
+    local pick = k - 1 + r.integer(#list - k + 1)
+    list[k], list[pick] = list[pick], list[k]
+    local where, key, is_start = list[k][1], list[k][2], list[k][3]
+    local tolerance = 1e-4 * 500 ^ r.unit() -- .01 to 5 %
+    local middle = where[key]
+    data[k] = { where = where, key = key, middle = middle, radius = tolerance * (is_start and 0.2 or math.abs(middle)) }
+  end
+  return data
+end
+
+-- The expression of a number of the plan: uncertain, or as it is.
+local function reader(data)
+  local datum = {}
+  for k, d in ipairs(data) do
+    datum[d.where] = datum[d.where] or {}
+    datum[d.where][d.key] = ambit.around(d.middle, d.radius, "datum " .. k)
+  end
+  return function(where, key)
+    return datum[where] and datum[where][key] or ambit.number(where[key])
+  end
+end
+
+-- -- the scene
+
+local function list_of(value, where) return { value(where, 1), value(where, 2), value(where, 3) } end
+
+local function add_torque(m, b, value, joint)
+  local function law(q, v, t)
+    local sum = value(b, "torque") - value(b, "damping") * v
+    if b.stiffness ~= 0 then sum = sum - value(b, "stiffness") * (q - value(b, "rest")) end
+    if b.amplitude ~= 0 then sum = sum + value(b, "amplitude") * ambit.sin(value(b, "rate") * t) end
+    return sum
+  end
+  if b.torque ~= 0 or b.stiffness ~= 0 or b.damping ~= 0 or b.amplitude ~= 0 then
+    m:joint_torque { joint = joint, [b.slides and "force" or "torque"] = law }
+  end
+  if b.armature ~= 0 then m:armature { joint = joint, [b.slides and "mass" or "inertia"] = value(b, "armature") } end
+end
+
+local function add_body(m, b, value, at)
+  if b.mass == 0 then return end
+  local e, scale = b.entries, value(b, "scale")
+  local xx, xy, xz, yy, yz, zz = scale * e[1], scale * e[2], scale * e[3], scale * e[4], scale * e[5], scale * e[6]
+  m:rigid_body { at = at, mass = value(b, "mass"), centre = list_of(value, b.centre),
+    inertia = { xx, xy, xz, xy, yy, yz, xz, yz, zz } }
+end
+
+local function add_joint(m, b, at)
+  local t = { from = at, name = b.name }
+  if b.compound == "universal" then return m:universal(t) end
+  if b.compound == "spherical" then return m:spherical(t) end
+  t.axis = b.axis
+  if b.compound == "cylindrical" then return m:cylindrical(t) end
+  return m[b.slides and "prismatic" or "revolute"](m, t)
+end
+
+local function build(plan, value)
+  local m = ambit.mechanism { "random", gravity = plan.gravity }
+  local frames, i = { [0] = m.world }, 1
+  while i <= #plan.bodies do
+    local b = plan.bodies[i]
+    local at = m:rigid_link { from = frames[b.parent], offset = list_of(value, b.offset) }
+    if b.turn ~= 0 then at = m:weld { from = at, axis = b.turn_axis, angle = value(b, "turn") } end
+    local frame, joint = add_joint(m, b, at)
+    local last = i + (b.count or 1) - 1
+    if not b.compound then add_torque(m, b, value, joint) end
+    add_body(m, plan.bodies[last], value, frame)
+    for k = i, last do frames[k] = frame end
+    i = last + 1
+  end
+  return m, frames
+end
+
+local function question(plan, data)
+  local value = reader(data)
+  local m, frames = build(plan, value)
+  local initial = {}
+  for i, b in ipairs(plan.bodies) do
+    if not (plan.dependent and plan.dependent[i]) then
+      initial[b.state], initial[b.state .. "'"] = value(plan.q, i), value(plan.v, i)
+    end
+  end
+  if #plan.loops > 0 then linkage.close(m, frames, plan, value, initial) end
+  return { m:dynamics(), initial = initial }
+end
+
+-- -- the oracle
+
+-- A copy in which the data have drawn values; not quite the ends, which rounding may put beyond the tolerance.
+local function resolved(plan, data, draw)
+  local kept = {}
+  for k, d in ipairs(data) do
+    kept[k] = d.where[d.key]
+    d.where[d.key] = d.middle + d.radius * (1 - 1e-9) * (draw[k] or 0)
+  end
+  local t = { bodies = {}, loops = {}, gravity = plan.gravity, dependent = plan.dependent or {} }
+  for i, b in ipairs(plan.bodies) do
+    local c = {}
+    for key, x in pairs(b) do c[key] = x end
+    c.axis, c.turn_axis, c.inertia = AXES[b.axis], AXES[b.turn_axis], {}
+    for k = 1, 6 do c.inertia[k] = b.scale * b.entries[k] end
+    c.offset, c.centre = table.move(b.offset, 1, 3, 1, {}), table.move(b.centre, 1, 3, 1, {})
+    t.bodies[i] = c
+  end
+  t.q, t.v = table.move(plan.q, 1, #plan.bodies, 1, {}), table.move(plan.v, 1, #plan.bodies, 1, {})
+  if #plan.loops > 0 then linkage.resolve(plan, t) end
+  for k, d in ipairs(data) do d.where[d.key] = kept[k] end
+  return t
+end
+
+-- A mechanism: its name, data, question() for simulate, motion(draw, times, tolerance) of the oracle, and `watched`:
+-- names of the states by their place in a motion. o: joints, data: at most so many
+function random_mechanism.new(r, o)
+  local n = 2 + r.integer(math.max(1, o.joints - 2))
+  local plan = r.chance(0.35) and linkage.new(r, n, body, drive) or tree(r, n)
+  local data = choose_data(r, plan, o.data)
+  local watched = {}
+  for i, b in ipairs(plan.bodies) do
+    watched[i] = b.state
+    if not (plan.dependent and plan.dependent[i]) then watched[#plan.bodies + i] = b.state .. "'" end
+  end
+  return {
+    name = ("%s, %d data"):format(plan.name, #data), data = data, watched = watched,
+    question = function() return question(plan, data) end,
+    motion = function(draw, times, tolerance)
+      local t = resolved(plan, data, draw)
+      t.times, t.tolerance = times, tolerance
+      return multibody.run(t)
+    end,
+  }
+end
+
+return random_mechanism
