@@ -32,17 +32,20 @@ static int unit_of(lua_State *L) {
   return 2;
 }
 
-/* in_unit(expression, unit [, soft]) -> the same expression, whose value is in that unit; unit nil: in an unknown one;
-** soft: the unit is not insisted on */
+/* in_unit(expression, unit [, how]) -> the same expression, whose value is in that unit; unit nil: in an unknown one.
+** how: nil: made of states or coordinates; "given": only if the expression is; true: of states, and the unit is not
+** insisted on */
 static int in_unit(lua_State *L) {
-  ambit_expr e = ((const ambit_lua_expression *)luaL_checkudata(L, 1, AMBIT_TYPE_EXPRESSION))->e;
+  const ambit_lua_expression *from = luaL_checkudata(L, 1, AMBIT_TYPE_EXPRESSION);
   ambit_unit unit;
   ambit_failure f = { 0 };
-  bool given = !lua_isnoneornil(L, 2), soft = lua_toboolean(L, 3);
-  if (given && ambit_unit_read(luaL_checkstring(L, 2), &unit, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
-  ambit_lua_expression *x = ambit_lua_push_expression(L, e);
-  if (given) x->dimension = ambit_dimension_known(unit.power);
-  if (given && soft) x->dimension.state = AMBIT_DIMENSION_SOFT;
+  bool has_unit = !lua_isnoneornil(L, 2), of_state = lua_type(L, 3) == LUA_TSTRING ? from->dimension.of_state : true;
+  if (has_unit && ambit_unit_read(luaL_checkstring(L, 2), &unit, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
+  ambit_lua_expression *x = ambit_lua_push_expression(L, from->e);
+  if (!has_unit) return 1;
+  x->dimension = ambit_dimension_known(unit.power);
+  x->dimension.of_state = of_state;
+  if (lua_isboolean(L, 3) && lua_toboolean(L, 3)) x->dimension.state = AMBIT_DIMENSION_SOFT;
   return 1;
 }
 

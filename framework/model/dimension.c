@@ -20,6 +20,7 @@ static bool is_known(ambit_dimension a) { return is(a, AMBIT_DIMENSION_KNOWN); }
 static bool is_open(ambit_dimension a) { return is(a, AMBIT_DIMENSION_OPEN); }
 static bool is_bare(ambit_dimension a) { return is(a, AMBIT_DIMENSION_BARE); }
 static bool same_power(ambit_dimension a, ambit_dimension b) { return memcmp(a.power, b.power, sizeof a.power) == 0; }
+static bool is_plain_number(ambit_dimension a) { return !is_open(a) && !a.of_state && same_power(a, number); }
 
 bool ambit_dimension_agree(ambit_dimension a, ambit_dimension b) {
   return !is_known(a) || !is_known(b) || same_power(a, b);
@@ -36,24 +37,28 @@ static bool sum(ambit_dimension a, ambit_dimension b, ambit_dimension *out) {
     out->mixed = !is_known(a) || !is_known(b) || a.mixed || b.mixed;
   } else if (is_bare(a) || is_bare(b)) {
     ambit_dimension other = is_bare(a) ? b : a; /* 3 + cos a may be a coefficient with a unit */
-    *out = same_power(other, soft_number) ? bare : other;
+    *out = is_plain_number(other) ? bare : other;
   } else {
     *out = same_power(a, b) ? a : open_dimension;
   }
+  out->of_state = !is_open(*out) && (a.of_state || b.of_state);
   return agree;
 }
 
 static ambit_dimension product(ambit_dimension a, ambit_dimension b, int sign) {
   if (is_open(a) || is_open(b)) return open_dimension;
   if (is_bare(a) && is_bare(b)) return bare;
-  if (is_bare(a) || is_bare(b)) { /* 2 pi is as bare as 2 */
+  if (is_bare(a) || is_bare(b)) {
     ambit_dimension other = is_bare(a) ? b : a;
-    return is_known(other) || !same_power(other, soft_number) ? open_dimension : bare;
+    if (other.of_state) return open_dimension;
+    if (is_plain_number(other)) return bare; /* 2 pi is as bare as 2 */
   }
-  ambit_dimension out = is_known(a) ? a : b;
+  ambit_dimension out = is_known(b) || is_bare(a) ? b : a;
+  if (is_known(a)) out = a;
   out.mixed = a.mixed || b.mixed;
+  out.of_state = a.of_state || b.of_state;
   for (int i = 0; i < AMBIT_DIMENSIONS; i++) {
-    int power = a.power[i] + sign * b.power[i];
+    int power = a.power[i] + sign * b.power[i]; /* a BARE one's is 0 */
     if (power > AMBIT_POWER_MAX || power < -AMBIT_POWER_MAX) return open_dimension;
     out.power[i] = (int16_t)power;
   }
@@ -74,12 +79,14 @@ ambit_dimension ambit_dimension_power(ambit_dimension a, int64_t power) {
 /* sin, exp and their like: of a number, and a number. */
 static bool function(ambit_dimension a, ambit_dimension *out) {
   *out = is_known(a) && !a.mixed ? number : soft_number;
+  out->of_state = is_known(*out) && a.of_state;
   return ambit_dimension_is_number(a);
 }
 
 /* The angle of a point: its coordinates have one dimension. */
 static bool angle(ambit_dimension a, ambit_dimension b, ambit_dimension *out) {
   *out = is_known(a) || is_known(b) ? number : soft_number;
+  out->of_state = is_known(*out) && (a.of_state || b.of_state);
   return ambit_dimension_agree(a, b);
 }
 
@@ -168,6 +175,10 @@ static const struct {
   { { 2, 1, -3, -2, 0 }, "a resistance", "ohm" },
   { { 2, 1, -2, -2, 0 }, "an inductance", "H" },
   { { 0, 0, 1, 1, 0 }, "an electric charge", "C" },
+  { { -2, -1, 4, 2, 0 }, "a capacitance", "F" },
+  { { -2, -1, 3, 2, 0 }, "a conductance", "S" },
+  { { 2, 1, -2, -1, 0 }, "a magnetic flux", "Wb" },
+  { { 0, 1, -2, -1, 0 }, "a magnetic flux density", "T" },
 };
 
 void ambit_dimension_name(const int16_t power[AMBIT_DIMENSIONS], char out[AMBIT_DIMENSION_TEXT_MAX]) {

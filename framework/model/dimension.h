@@ -1,12 +1,15 @@
 /* dimension.h -- the dimension of a quantity, and what operations make of it.
 **
 ** KNOWN is what a unit said, and then it is checked. A number without a unit is BARE: as a term it takes the unit of
-** the others, as a factor it may have any (2 is 2 N/m in 2 * x), so the product is OPEN: of a unit that nobody knows,
-** which fits everything. SOFT has a unit that is not insisted on: what a force law is called with, since -x may stand
+** the others, as a factor it is a number. Beside a state or a coordinate it may be a coefficient of any unit, though (100
+** in -100 * x is 100 1/s^2), so that product is OPEN: of a unit that nobody knows, which fits everything; of_state
+** tells which those are. SOFT has a unit that is not insisted on: what a force law is called with, since -x may stand
 ** for -1 N/m * x; and pi and sines of open numbers, which are plain numbers as factors and anything as terms.
 **
 **   a + b, min, max, ends:  KNOWN and KNOWN must agree; KNOWN and BARE or SOFT: KNOWN; OPEN and anything: OPEN
-**   a * b, a / b:           KNOWN or SOFT on both sides: powers add, KNOWN if one is; BARE and BARE: BARE; else OPEN
+**   a * b, a / b:           KNOWN or SOFT on both sides: powers add, KNOWN if one is; OPEN and anything: OPEN
+**     with a BARE factor:   BARE; pi, sines, angles and KNOWN numbers: BARE; KNOWN: the same unit, or 1 over it; but
+**                           of a state: OPEN
 **   sin, exp, ...:          KNOWN must be a number or angle, unless a BARE or SOFT term was in it
 **
 ** Rules for users: docs/units.md.
@@ -26,6 +29,7 @@ enum { AMBIT_DIMENSION_BARE, AMBIT_DIMENSION_OPEN, AMBIT_DIMENSION_SOFT, AMBIT_D
 typedef struct ambit_dimension {
   uint8_t state;
   bool mixed;                      /* KNOWN, with a term in it that had no unit of its own */
+  bool of_state;                   /* KNOWN, SOFT: made of states or coordinates, so BARE factors may be coefficients */
   int16_t power[AMBIT_DIMENSIONS]; /* KNOWN, SOFT: in sixtieths; otherwise 0 */
 } ambit_dimension;
 

@@ -1,7 +1,7 @@
 /* unit.h -- physical units as data: "N m", "kg*m^2/s^2", "deg", "mm".
 **
 ** Factors are joined by a blank, `*`, `.` or `/` (which divides by the one factor, or bracket, behind it); `^` takes
-** a power, whole or not: m^2, s^-1, m^1.5, m^(1/3). SI prefixes n u m c d k M G go with SI units. No units with an
+** a power, whole or not: m^2, s^-1, m^1.5, m^(1/3). All SI prefixes go with SI units. No units with an
 ** offset (degC). An angle is dimensionless: deg is pi/180, rev 2 pi, rpm pi/30 per second. docs/units.md lists them.
 */
 #ifndef AMBIT_UNIT_H

@@ -53,7 +53,7 @@ end
 function ambit.number(value, unit)
   if unit ~= nil then check.text(unit, "number: unit") end
   local e = core.expression(value, unit, "number")
-  return unit and core.in_unit(e, unit) or e
+  return unit and core.in_unit(e, unit, "given") or e
 end
 
 -- Whose is arithmetic on texts, "1" / "3"? true: Ambit's, as in the command; false: Lua's, which rounds. Until the host
@@ -77,7 +77,7 @@ function ambit.degrees(x)
       unit)
   end
   local angle = core.mul(x, degree)
-  return check.kind(angle) == "expression" and core.in_unit(angle, "rad") or angle
+  return check.kind(angle) == "expression" and core.in_unit(angle, "rad", "given") or angle
 end
 
 return ambit

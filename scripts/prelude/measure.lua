@@ -118,7 +118,7 @@ end
 -- -- masses
 
 -- kg
-function methods:total_mass() return core.in_unit(whole(self, core.MASS, 1)[1], "kg") end
+function methods:total_mass() return core.in_unit(whole(self, core.MASS, 1)[1], "kg", "given") end
 
 -- In the world, m.
 function methods:centre_of_mass()

@@ -55,7 +55,8 @@ describe("units", function()
       assert.is_truthy(ambit[name](length / "2 m"))
     end
     assert.is_truthy(ambit.sin "30 deg")
-    assert.is_truthy(ambit.sin(ambit.time) + ambit.cos(2 * length)) -- 1 rad/s * t, 2 rad/m * x
+    assert.is_truthy(ambit.sin(ambit.time) + ambit.cos(2 * ambit.time)) -- 1 rad/s * t, 2 rad/s * t
+    fails(function() return ambit.cos(2 * length) end, "cos", "a length (m)")
   end)
 
   it("of products and powers are worked out, fractions too", function()
@@ -131,16 +132,60 @@ describe("docs/units.md", function()
   end)
 end)
 
+describe("the SI", function()
+  -- Its units with a name of their own, by base units (SI brochure, table 4), and how they are written here.
+  local named = { rad = "1", sr = "1", Hz = "1/s", N = "kg m/s^2", Pa = "kg/(m s^2)", J = "kg m^2/s^2",
+    W = "kg m^2/s^3", C = "A s", V = "kg m^2/(s^3 A)", F = "s^4 A^2/(kg m^2)", ohm = "kg m^2/(s^3 A^2)",
+    S = "s^3 A^2/(kg m^2)", Wb = "kg m^2/(s^2 A)", T = "kg/(s^2 A)", H = "kg m^2/(s^2 A^2)", lm = "cd", lx = "cd/m^2",
+    Bq = "1/s", Gy = "m^2/s^2", Sv = "m^2/s^2", kat = "mol/s" }
+
+  it("has all units with a name of their own, with all prefixes", function()
+    local _, prefixes = require("ambit.core").units()
+    local count = 0
+    for name, base in pairs(named) do
+      count = count + 1
+      assert.equal(0, range(number("3 " .. name) - ("3 " .. base)):mag(), name)
+      for _, prefix in ipairs(prefixes) do
+        local off = number(("1 %s%s"):format(prefix.name, name)) - ("1e%d %s"):format(prefix.decimal, base)
+        assert.is_true(range(off):mag() <= 1e-15 * 10.0 ^ prefix.decimal, prefix.name .. name)
+      end
+    end
+    assert.equal(21, count)
+    fails(function() return number "20 degC" end, "offset", "K")
+  end)
+
+  it("has capacitances", function()
+    assert.is_true(range(number "10 kohm" * "100 nF" - "1 ms"):mag() < 1e-17)
+    fails(function() return number "1 uF" + "1 V" end, "a capacitance (F)", "a voltage (V)")
+  end)
+end)
+
 describe("numbers without a unit", function()
   it("take that of the other terms", function()
     assert.is_truthy(number "1 m" + 1 + "1 m")
     fails(function() return number "1 m" + 1 + "1 s" end, "a length (m)", "a time (s)")
   end)
 
-  it("may stand for a coefficient of any unit", function()
-    assert.is_truthy(2 * number "1 m" + "1 kg")
-    assert.is_truthy(number "1 m" / around(2, "1%") - "1 kg")
-    assert.is_truthy(ambit.evaluate({ number "1 m" }) * number "1 m" + "1 kg") -- enclosures are numbers
+  it("are numbers as factors of a quantity", function()
+    local length, two = number "1 m", around(2, "1%")
+    for _, twice in ipairs { 2 * length, length * two, length / two, "2" * length, 2 * (length + 1) } do
+      fails(function() return twice + "1 kg" end, "a length (m)", "a mass (kg)")
+      assert.is_truthy(twice + "1 m")
+    end
+    fails(function() return 1 / length + "1 m" end, "1/m")
+    fails(function() return ambit.evaluate { length } * around("1 m", "1%") + "1 kg" end, "a length (m)")
+    local arm = ambit.mechanism "arm"
+    arm:point_mass { at = arm.world, mass = 2 }
+    fails(function() return 2 * arm:total_mass() + length end, "a mass (kg)")
+    assert.is_truthy(3 * ambit.cos(number "30 deg") + length) -- 3 m, and its cosine
+  end)
+
+  it("may be coefficients of any unit beside states and coordinates", function()
+    local arm = ambit.mechanism "arm"
+    local _, slide = arm:prismatic { from = arm.world, axis = "x", name = "x" }
+    local x = arm:coordinates().x
+    assert.is_truthy(100 * (number "3 cm" - x) + "1 N")
+    arm:joint_torque { joint = slide, force = function(q, rate) return 100 * (number "3 cm" - q) - 3 * rate end }
   end)
 end)
 

@@ -88,7 +88,8 @@ static void names(void **state) {
   (void)state;
   static const char *const pair[][2] = { { "N", "a force (N)" }, { "mm", "a length (m)" },
     { "J", "a torque or energy" }, { "deg", "a number or angle (rad)" }, { "N/m^1.5", "a value in kg/m^0.5/s^2" },
-    { "mol", "a value in mol" }, { "rpm", "angular speed (rad/s)" }, { "m^(1/3)", "m^(1/3)" } };
+    { "mol", "a value in mol" }, { "uF", "a capacitance (F)" }, { "mWb", "a magnetic flux (Wb)" }, { "mS", "a conductance (S)" },
+    { "T", "a magnetic flux density (T)" }, { "rpm", "angular speed (rad/s)" }, { "m^(1/3)", "m^(1/3)" } };
   for (size_t i = 0; i < sizeof pair / sizeof *pair; i++) {
     char text[AMBIT_DIMENSION_TEXT_MAX];
     ambit_dimension_name(of(pair[i][0]).power, text);
@@ -112,11 +113,29 @@ static void assert_is(ambit_dimension d, int state, const char *unit) {
   assert_memory_equal(d.power, of(unit).power, sizeof d.power);
 }
 
+/* A number beside a state may be a coefficient: -100 * x is an acceleration. So may one beside what states are in. */
+static void coefficients_of_states(void **state) {
+  (void)state;
+  ambit_dimension bare = { .state = AMBIT_DIMENSION_BARE }, m = of("m"), s = of("m"), angle = of("rad");
+  s.of_state = angle.of_state = true;
+  const ambit_dimension made[] = { s, result(AMBIT_OP_ADD, m, s), result(AMBIT_OP_SUB, s, bare),
+    result(AMBIT_OP_MUL, s, m), result(AMBIT_OP_DIV, m, s), result(AMBIT_OP_SQRT, s, s),
+    result(AMBIT_OP_SIN, angle, angle),
+    result(AMBIT_OP_ATAN2, s, m), ambit_dimension_power(s, 2 * AMBIT_POWER_ONE) };
+  for (size_t i = 0; i < sizeof made / sizeof *made; i++) {
+    assert_int_equal(made[i].state, AMBIT_DIMENSION_KNOWN);
+    assert_is(result(AMBIT_OP_MUL, bare, made[i]), AMBIT_DIMENSION_OPEN, "1");
+    assert_is(result(AMBIT_OP_DIV, made[i], bare), AMBIT_DIMENSION_OPEN, "1");
+  }
+  assert_false(fits(AMBIT_OP_ADD, s, of("kg")));
+}
+
 static void rules(void **state) {
   (void)state;
   ambit_dimension bare = { .state = AMBIT_DIMENSION_BARE }, open = { .state = AMBIT_DIMENSION_OPEN };
   ambit_dimension m = of("m"), kg = of("kg"), angle = of("rad"), soft = of("m"), pi = of("1");
   soft.state = pi.state = AMBIT_DIMENSION_SOFT;
+  soft.of_state = true;
   static const uint32_t sums[] = { AMBIT_OP_ADD, AMBIT_OP_SUB, AMBIT_OP_MIN, AMBIT_OP_MAX };
   for (size_t i = 0; i < sizeof sums / sizeof *sums; i++) {
     assert_false(fits(sums[i], m, kg));
@@ -133,7 +152,11 @@ static void rules(void **state) {
   assert_is(result(AMBIT_OP_MUL, m, pi), AMBIT_DIMENSION_KNOWN, "m");
   assert_is(result(AMBIT_OP_MUL, soft, of("N/m")), AMBIT_DIMENSION_KNOWN, "N");
   assert_is(result(AMBIT_OP_MUL, soft, soft), AMBIT_DIMENSION_SOFT, "m^2");
-  assert_is(result(AMBIT_OP_MUL, bare, m), AMBIT_DIMENSION_OPEN, "1");
+  assert_is(result(AMBIT_OP_MUL, bare, m), AMBIT_DIMENSION_KNOWN, "m"); /* 2 * length is a length */
+  assert_is(result(AMBIT_OP_DIV, m, bare), AMBIT_DIMENSION_KNOWN, "m");
+  assert_is(result(AMBIT_OP_DIV, bare, m), AMBIT_DIMENSION_KNOWN, "1/m");
+  assert_false(fits(AMBIT_OP_ADD, result(AMBIT_OP_MUL, bare, m), kg));
+  assert_is(result(AMBIT_OP_MUL, bare, angle), AMBIT_DIMENSION_BARE, "1"); /* a radius times a cosine */
   assert_is(result(AMBIT_OP_DIV, bare, soft), AMBIT_DIMENSION_OPEN, "1");
   assert_is(result(AMBIT_OP_MUL, bare, pi), AMBIT_DIMENSION_BARE, "1");
   assert_is(result(AMBIT_OP_SQRT, m, m), AMBIT_DIMENSION_KNOWN, "m^0.5");
@@ -162,6 +185,7 @@ int main(void) {
     cmocka_unit_test(texts_read_back),
     cmocka_unit_test(names),
     cmocka_unit_test(rules),
+    cmocka_unit_test(coefficients_of_states),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -97,6 +97,24 @@ static void factors_are_exact(void **state) {
   check("4 m^2.kg", "kg m^2", "4", "1", 0, 0);
   check("4 m/s/s", "m/s^2", "4", "1", 0, 0);
   check("1 V", "kg*m^2/s^3/A", "1", "1", 0, 0);
+  check("4.7 uF", "F", "4.7", "1000000", 0, 1);
+  check("22 nF", "A s/V", "22", "1000000000", 0, 1);
+  check("10 pF", "A^2 s^4/(kg m^2)", "1", "100000000000", 0, 1);
+  check("2 kohm", "ohm", "2000", "1", 0, 0);
+  check("2 k\xce\xa9", "\xe2\x84\xa6", "2000", "1", 0, 0);
+  check("5 mS", "1/ohm", "5", "1000", 0, 1);
+  check("3 L/min", "m^3/s", "1", "20000", 0, 4);
+  check("3 ml", "cm^3", "3", "1000000", 0, 1);
+  check("1013.25 hPa", "atm", "101325", "1", 0, 0);
+  check("1 psi", "Pa", "44482216152605", "6451600000", 0, 4);
+  check("3 THz", "Hz", "3000000000000", "1", 0, 0);
+  check("2 dag", "kg", "2", "100", 0, 1);
+  check("1 eV", "J", "1.602176634e-19", "1", 0, 1);
+  check("3 kWh", "J", "10800000", "1", 0, 0);
+  check("60 arcmin", "rad", "1", "180", 1, 3);
+  check("36 kn", "m/s", "18.52", "1", 0, 3);
+  check("2 kcal", "J", "8368", "1", 0, 0);
+  check("7 d", "s", "604800", "1", 0, 0);
   check("  2\tm ", "m", "2", "1", 0, 0);
   check("1e310 nm", "m", "1e301", "1", 0, 1);
 }
@@ -114,7 +132,9 @@ static void equal_dimensions(void **state) {
   (void)state;
   static const char *const pair[][2] = { { "J", "N m" }, { "W", "J/s" }, { "Pa", "N/m^2" }, { "N", "kg m/s^2" },
     { "V", "W/A" }, { "ohm", "V/A" }, { "H", "Wb/A" }, { "T", "Wb/m^2" }, { "C", "A s" }, { "bar", "Pa" },
-    { "rpm", "Hz" }, { "rad", "1" }, { "", "1" }, { "(m)", "m" }, { "((m)^2)^2", "m^4" }, { "m^0", "1" },
+    { "rpm", "Hz" }, { "F", "C/V" }, { "S", "A/V" }, { "Wb", "V s" }, { "lm", "cd sr" }, { "lx", "lm/m^2" },
+    { "Bq", "1/s" }, { "Gy", "J/kg" }, { "Sv", "Gy" }, { "kat", "mol/s" }, { "sr", "1" }, { "L", "dm^3" }, { "psi", "Pa" },
+    { "kgf", "N" }, { "rad", "1" }, { "", "1" }, { "(m)", "m" }, { "((m)^2)^2", "m^4" }, { "m^0", "1" },
     { "1/s", "Hz" } };
   for (size_t i = 0; i < sizeof pair / sizeof *pair; i++) {
     ambit_unit a, b;
@@ -135,6 +155,8 @@ static void bad_units_are_named(void **state) {
     { "5 Nm", "N m", "did you mean `N m`" },
     { "5 kt", "kg", "unknown unit `kt`" },
     { "5 degC", "K", "offset" },
+    { "5 \xc2\xb0\x43", "K", "offset" },
+    { "5 mmin", "s", "unknown unit `mmin`" },
     { "5 kg", "m", "`5 kg` is in kg, but m is expected" },
     { "5 N", "N m", "but N m is expected" },
     { "5 m", "1", "a number without dimension" },
