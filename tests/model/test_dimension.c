@@ -88,8 +88,9 @@ static void names(void **state) {
   (void)state;
   static const char *const pair[][2] = { { "N", "a force (N)" }, { "mm", "a length (m)" },
     { "J", "a torque or energy" }, { "deg", "a number or angle (rad)" }, { "N/m^1.5", "a value in kg/m^0.5/s^2" },
-    { "mol", "a value in mol" }, { "uF", "a capacitance (F)" }, { "mWb", "a magnetic flux (Wb)" }, { "mS", "a conductance (S)" },
-    { "T", "a magnetic flux density (T)" }, { "rpm", "angular speed (rad/s)" }, { "m^(1/3)", "m^(1/3)" } };
+    { "mol", "a value in mol" }, { "uF", "a capacitance (F)" }, { "mWb", "a magnetic flux (Wb)" },
+    { "mS", "a conductance (S)" }, { "T", "a magnetic flux density (T)" }, { "rpm", "angular speed (rad/s)" },
+    { "m^(1/3)", "m^(1/3)" } };
   for (size_t i = 0; i < sizeof pair / sizeof *pair; i++) {
     char text[AMBIT_DIMENSION_TEXT_MAX];
     ambit_dimension_name(of(pair[i][0]).power, text);
@@ -120,8 +121,7 @@ static void coefficients_of_states(void **state) {
   s.of_state = angle.of_state = true;
   const ambit_dimension made[] = { s, result(AMBIT_OP_ADD, m, s), result(AMBIT_OP_SUB, s, bare),
     result(AMBIT_OP_MUL, s, m), result(AMBIT_OP_DIV, m, s), result(AMBIT_OP_SQRT, s, s),
-    result(AMBIT_OP_SIN, angle, angle),
-    result(AMBIT_OP_ATAN2, s, m), ambit_dimension_power(s, 2 * AMBIT_POWER_ONE) };
+    result(AMBIT_OP_SIN, angle, angle), result(AMBIT_OP_ATAN2, s, m), ambit_dimension_power(s, 2 * AMBIT_POWER_ONE) };
   for (size_t i = 0; i < sizeof made / sizeof *made; i++) {
     assert_int_equal(made[i].state, AMBIT_DIMENSION_KNOWN);
     assert_is(result(AMBIT_OP_MUL, bare, made[i]), AMBIT_DIMENSION_OPEN, "1");

@@ -133,9 +133,9 @@ static void equal_dimensions(void **state) {
   static const char *const pair[][2] = { { "J", "N m" }, { "W", "J/s" }, { "Pa", "N/m^2" }, { "N", "kg m/s^2" },
     { "V", "W/A" }, { "ohm", "V/A" }, { "H", "Wb/A" }, { "T", "Wb/m^2" }, { "C", "A s" }, { "bar", "Pa" },
     { "rpm", "Hz" }, { "F", "C/V" }, { "S", "A/V" }, { "Wb", "V s" }, { "lm", "cd sr" }, { "lx", "lm/m^2" },
-    { "Bq", "1/s" }, { "Gy", "J/kg" }, { "Sv", "Gy" }, { "kat", "mol/s" }, { "sr", "1" }, { "L", "dm^3" }, { "psi", "Pa" },
-    { "kgf", "N" }, { "rad", "1" }, { "", "1" }, { "(m)", "m" }, { "((m)^2)^2", "m^4" }, { "m^0", "1" },
-    { "1/s", "Hz" } };
+    { "Bq", "1/s" }, { "Gy", "J/kg" }, { "Sv", "Gy" }, { "kat", "mol/s" }, { "sr", "1" }, { "L", "dm^3" },
+    { "psi", "Pa" }, { "kgf", "N" }, { "rad", "1" }, { "", "1" }, { "(m)", "m" }, { "((m)^2)^2", "m^4" },
+    { "m^0", "1" }, { "1/s", "Hz" } };
   for (size_t i = 0; i < sizeof pair / sizeof *pair; i++) {
     ambit_unit a, b;
     ambit_failure f = { 0 };
