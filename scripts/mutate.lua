@@ -5,13 +5,14 @@
 --
 -- N mutations (300) are drawn from all that are possible, spread over the areas and the operators. What has been tried
 -- stands in FILE (docs/results/mutations.txt) and is not tried again, so that a run can be interrupted and go on; remove
--- the file to try everything anew. A mutation that survives must be explained in scripts/mutate/explained.lua: it changes no answer, or only makes a set
--- wider or a run slower. The exit code is 3 if one is not.
+-- the file to try everything anew. A mutation that survives must be explained in scripts/mutate/explained.lua: it
+-- changes no answer, or only makes a set wider or a run slower. The exit code is 3 if one is not; the next run tries it
+-- again. scripts/bench/mutations.lua prints the counts.
 package.path = "./scripts/?.lua;" .. package.path
 local areas = require "mutate.areas"
+local draw = require "mutate.draw"
 local explained = require "mutate.explained"
-local known_before = require "mutate.known"
-local source = require "mutate.source"
+local record = require "mutate.record"
 local trial = require "mutate.trial"
 
 local settings = { count = 300, seed = 1, place = "build/mutate/tree", results = "docs/results/mutations.txt" }
@@ -31,145 +32,79 @@ local function read_arguments()
     end
     i = i + 2
   end
+  if settings.place:sub(1, 1) ~= "/" then settings.place = os.getenv "PWD" .. "/" .. settings.place end
 end
 
-local function tracked()
-  local list = {}
-  local pipe = assert(io.popen "git ls-files")
-  for file in pipe:lines() do list[#list + 1] = file end
-  pipe:close()
-  return list
+local function try(area, tests, mutation, known)
+  local log = settings.place .. ".log"
+  local outcome, by = trial.run(area, tests, mutation, known, settings.place, log)
+  known[mutation.key] = { outcome, by or "" }
+  record.add(settings.results, mutation.key, outcome, by)
+  print(("%-9s %s:%d %s %s"):format(outcome, mutation.file, mutation.line, mutation.operator, by or ""))
+  print("          " .. mutation.new:match "^%s*(.*)$")
 end
 
-local function mutations_of(area, files)
-  local list = {}
-  for _, file in ipairs(files) do
-    for _, pattern in ipairs(area.files) do
-      local stem, words, ending = pattern:match "^(.-)(%b())(.*)$"
-      for word in words:sub(2, -2):gmatch "[^|]+" do
-        if file:find(stem .. word .. ending) then
-          source.mutations(file, list)
-          break
-        end
-      end
-    end
-  end
-  return list
-end
-
-local function shuffle(list)
-  for i = #list, 2, -1 do
-    local j = math.random(i)
-    list[i], list[j] = list[j], list[i]
-  end
-end
-
--- n of them, each operator in turn, so that frequent ones do not crowd out the rest.
-local function draw(list, n)
-  local by, names = {}, {}
-  shuffle(list)
-  for _, mutation in ipairs(list) do
-    local name = mutation.operator
-    if not by[name] then by[name], names[#names + 1] = {}, name end
-    table.insert(by[name], mutation)
-  end
-  table.sort(names)
-  local drawn, round = {}, 1
-  while #drawn < n and round <= #list do
-    for _, name in ipairs(names) do
-      if #drawn < n and by[name][round] then drawn[#drawn + 1] = by[name][round] end
-    end
-    round = round + 1
-  end
-  return drawn
-end
-
--- What was tried before: key -> outcome.
-local function results_before()
-  local known = {}
-  local input = io.open(settings.results)
-  if not input then return known end
-  for line in input:lines() do
-    local outcome, by, key = line:match "^(%a+)\t(.-)\t(.*)$"
-    if outcome then known[key] = { outcome, by } end
-  end
-  input:close()
-  return known
-end
-
-local function remember(key, outcome, by)
-  local output = assert(io.open(settings.results, "a"))
-  output:write(outcome, "\t", by or "", "\t", key, "\n")
-  output:close()
-end
-
--- What is tried of an area, in order: the mutations that were once not noticed, then a draw of `wanted` and more, since
--- some do not compile.
-local function choose(area, files, wanted)
-  local candidates = mutations_of(area, files)
-  local drawn = draw(candidates, 2 * wanted)
-  for _, entry in ipairs(known_before) do
-    if entry.area == area.name then table.insert(drawn, 1, source.find(entry)) end
-  end
-  return drawn, #candidates
-end
-
-local function count(area, files, known, is_ready)
-  local total = { tried = 0, killed = 0, explained = 0, unbuilt = 0, open = {} }
+-- How many of the mutations of an area are tried.
+local function wanted(area)
   local share = 0
   for _, a in ipairs(areas) do share = share + a.share end
-  local wanted = math.ceil(settings.count * area.share / share)
-  for _, entry in ipairs(known_before) do wanted = wanted + (entry.area == area.name and 1 or 0) end
-  local drawn
-  drawn, total.possible = choose(area, files, wanted)
+  return math.ceil(settings.count * area.share / share)
+end
+
+-- The next mutations to try, the files in turn: as many as are wanted still, since some do not build.
+local function next_of(drawn, known, count)
+  local list = {}
   for _, mutation in ipairs(drawn) do
-    if total.tried >= wanted then break end
     local found = known[mutation.key]
-    if not found then
-      if not is_ready[area] then
-        local failed = trial.failing(area, settings.place, settings.place .. ".log")
-        if failed then error(("the tests of `%s` fail without a mutation: %s"):format(area.name, failed), 0) end
-        is_ready[area] = true
-      end
-      found = { trial.run(area, mutation, settings.place, settings.place .. ".log") }
-      remember(mutation.key, found[1], found[2])
-      print(("%-9s %s:%d %s %s"):format(found[1], mutation.file, mutation.line, mutation.operator, found[2] or ""))
-      print("          " .. mutation.new:match "^%s*(.*)$")
-    end
-    if found[1] == "unbuilt" then
-      total.unbuilt = total.unbuilt + 1
-    else
-      total.tried = total.tried + 1
-      if found[1] == "killed" then
-        total.killed = total.killed + 1
-      elseif explained[mutation.key] then
-        total.explained = total.explained + 1
-      else
-        total.open[#total.open + 1] = mutation
-      end
-    end
+    if count <= 0 then break end
+    if not record.is_settled(mutation.key, found) and not mutation.tried then list[#list + 1] = mutation end
+    if not found or found[1] ~= "unbuilt" then count = count - 1 end
   end
-  return total
+  table.sort(list, function(a, b) return a.file < b.file or a.file == b.file and a.line < b.line end)
+  return list
+end
+
+-- Returns the mutations that survived without an explanation.
+local function try_area(area, files, known)
+  local drawn = draw.order(draw.possible(area, files), settings.seed, known)
+  local named, tests = draw.named(area), nil
+  table.move(drawn, 1, #drawn, #named + 1, named)
+  local count = wanted(area) + #named - #drawn
+  local list = next_of(named, known, count)
+  while #list > 0 do
+    tests = tests or trial.tests(area, settings.place, settings.place .. ".log")
+    for _, mutation in ipairs(list) do
+      try(area, tests, mutation, known)
+      mutation.tried = true
+    end
+    list = next_of(named, known, count)
+  end
+  local open = {}
+  for _, mutation in ipairs(named) do
+    local found = known[mutation.key]
+    if found and found[1] == "survived" and not explained[mutation.key] then open[#open + 1] = mutation end
+  end
+  return open
 end
 
 local function main()
   read_arguments()
-  os.execute(("mkdir -p %s"):format(settings.results:match "^(.*)/" or "."))
-  local files, known, is_ready, rows, open = tracked(), results_before(), {}, {}, {}
-  if settings.place:sub(1, 1) ~= "/" then settings.place = os.getenv "PWD" .. "/" .. settings.place end
+  os.execute(("mkdir -p %s %s"):format(settings.results:match "^(.*)/" or ".", settings.place:match "^(.*)/" or "."))
+  local files, known, open = draw.files(), record.read(settings.results), {}
   io.stdout:setvbuf "line"
   trial.prepare(settings.place)
-  for k, area in ipairs(areas) do
-    math.randomseed(settings.seed, k)
+  for _, area in ipairs(areas) do
     if not settings.area or settings.area == area.name then
-      local total = count(area, files, known, is_ready)
-      rows[#rows + 1] = ("| %s | %d | %d | %d | %d | %d |"):format(area.name, total.possible, total.tried, total.killed,
-        total.explained, #total.open)
-      table.move(total.open, 1, #total.open, #open + 1, open)
+      local list = try_area(area, files, known)
+      table.move(list, 1, #list, #open + 1, open)
     end
   end
-  print "| area | possible | tried | killed | explained | open |\n|---|---|---|---|---|---|"
-  for _, row in ipairs(rows) do print(row) end
+  local exists = {}
+  for _, area in ipairs(areas) do
+    for _, mutation in ipairs(draw.possible(area, files)) do exists[mutation.key] = true end
+    for _, mutation in ipairs(draw.named(area)) do exists[mutation.key] = true end
+  end
+  record.rewrite(settings.results, known, exists)
   for _, mutation in ipairs(open) do print("open: " .. mutation.key .. "  ->  " .. mutation.new:match "^%s*(.*)$") end
   os.exit(#open > 0 and 3 or 0)
 end

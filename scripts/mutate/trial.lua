@@ -1,17 +1,17 @@
 -- trial.lua -- one mutation tried: written into a copy of the tree, built, tested, taken back.
 --
--- Outcomes: "killed" and the test that noticed; "unbuilt" (the compiler refuses it); "survived".
+-- Outcomes: "killed" and the test that noticed; "unbuilt" (the compiler refuses it); "survived". Only what the mutation
+-- touches is built; the tests that noticed the most in the same file come first, then quick ones.
 local source = require "mutate.source"
 
 local trial = {}
 
--- Every process of a test may use so much: a mutation may loop for ever, or ask for all memory.
-local LIMITS = "ulimit -t 120; ulimit -v 8000000; ulimit -c 0; "
-local WALL = 900 -- s for a stage
+-- No test may use more memory (kB) than this, or more CPU time than 10 times what it uses without a mutation and 20 s.
+local LIMITS = "ulimit -v 8000000; ulimit -c 0; ulimit -t %d; "
 
 local function shell(command, log)
-  local ok, _, code = os.execute(("( %s ) >%s 2>&1"):format(command, log))
-  return ok == true, code
+  local ok = os.execute(("( %s ) >%s 2>&1"):format(command, log))
+  return ok == true
 end
 
 local function read(file)
@@ -19,6 +19,12 @@ local function read(file)
   local text = input:read "a"
   input:close()
   return text
+end
+
+local function exists(file)
+  local input = io.open(file)
+  if input then input:close() end
+  return input ~= nil
 end
 
 local function write(file, text)
@@ -34,72 +40,104 @@ local function output_of(command)
   return text
 end
 
--- Makes `place` a built copy of the committed tree, or keeps the one that is there. Tests are not linked anew when only
--- the library changes. A mutation that an interrupted run left behind is taken back.
+-- Makes `place` a built copy of the committed tree, or brings the one that is there up to date. Tests are not linked
+-- anew when only the library changes. A mutation that an interrupted run left behind is taken back.
 function trial.prepare(place)
-  local commit = output_of "git rev-parse HEAD"
-  local known = io.open(place .. "/commit")
-  if known and known:read "a" == commit then
-    local left = io.open(place .. "/mutated")
-    if left then
-      local file = left:read "l"
-      if file then write(place .. "/" .. file, output_of("git show HEAD:" .. file)) end
-    end
-    return
-  end
-  local make = ([[set -e; rm -rf %s; mkdir -p %s; git archive HEAD | tar -x -C %s;
-    cmake -S %s -B %s/build -G Ninja -DCMAKE_BUILD_TYPE=Release -DAMBIT_TESTS=ON -DCMAKE_LINK_DEPENDS_NO_SHARED=ON;
-    cmake --build %s/build]]):gsub("%%s", place)
-  assert(shell(make, "/dev/null") or nil, "the tree does not build: " .. place)
-  write(place .. "/commit", commit)
+  local make = ([[set -e; [ -d %s/.git ] || git clone -q --shared --no-checkout . %s
+    head=$(git rev-parse HEAD); cd %s; git fetch -q origin $head; git checkout -q --force --detach $head
+    [ -d build ] || cmake -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DAMBIT_TESTS=ON -DCMAKE_LINK_DEPENDS_NO_SHARED=ON
+    cmake --build build]]):gsub("%%s", place)
+  assert(shell(make, place .. ".log"), "the tree does not build: " .. place .. ".log")
 end
 
--- The commands that test an area, quick ones first: { name, command }.
-local function stages(area, place)
+local function build(place, target, log) return shell(("ninja -C %s/build %s"):format(place, target), log) end
+
+-- The tests of an area: { name, command, target or nil, seconds }.
+local function tests_of(area, place)
   local list = {}
-  for _, pattern in ipairs(area.tests) do
-    list[#list + 1] = { pattern, ("%stimeout %d ctest --test-dir %s/build -R '%s' --stop-on-failure"):format(LIMITS, WALL,
-      place, pattern) }
+  for name in output_of(("ctest --test-dir %s/build -N"):format(place)):gmatch "#%d+: (%S+)" do
+    for _, pattern in ipairs(area.tests) do
+      if name:find(pattern) and exists(("%s/build/tests/test.%s"):format(place, name)) then
+        list[#list + 1] = { name = name, target = "test." .. name,
+          command = ("ctest --test-dir %s/build -R '^%s$'"):format(place, name:gsub("%.", "\\.")) }
+        break
+      end
+    end
   end
   for _, spec in ipairs(area.specs or {}) do
     local path = ("%s/build/tests/lua/plugins:%s/build/tests/plugins:%s/build/plugins"):gsub("%%s", place)
-    local command = "%scd %s && AMBIT_PATH=%s AMBIT_COMMAND=%s/build/ambit NO_COLOR=1 timeout %d build/ambit test tests/lua/%s_spec.lua"
-    list[#list + 1] = { spec .. "_spec", command:format(LIMITS, place, path, place, WALL, spec) }
+    local cpath = ("%s/build/lib/lua/5.4/?.so;%s/build/tests/lua/?.so;;"):gsub("%%s", place)
+    local command = "cd %s && AMBIT_PATH=%s LUA_CPATH='%s' AMBIT_COMMAND=%s/build/ambit NO_COLOR=1 timeout 900 build/ambit test "
+      .. "tests/lua/%s_spec.lua -- --no-keep-going"
+    list[#list + 1] = { name = spec .. "_spec", command = command:format(place, path, cpath, place, spec) }
   end
   return list
 end
 
--- The first stage that fails, and what failed in it; nil if all pass.
-local function noticed(area, place, log)
-  for _, stage in ipairs(stages(area, place)) do
-    if not shell(stage[2], log) then
-      local text = read(log)
-      return text:match "%d+ %- ([%w_.]+) %(" or text:match "Failure[^\n]*\n[^\n]*" or stage[1]
+-- CPU seconds that the tests used, which the shell has printed last.
+local function seconds_of(log)
+  local minutes, seconds = read(log):match "(%d+)m([%d.]+)s %d+m[%d.]+s%s*$"
+  return 60 * tonumber(minutes) + tonumber(seconds)
+end
+
+-- The tests of an area, none of which fails without a mutation. They have been run once for each commit.
+function trial.tests(area, place, log)
+  local passed = {} -- "commit name" -> seconds
+  local path, commit = place .. ".passed", output_of(("git -C %s rev-parse HEAD"):format(place)):match "%x+"
+  if exists(path) then
+    for name, seconds in read(path):gmatch(commit .. " (%S+) (%S+)\n") do passed[name] = tonumber(seconds) end
+  end
+  local list = tests_of(area, place)
+  for _, test in ipairs(list) do
+    if not passed[test.name] then
+      local ok = shell(test.command .. " && times", log)
+      if not ok then error(("the tests of `%s` fail without a mutation: %s"):format(area.name, test.name), 0) end
+      passed[test.name] = seconds_of(log)
+      local output = assert(io.open(path, "a"))
+      output:write(("%s %s %.2f\n"):format(commit, test.name, passed[test.name]))
+      output:close()
     end
+    test.seconds = passed[test.name]
+  end
+  return list
+end
+
+-- Those that noticed more in the file first, then those whose name holds the file's, then quick ones.
+local function sort_tests(tests, file, known)
+  local stem, kills = file:match "([^/]+)%.%w+$", {}
+  for key, found in pairs(known) do
+    if found[1] == "killed" and key:match "^%S+" == file then kills[found[2]] = (kills[found[2]] or 0) + 1 end
+  end
+  for _, test in ipairs(tests) do
+    test.rank = (kills[test.name] or 0) + (test.name:find(stem, 1, true) and 0.5 or 0)
+  end
+  table.sort(tests, function(a, b)
+    if a.rank ~= b.rank then return a.rank > b.rank end
+    if a.seconds ~= b.seconds then return a.seconds < b.seconds end
+    return a.name < b.name
+  end)
+end
+
+-- The first test that fails.
+local function noticed(tests, place, log)
+  for _, test in ipairs(tests) do
+    if test.target and not build(place, test.target, log) then return test.name end
+    if not shell(LIMITS:format(20 + 10 * test.seconds // 1) .. test.command, log) then return test.name end
   end
 end
 
--- Some tests contain the code of a plugin, so that all is built.
-local function build(place, log) return shell(("cmake --build %s/build"):format(place), log) end
-
--- The first test of the area that fails without a mutation; nil if none does.
-function trial.failing(area, place, log)
-  assert(build(place, log), "the tree does not build")
-  return noticed(area, place, log)
-end
-
-function trial.run(area, mutation, place, log)
+-- known: what was tried before, for the order of the tests.
+function trial.run(area, tests, mutation, known, place, log)
   local file = place .. "/" .. mutation.file
   local text = read(file)
-  write(place .. "/mutated", mutation.file)
+  sort_tests(tests, mutation.file, known)
   write(file, source.with(text, mutation))
   local outcome, by = "unbuilt", nil
-  if build(place, log) then
-    by = noticed(area, place, log)
+  if build(place, area.target .. (area.specs and " ambit" or ""), log) then
+    by = noticed(tests, place, log)
     outcome = by and "killed" or "survived"
   end
   write(file, text)
-  write(place .. "/mutated", "")
   return outcome, by
 end
 
