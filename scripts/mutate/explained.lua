@@ -23,4 +23,30 @@ return {
     "single values are not tried: less is refuted",
   ["scripts/prelude/verify/search.lua | sign 2 | local t = k == 0 and first or k == n and last or first + (last - first) * (k / n)"] =
     "instants within the horizon at which steps end besides those asked for: any will do",
+  ["framework/num/decimal_digits.c | radius 1 | if (rest->d[i]) return 0;"] =
+    "p and q have at most 998 digits, so that an inexact p/q is over 1e-990 from any double, which 1075 places show",
+  ["framework/num/decimal_print.c | extremum 2 | double width = ambit_interval_width(x), mag = ambit_interval_mag(x);"] =
+    "how many digits are shown: the bounds are rounded outward to any number of them",
+  ["framework/num/elementary.c | guard 1 | if (op != AMBIT_OP_ATAN2) blo = alo, bhi = ahi;"] =
+    "only atan2 reads a second operand",
+  ["plugins/solver/valencia/faces.c | guard 1 | if (slope.hi <= 0) return point(largest ? x.lo : x.hi);"] =
+    "the whole interval is taken where one end would do: wider",
+  ["plugins/solver/valencia/frame.c | unit 1 | double size = larger(smaller(larger(fabs(s->tube_lo[i]), fabs(s->tube_hi[i])), 0x1p900), 0x1p-900);"] =
+    "scales start above 0, and a size that is not above the scale leaves it as it is",
+  ["plugins/solver/valencia/series.c | radius 1 | for (uint32_t i = 0; i < s->nx; i++) tail[i] = larger_or_nan(tail[i], other[i]);"] =
+    "the kernel bounds the tails of both halves by the same number: it looks at |h| only",
+  ["plugins/solver/valencia/terms.c | logic 4 | if (!t->exponent || !t->parent || !t->sample || !t->q || !t->r) return 0;"] =
+    "memory that ran out for one array ran out for the next",
+  ["plugins/solver/valencia/verify.c | guard 1 | if (why != WHY_NOTHING) return why;"] =
+    "what fails there is an evaluation over a part of the tube, over the whole of which the same has just succeeded",
+  ["scripts/prelude/certify/couple.lua | sign 1 | if source ~= ZERO or shared[j].error_start ~= ZERO then active[j], count = true, count + 1 end"] =
+    "the count is compared with itself a round before, and each round adds to it",
+  ["scripts/prelude/certify/curve.lua | extremum 1 | list[j] = list[j] and math.min(list[j], e) or e"] =
+    "both are bounds of the error: the larger one is above it too",
+  ["scripts/prelude/certify/values.lua | guard 1 | if not i then return nil end"] =
+    "without an instant the next line raises an error: nothing is claimed",
+  ["scripts/prelude/verify/box.lua | bound 3 | local whole, inside = lo <= job.lo[j] and hi >= job.hi[j], least <= most and lo <= most and hi >= least"] =
+    "fewer boxes are taken for allowed: less is refuted",
+  ["scripts/prelude/verify/box.lua | relation 1 | moved[j] = least <= most and math.min(math.max(x, least), most) or x"] =
+    "a value that was not moved where it should be is not taken for allowed (is_allowed): less is refuted",
 }

@@ -127,6 +127,23 @@ describe("certify", function()
     assert_bound(ambit.certify(question).error.x, truth, 1.03)
   end)
 
+  it("draws the greatest error of all scenarios, whichever comes first", function()
+    -- x' = -x + w, w' = -3 w against x' = -x: x - y = w0 (exp(-t) - exp(-3 t))/2
+    local full = ambit.ode { states = { "x", "w" },
+      equations = function(s) return { x = -s.x + s.w, w = -3 * s.w } end }
+    local less = ambit.ode { states = { "x" }, equations = function(s) return { x = -s.x } end }
+    for _, start in ipairs { { 1, 2 }, { 2, 1 } } do
+      local scenarios = {}
+      for k, w in ipairs(start) do
+        scenarios[k] = { name = "start " .. k, t = { 0, 2 }, initial = { x = 1, w = w } }
+      end
+      local curve = ambit.certify { full, less, scenarios = scenarios, outputs = { "x" }, error = { x = 2 } }:curve()
+      for j, time in ipairs(curve.t) do
+        assert_bound(curve.error.x[j], exp(-time) - exp(-3 * time), 1.5)
+      end
+    end
+  end)
+
   it("notices a bound that is spoilt", function()
     assert.has_error(function() assert_bound(0.99, 1, 2) end)
     assert.has_error(function() assert_bound(2.01, 1, 2) end)

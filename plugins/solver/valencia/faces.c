@@ -72,10 +72,7 @@ static interval beyond(interval x) { return plus(x, within(0x1p-50 * magnitude(x
 static int move_face(valencia *s, uint32_t i, int upper, double *at) {
   interval whole = s->rate[i], change;
   interval line = plus(point(*at), hull_of(point(0), beyond(beyond(whole)))), u = meet(line, face_of(s, i));
-  if (!(u.lo <= u.hi)) { /* no solution is near any such line */
-    *at = upper ? plus(point(*at), whole).hi : plus(point(*at), whole).lo;
-    return 1;
-  }
+  if (!(u.lo <= u.hi)) return 0; /* the tube holds the face at its start */
   if (!evaluate(s, i, u, upper, &change)) return 0;
   change = beyond(change);
   *at = upper ? *at + smaller(change.hi, beyond(whole).hi) : -(-*at - larger(change.lo, beyond(whole).lo));

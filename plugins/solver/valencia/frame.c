@@ -15,8 +15,6 @@ static interval at_end(const double *c, uint32_t n) {
   return r;
 }
 
-static double radius_about(interval x, double mid) { return larger_or_nan(x.hi - mid, mid - x.lo); }
-
 /* P and B at the end; rounding [nx] is what that leaves */
 static void round_end(valencia *s, double *rounding) {
   uint32_t n = s->stages.n + 1;

@@ -43,5 +43,7 @@ static inline double magnitude(interval a) { return larger_or_nan(-a.lo, a.hi); 
 static inline double width(interval a) { return a.hi - a.lo; }
 /* some number inside, for approximations */
 static inline double middle(interval a) { return 0.5 * a.lo + 0.5 * a.hi; }
+/* the radius of an interval about mid that holds x */
+static inline double radius_about(interval x, double mid) { return larger_or_nan(x.hi - mid, mid - x.lo); }
 static inline int is_bounded(interval a) { return a.lo > -INFINITY && a.hi < INFINITY && a.lo <= a.hi; }
 #endif

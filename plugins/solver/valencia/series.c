@@ -11,7 +11,7 @@ static void put_time(valencia *s, ambit_jet *z) {
   interval part[2] = { s->time, s->half };
   for (uint32_t m = 0; m < 2 && s->problem.uses_time; m++) {
     double mid = middle(part[m]);
-    s->jet->put(z, s->nx + s->np, m, mid, larger(part[m].hi - mid, mid - part[m].lo), NULL, NULL);
+    s->jet->put(z, s->nx + s->np, m, mid, radius_about(part[m], mid), NULL, NULL);
   }
 }
 

@@ -335,7 +335,7 @@ static enum why verify_frozen(valencia *s) {
     if (is_unusable(valencia_symbols_run(s, s->radius, 0, s->defect))) return WHY_DOMAIN;
     for (uint32_t i = 0; i < s->nx; i++) {
       s->omega[i] = s->start[i] + 2 * magnitude(s->defect[i]) + 0x1p-1000;
-      double mid = middle(s->defect[i]), radius = larger(s->defect[i].hi - mid, mid - s->defect[i].lo);
+      double mid = middle(s->defect[i]), radius = radius_about(s->defect[i], mid);
       s->shift[i] = 2 * mid, s->error[i] = s->start[i] + 2 * radius;
       s->steerable[i] = s->error[i];
     }
