@@ -7,6 +7,27 @@
 #define AMBIT_SYSTEM_H
 #include "graph/graph.h"
 
+/* The same system with further unknowns a: along its solutions R(x, a, t) = 0 and x' = F(x, a, t), solved for in stages.
+** What holds of them: ambit_implicit in <ambit/solver.h>. */
+typedef struct ambit_implicit_form {
+  size_t na, nstage;          /* na 0: there is no such form */
+  const ambit_expr *unknown;  /* [na] symbols */
+  const ambit_expr *rate;     /* [nx] F */
+  const ambit_expr *residual; /* [na] R */
+  const uint32_t *stage_end;  /* [nstage] */
+  const uint32_t *pivot;      /* [na] */
+} ambit_implicit_form;
+
+/* Whoever makes a system may be able to write it in implicit form, which is done when somebody asks for it. Lives as
+** long as the system. */
+typedef struct ambit_implicit_source ambit_implicit_source;
+struct ambit_implicit_source {
+  bool written;
+  ambit_implicit_form form; /* once it is written */
+  ambit_status (*write)(ambit_implicit_source *self, ambit_failure *f);
+  void (*mark)(const ambit_implicit_source *self, ambit_graph *g); /* what it keeps besides the form, or NULL */
+};
+
 typedef struct ambit_system {
   ambit_graph *graph;
   size_t nx;
@@ -17,5 +38,20 @@ typedef struct ambit_system {
   size_t ninvariant;
   const ambit_expr *invariant; /* [ninvariant] g(x, t), zero along every solution that starts with g = 0; see below */
   const char *const *invariant_name; /* [ninvariant] "close: row 1", for messages */
+  /* of this very system: who changes states, rates or data drops it, or changes it in the same way; NULL: there is none
+  */
+  ambit_implicit_source *implicit;
 } ambit_system;
+
+/* *form := the implicit form, NULL where there is none. */
+static inline ambit_status ambit_system_implicit(
+    const ambit_system *s, const ambit_implicit_form **form, ambit_failure *f) {
+  ambit_implicit_source *source = s->implicit;
+  *form = NULL;
+  if (!source) return AMBIT_OK;
+  ambit_status status = source->written ? AMBIT_OK : source->write(source, f);
+  source->written = status == AMBIT_OK;
+  if (status == AMBIT_OK && source->form.na) *form = &source->form;
+  return status;
+}
 #endif

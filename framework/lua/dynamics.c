@@ -23,6 +23,8 @@ static int dynamics(lua_State *L) {
   uint32_t form = form_at(L, 2);
   ambit_lua_system *s = ambit_lua_push_system(L);
   if (ambit_constrained_system(m, form, s->arena, &s->system, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
+  lua_pushvalue(L, 1);
+  lua_setiuservalue(L, -2, 1);
   return 1;
 }
 

@@ -11,10 +11,16 @@ static void mark(ambit_holder *holder, ambit_graph *g) {
   if (s->state) ambit_graph_mark(g, s->nx, s->state);
   if (s->rate) ambit_graph_mark(g, s->nx, s->rate);
   if (s->invariant) ambit_graph_mark(g, s->ninvariant, s->invariant);
+  const ambit_implicit_source *implicit = s->implicit;
+  if (implicit && implicit->mark) implicit->mark(implicit, g);
+  if (!implicit || implicit->form.na == 0) return;
+  ambit_graph_mark(g, implicit->form.na, implicit->form.unknown);
+  ambit_graph_mark(g, implicit->form.na, implicit->form.residual);
+  ambit_graph_mark(g, s->nx, implicit->form.rate);
 }
 
 ambit_lua_system *ambit_lua_push_system(lua_State *L) {
-  ambit_lua_system *s = lua_newuserdatauv(L, sizeof *s, 0);
+  ambit_lua_system *s = lua_newuserdatauv(L, sizeof *s, 1);
   memset(s, 0, sizeof *s);
   luaL_setmetatable(L, AMBIT_TYPE_SYSTEM);
   s->holder.mark = mark;
@@ -109,6 +115,36 @@ static int system_invariants(lua_State *L) {
   return 2;
 }
 
+static void set_numbers(lua_State *L, const char *key, size_t n, const uint32_t *number, uint32_t first) {
+  lua_createtable(L, (int)n, 0);
+  for (size_t i = 0; i < n; i++) {
+    lua_pushinteger(L, (lua_Integer)number[i] + first);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  lua_setfield(L, -2, key);
+}
+
+static void set_expressions(lua_State *L, const char *key, size_t n, const ambit_expr *e) {
+  ambit_lua_push_expressions(L, n, e);
+  lua_setfield(L, -2, key);
+}
+
+/* system_implicit(system) -> { unknowns, rates, residuals: expressions; stage_end, pivot: numbers }, or nil */
+static int system_implicit(lua_State *L) {
+  const ambit_system *s = &ambit_lua_check_system(L, 1)->system;
+  const ambit_implicit_form *form;
+  ambit_failure f = { 0 };
+  if (ambit_system_implicit(s, &form, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
+  if (!form) return 0;
+  lua_createtable(L, 0, 5);
+  set_expressions(L, "unknowns", form->na, form->unknown);
+  set_expressions(L, "rates", s->nx, form->rate);
+  set_expressions(L, "residuals", form->na, form->residual);
+  set_numbers(L, "stage_end", form->nstage, form->stage_end, 0);
+  set_numbers(L, "pivot", form->na, form->pivot, 1);
+  return 1;
+}
+
 /* -- the rates over a box, without a trace in the graph */
 
 typedef struct over {
@@ -168,7 +204,8 @@ static int system_rates(lua_State *L) {
 void ambit_lua_open_system(lua_State *L, ambit_lua *core) {
   static const luaL_Reg meta[] = { { "__gc", close }, { NULL, NULL } };
   static const luaL_Reg functions[] = { { "system", system_new }, { "system_parts", system_parts },
-    { "system_invariants", system_invariants }, { "system_rates", system_rates }, { NULL, NULL } };
+    { "system_invariants", system_invariants }, { "system_implicit", system_implicit },
+    { "system_rates", system_rates }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
   ambit_lua_new_type(L, core, AMBIT_TYPE_SYSTEM, meta);
   lua_pop(L, 1);

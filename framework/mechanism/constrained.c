@@ -1,6 +1,7 @@
 /* constrained.c -- projection on the null space, the reduced system, multipliers. */
 #include "mechanism/constrained.h"
 #include "mechanism/forward.h"
+#include "mechanism/implicit.h"
 #include "mechanism/loop_motion.h"
 #include <string.h>
 
@@ -157,6 +158,7 @@ static ambit_status open_system(ambit_mechanism *m, uint32_t form, const ambit_c
   status = drop_multipliers(m, arena, n, du, f);
   if (status == AMBIT_OK)
     status = ambit_dynamics_of(ambit_mechanism_graph(m), &forward.variables, du, arena, system, f);
+  if (status == AMBIT_OK) status = ambit_implicit_offer(m, NULL, arena, system, f);
   return status == AMBIT_OK ? add_invariants(c, arena, system, f) : status;
 }
 
@@ -177,6 +179,7 @@ static ambit_status closed_system(reduction *s, ambit_system *system) {
   reduced.variables.ncoordinate = nq;
   reduced.variables.coordinate = coordinate;
   status = ambit_dynamics_of(s->g, &reduced.variables, rate + nq, s->arena, system, s->f);
+  if (status == AMBIT_OK) status = ambit_implicit_offer(s->m, s->loops, s->arena, system, s->f);
   return status == AMBIT_OK ? add_invariants(&s->loops->constraints, s->arena, system, s->f) : status;
 }
 
@@ -184,8 +187,9 @@ ambit_status ambit_constrained_system(
     ambit_mechanism *m, uint32_t form, ambit_arena *arena, ambit_system *system, ambit_failure *f) {
   ambit_failure own = { 0 };
   ambit_constraints c;
-  ambit_loops loops;
-  reduction s = { .m = m, .g = ambit_mechanism_graph(m), .arena = arena, .f = &own, .loops = &loops };
+  ambit_loops *loops = ambit_arena_alloc(arena, sizeof *loops); /* the system's implicit form is written from them */
+  if (!loops) return no_memory(f);
+  reduction s = { .m = m, .g = ambit_mechanism_graph(m), .arena = arena, .f = &own, .loops = loops };
   ambit_status status = ambit_constraints_build(m, arena, &c, &own);
   if (status == AMBIT_OK) status = c.n ? closed_system(&s, system) : open_system(m, form, &c, arena, system, &own);
   return status == AMBIT_OK ? status : ambit_fail(f, status, "%s", own.message);

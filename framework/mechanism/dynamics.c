@@ -8,6 +8,7 @@
 #include "mechanism/affine_in.h"
 #include "mechanism/factor.h"
 #include "mechanism/forward.h"
+#include "mechanism/implicit.h"
 #include "mechanism/pivot.h"
 #include <string.h>
 
@@ -219,5 +220,6 @@ ambit_status ambit_dynamics_system(
   ambit_forward forward = { 0 };
   ambit_status status = ambit_forward_build(m, form, false, arena, &forward, f);
   if (status != AMBIT_OK) return status;
-  return ambit_dynamics_of(ambit_mechanism_graph(m), &forward.variables, forward.du, arena, system, f);
+  status = ambit_dynamics_of(ambit_mechanism_graph(m), &forward.variables, forward.du, arena, system, f);
+  return status == AMBIT_OK ? ambit_implicit_offer(m, NULL, arena, system, f) : status;
 }

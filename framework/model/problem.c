@@ -1,5 +1,6 @@
 /* problem.c -- which data are parameters, which are unknowns; the tapes over them; the hull of the initial set. */
 #include "model/problem.h"
+#include "model/implicit.h"
 #include "graph/name.h"
 #include "graph/tape.h"
 #include "graph/hull.h"
@@ -17,8 +18,13 @@ typedef struct build {
   ambit_graph *graph;
   ambit_arena *arena;
   ambit_failure *f;
-  size_t ninvariant;         /* 0 unless they are wanted */
-  ambit_expr *rate, *start;  /* [nx] without point unknowns; behind the rates, the invariants [ninvariant] */
+  size_t nrate, ninvariant;        /* nx, or 0 where the implicit form does; 0 unless they are wanted */
+  const ambit_implicit_form *form; /* NULL: not wanted, or there is none */
+  /* everything over states, parameters and time, without point unknowns: rates [nrate], invariants [ninvariant], of the
+  ** implicit form F [nx] and R [na] */
+  size_t nall;
+  ambit_expr *all, *invariant, *implicit;
+  ambit_expr *start;         /* [nx] without point unknowns */
   ambit_expr *input;         /* [nx + np + uses_time] of the right-hand side */
   ambit_expr *unknown;       /* [nu] */
   const ambit_tape *initial; /* always sealed, because its hull is needed */
@@ -52,6 +58,8 @@ static ambit_status check_times(const build *b) {
 
 /* -- expressions */
 
+#define WANT_RATES (AMBIT_WANT_RHS | AMBIT_WANT_SERIES | AMBIT_WANT_JACOBIAN | AMBIT_WANT_SLOPE)
+
 static ambit_status check_expressions(const build *b) {
   const ambit_system *s = b->q->system;
   if (s->nx == 0) return ambit_fail(b->f, AMBIT_INVALID, "the system has no states");
@@ -66,19 +74,35 @@ static ambit_status check_expressions(const build *b) {
   return AMBIT_OK;
 }
 
+/* What is wanted of the system, in one list. */
+static ambit_status collect_expressions(build *b) {
+  const ambit_system *s = b->q->system;
+  size_t nform = b->form ? s->nx + b->form->na : 0;
+  b->nrate = b->form && !(b->q->want & WANT_RATES) ? 0 : s->nx;
+  b->nall = b->nrate + b->ninvariant + nform;
+  b->all = room(b, b->nall + 1, sizeof *b->all);
+  if (!b->all) return no_memory(b);
+  b->invariant = b->all + b->nrate;
+  b->implicit = b->form ? b->invariant + b->ninvariant : b->all;
+  memcpy(b->all, s->rate, b->nrate * sizeof *b->all);
+  if (b->ninvariant) memcpy(b->invariant, s->invariant, b->ninvariant * sizeof *b->all);
+  if (!b->form) return AMBIT_OK;
+  memcpy(b->implicit, b->form->rate, s->nx * sizeof *b->all);
+  memcpy(b->implicit + s->nx, b->form->residual, b->form->na * sizeof *b->all);
+  return AMBIT_OK;
+}
+
 static ambit_status copy_expressions(build *b) {
   const ambit_system *s = b->q->system;
   b->ninvariant = b->q->want & AMBIT_WANT_INVARIANT ? s->ninvariant : 0;
   ambit_status status = check_expressions(b);
+  if (status == AMBIT_OK && (b->q->want & AMBIT_WANT_IMPLICIT)) status = ambit_system_implicit(s, &b->form, b->f);
+  if (status == AMBIT_OK) status = collect_expressions(b);
   if (status != AMBIT_OK) return status;
-  size_t n = s->nx + b->ninvariant;
-  b->rate = room(b, n, sizeof *b->rate);
   b->start = room(b, s->nx, sizeof *b->start);
-  if (!b->rate || !b->start) return no_memory(b);
-  memcpy(b->rate, s->rate, s->nx * sizeof *b->rate);
-  if (b->ninvariant) memcpy(b->rate + s->nx, s->invariant, b->ninvariant * sizeof *b->rate);
+  if (!b->start) return no_memory(b);
   memcpy(b->start, b->q->initial, s->nx * sizeof *b->start);
-  status = ambit_unknowns_fold_points(b->graph, b->arena, n, b->rate, b->f);
+  status = ambit_unknowns_fold_points(b->graph, b->arena, b->nall, b->all, b->f);
   return status == AMBIT_OK ? ambit_unknowns_fold_points(b->graph, b->arena, s->nx, b->start, b->f) : status;
 }
 
@@ -108,16 +132,32 @@ static ambit_status check_leaves(const build *b, size_t n, const ambit_expr *e, 
   return AMBIT_OK;
 }
 
+/* The implicit form may depend on its unknowns, too. */
+static ambit_status check_form(const build *b, ambit_expr *allowed, const char *hint) {
+  const ambit_system *s = b->q->system;
+  size_t nx = s->nx, na = b->form->na;
+  const char **name = room(b, na, sizeof *name);
+  if (!name) return no_memory(b);
+  memcpy(allowed + nx + 1, b->form->unknown, na * sizeof *allowed);
+  for (size_t k = 0; k < na; k++) name[k] = ambit_graph_node(b->graph, b->form->unknown[k])->text;
+  ambit_status status =
+      check_leaves(b, nx, b->implicit, "right-hand side of state", s->name, nx + 1 + na, allowed, hint);
+  if (status != AMBIT_OK) return status;
+  return check_leaves(b, na, b->implicit + nx, "equation for", name, nx + 1 + na, allowed, hint);
+}
+
 static ambit_status check_reach(const build *b) {
   const ambit_system *s = b->q->system;
   static const char hint[] = ", which is neither a state nor a parameter";
-  ambit_expr *allowed = room(b, s->nx + 1, sizeof *allowed);
+  ambit_expr *allowed = room(b, s->nx + 1 + (b->form ? b->form->na : 0), sizeof *allowed);
   if (!allowed) return no_memory(b);
   memcpy(allowed, s->state, s->nx * sizeof *allowed);
   allowed[s->nx] = ambit_graph_time(b->graph);
-  ambit_status status = check_leaves(b, s->nx, b->rate, "right-hand side of state", s->name, s->nx + 1, allowed, hint);
+  ambit_status status =
+      check_leaves(b, b->nrate, b->all, "right-hand side of state", s->name, s->nx + 1, allowed, hint);
   if (status == AMBIT_OK && b->ninvariant)
-    status = check_leaves(b, b->ninvariant, b->rate + s->nx, "invariant", s->invariant_name, s->nx + 1, allowed, hint);
+    status = check_leaves(b, b->ninvariant, b->invariant, "invariant", s->invariant_name, s->nx + 1, allowed, hint);
+  if (status == AMBIT_OK && b->form) status = check_form(b, allowed, hint);
   if (status != AMBIT_OK) return status;
   return check_leaves(b, s->nx, b->start, "initial value of state", s->name, 0, NULL,
       ", but it may use numbers and uncertain data only");
@@ -125,12 +165,12 @@ static ambit_status check_reach(const build *b) {
 
 /* -- parameters and unknowns */
 
-/* Inputs of the right-hand side and of invariants: states, then the unknowns they reach, then time if it is used. */
+/* Inputs of all of them: states, then the unknowns they reach, then time if it is used. */
 static ambit_status find_parameters(build *b) {
   const ambit_system *s = b->q->system;
   size_t n;
   ambit_expr *leaf;
-  ambit_status status = ambit_unknowns_leaves(b->graph, b->arena, s->nx + b->ninvariant, b->rate, &n, &leaf, b->f);
+  ambit_status status = ambit_unknowns_leaves(b->graph, b->arena, b->nall, b->all, &n, &leaf, b->f);
   if (status != AMBIT_OK) return status;
   b->input = room(b, s->nx + n + 1, sizeof *b->input);
   const char **name = room(b, s->nx + n, sizeof *name);
@@ -256,7 +296,7 @@ static ambit_status seal_slope(build *b, const ambit_tape **tape) {
   if (!entry) return no_memory(b);
   for (size_t i = 0; i < nx * np; i++) {
     ambit_failure why = { 0 };
-    entry[i] = ambit_graph_derivative(b->graph, b->rate[i / np], b->input[nx + i % np], &why);
+    entry[i] = ambit_graph_derivative(b->graph, b->all[i / np], b->input[nx + i % np], &why);
     if (entry[i] == AMBIT_NO_EXPR) return why.status == AMBIT_OK || why.status == AMBIT_NOMEM ? no_memory(b) : AMBIT_OK;
   }
   return ambit_tape_seal(b->graph, b->arena, nx * np, entry, count_inputs(b), b->input, nx, b->q->seal, tape, b->f);
@@ -265,7 +305,7 @@ static ambit_status seal_slope(build *b, const ambit_tape **tape) {
 /* The Jacobian only for solvers that want Jacobians: series have slopes, which need no derivative. */
 static ambit_status seal_invariants(build *b) {
   ambit_problem *p = b->p;
-  const ambit_expr *g = b->rate + p->nx;
+  const ambit_expr *g = b->invariant;
   const char **name = room(b, b->ninvariant, sizeof *name);
   if (!name) return no_memory(b);
   for (size_t i = 0; i < b->ninvariant; i++)
@@ -277,25 +317,20 @@ static ambit_status seal_invariants(build *b) {
   return seal_jacobian(b, b->ninvariant, g, "invariant", name, &p->invariant_jacobian);
 }
 
-/* A system without an implicit form: the tape of f, and no unknowns. */
 static ambit_status seal_implicit(build *b) {
-  ambit_implicit *implicit = room(b, 1, sizeof *implicit);
-  uint32_t *none = room(b, 1, sizeof *none);
-  if (!implicit || !none) return no_memory(b);
-  *implicit = (ambit_implicit) { .size = sizeof *implicit, .stage_end = none, .pivot = none };
-  b->p->implicit = implicit;
-  return ambit_tape_seal(b->graph, b->arena, b->p->nx, b->rate, count_inputs(b), b->input, b->p->nx,
-      AMBIT_TAPE_SERIES | b->q->seal, &implicit->tape, b->f);
+  ambit_implicit_request q = { b->graph, b->form, b->p->nx, b->p->np, b->p->uses_time, b->q->seal, b->implicit,
+    b->input };
+  return ambit_implicit_seal(&q, b->arena, &b->p->implicit, b->f);
 }
 
 static ambit_status seal_wanted(build *b) {
   uint32_t want = b->q->want;
   ambit_problem *p = b->p;
   ambit_status status = AMBIT_OK;
-  if (want & (AMBIT_WANT_RHS | AMBIT_WANT_SERIES)) status = seal_flow(b, p->nx, b->rate, &p->rhs);
+  if (want & (AMBIT_WANT_RHS | AMBIT_WANT_SERIES)) status = seal_flow(b, p->nx, b->all, &p->rhs);
   if (status == AMBIT_OK && (want & AMBIT_WANT_IMPLICIT)) status = seal_implicit(b);
   if (status == AMBIT_OK && (want & AMBIT_WANT_JACOBIAN))
-    status = seal_jacobian(b, p->nx, b->rate, "right-hand side of state", p->name, &p->jacobian);
+    status = seal_jacobian(b, p->nx, b->all, "right-hand side of state", p->name, &p->jacobian);
   if (status == AMBIT_OK && (want & AMBIT_WANT_SLOPE) && p->np) status = seal_slope(b, &p->slope);
   if (status == AMBIT_OK && b->ninvariant) status = seal_invariants(b);
   if (want & AMBIT_WANT_INITIAL) p->initial = b->initial;

@@ -19,7 +19,7 @@ typedef struct ambit_problem_request {
 } ambit_problem_request;
 
 /* Fills everything but arithmetic and actx; all of it lives in the arena. Parameters are the unknowns that the
-** right-hand sides and, if they are wanted, the invariants reach; unknowns are those that initial values and parameters
+** right-hand sides, the implicit form and the invariants reach, as far as they are wanted; unknowns are those that initial values and parameters
 ** reach, each once. Nothing is built for invariants that are not wanted. INVALID: f names the state or invariant and
 ** what is wrong with it. */
 ambit_status ambit_problem_build(

@@ -87,6 +87,7 @@ static ambit_status build(job *j, uint32_t want, uint32_t seal, ambit_failure *f
   j->problem.wish = q->wish;
   const ambit_problem *p = &j->problem;
   ambit_share_note(p->rhs, "right-hand side", p->nx, p->name);
+  if (p->implicit) ambit_share_note(p->implicit->tape, "implicit form", p->nx + p->implicit->na, NULL);
   ambit_share_note(p->jacobian, "Jacobian", p->nx, p->name);
   if (q->prepared) q->prepared(q->prepared_user, j->problem.nu, unknown);
   if (!j->splits) return AMBIT_OK;
@@ -222,6 +223,7 @@ static void fill_report(const job *j, const ambit_simulate_result *result, ambit
   snprintf(report->solver, sizeof report->solver, "%.31s", j->q->solver);
   report->graph_nodes = ambit_graph_made(j->q->system->graph);
   ambit_report_count(report, j->problem.rhs);
+  ambit_report_count(report, j->problem.implicit ? j->problem.implicit->tape : NULL);
   ambit_report_count(report, j->problem.jacobian);
   ambit_report_count(report, j->problem.slope);
   ambit_report_count(report, j->problem.invariant);

@@ -45,10 +45,10 @@
 
 /* A system in implicit form: unknowns a (accelerations, dependent speeds, multipliers) with R(x, a, p, t) = 0 and
 ** x' = F(x, a, p, t). They are solved for in stages: the equations of stage s are affine in the unknowns of stage s,
-** depend on those of earlier stages in any way and on those of later stages not at all; dR_s/da_s is square. Where all
-** of them are regular, R = 0 determines a, and F is f. A solver proves that they are, on the sets that it encloses. F may
-** depend on all unknowns, affinely on those of each stage. No instruction divides by a pivot of dR/da. A system that has
-** no such form has na = 0 and nstage = 0: then the tape is that of f. */
+** depend on those of earlier stages in any way and on those of later stages not at all; dR_s/da_s is square. F may
+** depend on all unknowns, affinely on those of each stage. Where all dR_s/da_s are regular and the invariants vanish,
+** R = 0 determines a, and F is f. A solver proves that they are regular, on the sets that it encloses. No instruction
+** divides by a pivot of dR/da. A system that has no such form has na = 0 and nstage = 0: then the tape is that of f. */
 typedef struct ambit_implicit {
   uint32_t size, na, nstage, pad;
   /* a SERIES tape; inputs: x [nx], a [na], p [np], then t if uses_time; outputs: F [nx], R [na] */
