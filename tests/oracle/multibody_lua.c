@@ -1,4 +1,4 @@
-/* multibody_lua.c -- the Lua module `multibody` of the tests: one function, which integrates one motion. */
+/* multibody_lua.c -- the Lua module `multibody` of the tests: the oracle's accelerations, and motions. */
 #include "multibody.h"
 #include <lauxlib.h>
 #include <lua.h>
@@ -130,9 +130,26 @@ static int run(lua_State *L) {
   return 2;
 }
 
+/* accelerations { bodies, loops, gravity, q, v, t } -> { a... }; nil, reason: singular */
+static int accelerations(lua_State *L) {
+  static multibody m;
+  multibody_real q[MULTIBODY_MOST], v[MULTIBODY_MOST], a[MULTIBODY_MOST];
+  read_mechanism(L, &m);
+  numbers(L, 1, "q", m.n, q);
+  numbers(L, 1, "v", m.n, v);
+  if (!multibody_accelerations(&m, q, v, number(L, 1, "t"), a))
+    return lua_pushnil(L), lua_pushliteral(L, "singular"), 2;
+  lua_createtable(L, m.n, 0);
+  for (int i = 0; i < m.n; i++) {
+    lua_pushnumber(L, (lua_Number)a[i]);
+    lua_rawseti(L, -2, i + 1);
+  }
+  return 1;
+}
+
 __attribute__((visibility("default"))) int luaopen_multibody(lua_State *L);
 int luaopen_multibody(lua_State *L) {
-  static const luaL_Reg functions[] = { { "run", run }, { NULL, NULL } };
+  static const luaL_Reg functions[] = { { "accelerations", accelerations }, { "run", run }, { NULL, NULL } };
   luaL_newlib(L, functions);
   return 1;
 }
