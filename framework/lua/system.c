@@ -1,5 +1,6 @@
 /* system.c -- x' = f(x, t) as a Lua value, from a mechanism or from equations written in Lua. */
 #include "lua/system.h"
+#include "graph/implicit_change.h"
 #include "graph/hull.h"
 #include "graph/tape.h"
 #include "lua/request.h"
@@ -62,10 +63,32 @@ static void add_invariants(lua_State *L, ambit_lua_system *s) {
   s->system.invariant_name = name;
 }
 
-/* system({name}, {unit}, {state}, {rate} [, {invariant}, {name}]) */
+static ambit_expr *list_at(lua_State *L, int idx, size_t *n) {
+  *n = lua_isnoneornil(L, idx) ? 0 : (size_t)luaL_len(L, idx);
+  return *n ? ambit_lua_to_array(L, idx, *n) : NULL;
+}
+
+/* system, {leaf}, {value}, {g} at 7 .. 10: what the system was made of, if its implicit form can follow */
+static void add_implicit(lua_State *L, ambit_lua_system *s) {
+  if (lua_isnoneornil(L, 7)) return;
+  ambit_failure f = { 0 };
+  ambit_implicit_change change = { .of = &ambit_lua_check_system(L, 7)->system };
+  size_t nvalue;
+  change.leaf = list_at(L, 8, &change.n);
+  change.value = list_at(L, 9, &nvalue);
+  change.g = list_at(L, 10, &change.nfurther);
+  luaL_argcheck(L, nvalue == change.n && s->system.nx == change.of->nx + change.nfurther, 7, "does not fit");
+  s->system.implicit = ambit_implicit_change_open(&change, s->arena, &f);
+  if (f.status != AMBIT_OK) ambit_lua_raise(L, &f);
+  lua_pushvalue(L, 7);
+  lua_setiuservalue(L, 11, 1);
+}
+
+/* system({name}, {unit}, {state}, {rate} [, {invariant}, {name} [, system, {leaf}, {value}, {g}]]): the last four: it
+** is that system with values for leaves, and with further states g */
 static int system_new(lua_State *L) {
   size_t n = (size_t)luaL_len(L, 1);
-  lua_settop(L, 6);
+  lua_settop(L, 10);
   ambit_lua_system *s = ambit_lua_push_system(L);
   const char **name = ambit_arena_alloc(s->arena, n * sizeof *name),
              **unit = ambit_arena_alloc(s->arena, n * sizeof *unit);
@@ -83,7 +106,8 @@ static int system_new(lua_State *L) {
     .graph = AMBIT_LUA(L)->graph, .nx = n, .name = name, .unit = unit, .state = state, .rate = rate
   };
   add_invariants(L, s);
-  lua_settop(L, 7);
+  add_implicit(L, s);
+  lua_settop(L, 11);
   return 1;
 }
 

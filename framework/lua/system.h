@@ -7,7 +7,7 @@
 typedef struct ambit_lua_system {
   ambit_holder holder; /* of the expressions of `system` */
   ambit_arena *arena;  /* holds what `system` points to */
-  /* user value 1: the mechanism whose equations of motion it is, which has to live as long */
+  /* user value 1: what its implicit form is written from, which has to live as long: a mechanism or another system */
   ambit_system system;
 } ambit_lua_system;
 

@@ -219,17 +219,27 @@ local function read_values(self, values, what)
   return parameters, anew, from, to
 end
 
+-- A system in which leaves that are no states are replaced everywhere: the system, its rates.
+function ode.replaced(self, from, to)
+  local invariants, names = core.system_invariants(self.system)
+  local rates = core.substitute(self.rates, from, to)
+  return core.system(self.states, self.units, self.symbols, rates, core.substitute(invariants, from, to), names,
+    self.system, from, to), rates
+end
+
 -- The same equations with other values of parameters: { v = expression }, by name, or by the uncertain datum that is
 -- to be replaced.
 function ode.instance(self, values, what)
   if next(values) == nil then return self end
   local parameters, anew, from, to = read_values(self, values, what or "instance")
-  local rates = anew and write_rates(self.declaration, self, parameters) or self.rates
-  rates = core.substitute(rates, from, to)
+  local system = self
+  if anew then -- only what ambit.ode wrote: without invariants
+    local rates = write_rates(self.declaration, self, parameters)
+    system = { system = core.system(self.states, self.units, self.symbols, rates), rates = rates, states = self.states,
+      units = self.units, symbols = self.symbols }
+  end
   for name, value in pairs(parameters) do parameters[name] = core.substitute({ value }, from, to)[1] end
-  local invariants, names = core.system_invariants(self.system)
-  local system = core.system(self.states, self.units, self.symbols, rates, core.substitute(invariants, from, to), names)
-  local instance = object(system, self.name, self.mechanism, parameters, self.declaration)
+  local instance = object(ode.replaced(system, from, to), self.name, self.mechanism, parameters, self.declaration)
   instance.replaced, instance.unchecked = { from, to }, self.unchecked
   return instance
 end

@@ -70,10 +70,8 @@ end
 -- The system by a clock with this shift (instant.lua); `shift` tells those who write formulas for it.
 function verb.on_clock(system, shift)
   if not shift then return system end
-  local rates = instant.formulas(system.rates, shift)
-  local invariants, names = core.system_invariants(system.system)
-  return setmetatable({ rates = rates, shift = shift, system = core.system(system.states, system.units, system.symbols,
-    rates, instant.formulas(invariants, shift), names) }, { __index = system })
+  local changed, rates = ode.replaced(system, { core.time() }, { core.time() + shift })
+  return setmetatable({ rates = rates, shift = shift, system = changed }, { __index = system })
 end
 
 -- Everything that simulate and the sampling of a system share. default_solver nil: the one that suits; false: none.

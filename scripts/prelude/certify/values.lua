@@ -4,6 +4,7 @@ local bracket = require "ambit.bracket"
 local code = require "ambit.code"
 local core = require "ambit.core"
 local instant = require "ambit.instant"
+local ode = require "ambit.ode"
 local run = require "ambit.certify.run"
 local work = require "ambit.work"
 
@@ -26,17 +27,9 @@ end
 
 -- The request with other data: each unknown replaced.
 function values.at_data(q, unknowns, data)
-  local system, n = q.system, #q.system.rates
-  local all = table.move(q.system.rates, 1, n, 1, {})
-  table.move(q.initial, 1, n, n + 1, all)
-  table.move(q.outputs, 1, #q.outputs, 2 * n + 1, all)
-  local invariants, names = core.system_invariants(system.system)
-  table.move(invariants, 1, #invariants, #all + 1, all)
-  all = core.substitute(all, unknowns, data)
-  local rates, m = table.move(all, 1, n, 1, {}), 2 * n + #q.outputs
-  return { initial = table.move(all, n + 1, 2 * n, 1, {}), outputs = table.move(all, 2 * n + 1, m, 1, {}),
-    times = q.times, system = setmetatable({ rates = rates, system = core.system(system.states, system.units,
-      system.symbols, rates, table.move(all, m + 1, #all, 1, {}), names) }, { __index = system }) }
+  local changed, rates = ode.replaced(q.system, unknowns, data)
+  return { initial = core.substitute(q.initial, unknowns, data), outputs = core.substitute(q.outputs, unknowns, data),
+    times = q.times, system = setmetatable({ rates = rates, system = changed }, { __index = q.system }) }
 end
 
 -- The times that an instant stands for: the last one for its bracket.

@@ -27,6 +27,7 @@ local function copy(list) return table.move(list, 1, #list, 1, {}) end
 function carry.of(q, conditions)
   local system, outputs = q.system, {}
   local names, units, symbols, rates = copy(system.states), copy(system.units), copy(system.symbols), copy(system.rates)
+  local further = {}
   local leaves, values, initial = copy(system.symbols), copy(q.initial), copy(q.initial)
   leaves[#leaves + 1], values[#values + 1] = core.time(), core.expression(q.times[1])
   for k, condition in ipairs(conditions) do
@@ -34,7 +35,7 @@ function carry.of(q, conditions)
     if rate then
       local n = #names + 1
       names[n], units[n] = ("condition %s"):format(condition.name), "1"
-      symbols[n], rates[n] = core.symbol(names[n], "1"), rate
+      symbols[n], rates[n], further[#further + 1] = core.symbol(names[n], "1"), rate, condition.g
       initial[n] = core.substitute({ condition.g }, leaves, values)[1]
       outputs[k] = symbols[n]
     end
@@ -42,7 +43,7 @@ function carry.of(q, conditions)
   local invariants, invariant_names = core.system_invariants(system.system)
   local carrying = setmetatable({ initial = initial }, { __index = q })
   carrying.system = setmetatable({ states = names, units = units, symbols = symbols, rates = rates,
-    system = core.system(names, units, symbols, rates, invariants, invariant_names) }, { __index = system })
+    system = core.system(names, units, symbols, rates, invariants, invariant_names, system.system, {}, {}, further) }, { __index = system })
   return carrying, outputs
 end
 
