@@ -1,0 +1,155 @@
+/* zonotope.h -- what the files of the zonotope solver share.
+**
+** The set at time t is { P(xi) + G rho : xi in [-1, 1]^m, rho in [-1, 1]^ngen }: P a polynomial of degree 2 in the data,
+** G generators. For one step (G rho)_i is written E_i eps_i, |eps_i| <= 1.
+**
+** Phase 1 (series.c, implicit.c, functions.c) finds rows V_jk, k <= K, for every slot j of the tape, such that
+** V_j(s) = sum_k V_jk s^k nearly satisfies the equations. It is plain arithmetic in doubles and proves nothing. Phase 2
+** (defect.c and on) bounds by how much each operation fails, and what that does to the solution.
+**
+** Rows are added and multiplied modulo an ideal of monomials (those that a row does not hold), so that sums, products,
+** inverses and roots are those of a ring, but for rounding. With (*) for the truncated product of rows, and all
+** operands final, phase 1 leaves in row k of a slot z, k = 0 .. K:
+**   ADD SUB NEG    one rounding of each coefficient
+**   MUL            z_k = sum_{j <= k} a_j (*) b_(k-j)                      SQR likewise
+**   DIV            z_k = (a_k - sum_{1 <= j <= k} b_j (*) z_(k-j)) (*) i_0,   i_0 the inverse of b_0
+**   SQRT           z_0 the root of a_0, z_k = (a_k - sum_{1 <= j < k} z_j (*) z_(k-j)) (*) i_0,   i_0 that of 2 z_0
+**   SIN, COS       s_k = 1/k sum_{1 <= j <= k} j a_j (*) c_(k-j),  c_k = -1/k sum ...       SINH, COSH likewise
+**   EXP            z_k = 1/k sum_{1 <= j <= k} j a_j (*) z_(k-j)
+**   LOG            z_k = (a_k - 1/k sum_{1 <= j < k} j z_j (*) a_(k-j)) (*) i_0,   i_0 that of a_0
+**   ATAN           z_k = (a_k - 1/k sum_{1 <= j < k} j z_j (*) q_(k-j)) (*) i_0,   q its aux slot, i_0 that of q_0
+**   ATAN2          z_k = 1/k (sum_{1 <= j <= k} j (b_(k-j) (*) a_j - a_(k-j) (*) b_j)
+**                             - sum_{1 <= j < k} j z_j (*) q_(k-j)) (*) i_0
+**   ABS MIN MAX    a copy (ABS: perhaps negated), chosen by `branch`
+** and for k = 0 of a function the Taylor polynomial of degree 2 about the constant of its operand.
+** Each coefficient of a sum of n products is got by at most 6 n + 8 operations in doubles, in any order, contracted or
+** not; the divisions by k and factors j are among them. i_0 is inverse_at(): b_0 (*) i_0 = 1 but for rounding.
+** No value from before the solution of the implicit equations is left in them: nothing cancels that is not in the rows.
+** Slots of degree 0 (constant in time) have row 0 only, the others K + 1, zero above the slot's degree.
+*/
+#ifndef ZONOTOPE_H
+#define ZONOTOPE_H
+#include "row.h"
+#include <ambit/num.h>
+#include <ambit/solver.h>
+#include <math.h>
+
+/* Why a step could not be made. */
+enum why {
+  WHY_NOTHING,
+  WHY_UNDEFINED, /* an operation outside its domain, or not finite */
+  WHY_KINK,      /* abs, min or max meets its kink */
+  WHY_PIVOT,     /* a pivot of the implicit equations may vanish */
+  WHY_GROWTH,    /* the bound of the distance could not be closed */
+  WHY_WIDE,
+  WHY_STEP, /* no step that is long enough */
+  WHY_STOPPED
+};
+
+typedef struct options {
+  uint32_t time_order, history; /* 0: by need; generators kept, in multiples of nx */
+  double tolerance, step_max, step_min, width_max;
+} options;
+
+/* How the tape is read: inputs x [nx], a [na], p [np], t; outputs x' [nx], R [na]. */
+typedef struct program {
+  const ambit_tape *tape;
+  uint32_t nx, na, np, uses_time;
+  uint32_t nstage;
+  const uint32_t *stage_end, *pivot; /* as in ambit_implicit */
+  uint32_t *level;                   /* [nslot] 0: independent of a; s + 1: depends on unknowns of stage s, none later */
+  uint32_t *instr;                   /* [nslot] the instruction that writes it, or AMBIT_NO_SLOT */
+} program;
+
+typedef struct zono {
+  const ambit_host *host;
+  ambit_problem problem;
+  options options;
+  program program;
+  shape shape;          /* of rows; shape.m data, shape.nx eps */
+  uint32_t nx, na, np, m, nout, nslot;
+  uint32_t K, K_max;    /* order in time of the present step; most that there is room for */
+  /* -- rows */
+  double *row;          /* [sum of orders_max x shape.stride] */
+  size_t *first;        /* [nslot] row 0 of the slot, in rows */
+  double *inverse;      /* [ninverse x stride] */
+  uint32_t *has_inverse; /* [ninstr] number of the inverse + 1, 0: none */
+  int8_t *branch;       /* [ninstr] ABS, MIN, MAX: 1 as it is or the first, -1 negated or the second */
+  /* -- the set */
+  double *about, *scale; /* [m] datum j is about_j + scale_j xi_j; scale 0 where it is a point */
+  double *start;         /* [nx x stride] P at time[0] */
+  double *start_rad;     /* [nx] what is left of the initial value besides */
+  double *p_row, *p_rad; /* [np x stride] [np] parameters: rows and what is left */
+  double *P;             /* [nx x stride] rows without eps */
+  double *E;             /* [nx] half widths of G rho, rounded up */
+  double *G;             /* [ngen_max x nx] column c at G + c nx */
+  uint32_t ngen, ngen_max;
+  /* -- the step: from t, h long (negative: backwards); s in [0, h] */
+  double t, t_next, h, guess;
+  int at_goal; /* t_next is the instant ahead: h is t_next - t but for rounding */
+  uint32_t next;
+  double *r;      /* [nslot] what the operation itself fails by, see defect.c */
+  double *rr;     /* [nslot] the lump of each slot (constants and inputs included): r and second order */
+  double *rr_out; /* [nout] of each output */
+  struct implicit *implicit; /* implicit.c */
+  struct proof *proof;       /* sweep.c, error.c, close.c: allocated by zono_open_proof() */
+  /* -- records */
+  double *lo, *hi, *tube_lo, *tube_hi, *limit; /* [nx] */
+  /* -- failure */
+  enum why why;
+  uint32_t culprit;   /* state, slot or unknown */
+  const char *detail; /* kink text, or NULL */
+  ambit_sink *sink;
+} zono;
+
+/* -- rows of slots */
+
+static inline uint32_t orders(const zono *z, uint32_t slot) { return z->program.tape->degree[slot] ? z->K + 1 : 1; }
+static inline double *row_at(const zono *z, uint32_t slot, uint32_t k) {
+  return z->row + (z->first[slot] + k) * z->shape.stride;
+}
+/* that of instruction i, which has one */
+static inline const double *inverse_at(const zono *z, uint32_t i) {
+  return z->inverse + (z->has_inverse[i] - 1) * z->shape.stride;
+}
+static inline uint32_t slot_x(const zono *z, uint32_t i) { return z->program.tape->nconst + i; }
+static inline uint32_t slot_a(const zono *z, uint32_t i) { return z->program.tape->nconst + z->nx + i; }
+static inline uint32_t slot_p(const zono *z, uint32_t i) { return z->program.tape->nconst + z->nx + z->na + i; }
+static inline uint32_t slot_t(const zono *z) { return z->program.tape->nconst + z->nx + z->na + z->np; }
+static inline const uint32_t *slot_out(const zono *z) { return z->program.tape->out; }
+
+/* -- open.c, start.c, run.c, plugin.c (phase 1) */
+
+ambit_status zono_open(const ambit_host *h, const ambit_problem *p, const double *option, void **self);
+ambit_status zono_run(void *self, ambit_sink *sink);
+void zono_close(void *self);
+/* arrays for a program (shape, program, K_max are set); also that of the initial tape, whose inputs are all p */
+int zono_open_rows(const ambit_host *h, zono *z);
+ambit_status zono_start_open(zono *z); /* m, start, p_row from the initial tape */
+void zono_start(zono *z);              /* P, G, t as at time[0] */
+/* rows of all slots from P, E, p_row, t; z->K orders. 0: see z->why */
+int zono_series(zono *z);
+int zono_function_order0(zono *z, uint32_t instr); /* functions.c: row 0 of an elementary function */
+int zono_function(zono *z, uint32_t instr, uint32_t k);
+int zono_open_implicit(zono *z);
+int zono_factor(zono *z, uint32_t stage);             /* M_0 and its factors from rows of order 0 */
+void zono_solve(zono *z, uint32_t stage, uint32_t k); /* a_k from the rows of R_k */
+
+/* -- the other half (phase 2). Each returns 0 with z->why set where it fails. None allocates but zono_open_proof(). */
+
+int zono_open_proof(zono *z);      /* all memory of what follows; 0: none left */
+int zono_choose_step(zono *z, double h_most); /* pace.c: z->h, |h| <= |h_most| with its sign, from the rows */
+void zono_choose_order(zono *z);   /* pace.c: z->K of the next step, before zono_series() */
+int zono_defects(zono *z);         /* defect.c: z->r of all slots and outputs over [0, z->h] */
+/* forward bounds |Delta| of all slots from those of the inputs ([nin], in the order of the tape), with z->r as lumps;
+** delta [nslot]; used for the initial tape too, where rows have one order and h is 0 */
+int zono_spread(zono *z, const double *input, double *delta);
+/* sweeps, zeta, kernels: proves the step over [0, z->h]; 0 with WHY_GROWTH: shorten it */
+int zono_prove(zono *z);
+void zono_finish(zono *z);         /* close.c: P, G, E at the end of the step */
+void zono_hull(zono *z);           /* range.c: lo, hi of P + E */
+void zono_tube(zono *z);           /* range.c: tube_lo, tube_hi of the step; before zono_finish() */
+/* dense.c, set.c: what the receiver wished for */
+void zono_describe_dense(zono *z, ambit_record *r); /* before zono_finish() */
+const ambit_set *zono_describe_set(zono *z);
+#endif
