@@ -42,7 +42,8 @@ enum why {
   WHY_PIVOT,     /* a pivot of the implicit equations may vanish */
   WHY_GROWTH,    /* the bound of the distance could not be closed */
   WHY_WIDE,
-  WHY_STEP, /* no step that is long enough */
+  WHY_STEP,  /* no step that is long enough */
+  WHY_CREEP, /* too many steps to the end */
   WHY_STOPPED
 };
 
@@ -57,44 +58,52 @@ typedef struct program {
   uint32_t nx, na, np, uses_time;
   uint32_t nstage;
   const uint32_t *stage_end, *pivot; /* as in ambit_implicit */
-  uint32_t *level;                   /* [nslot] 0: independent of a; s + 1: depends on unknowns of stage s, none later */
-  uint32_t *instr;                   /* [nslot] the instruction that writes it, or AMBIT_NO_SLOT */
+  uint32_t *level;    /* [nslot] 0: independent of a; s + 1: depends on unknowns of stage s, none later */
+  uint8_t *needed;    /* [nslot] on the way from unknowns of its level's stage to equations of that stage */
+  uint32_t *sorted;   /* [ninstr] instructions by level, else in order */
+  uint32_t *of_level; /* [nstage + 2] where each level starts in `sorted` */
 } program;
 
 typedef struct zono {
   const ambit_host *host;
   ambit_problem problem;
+  const ambit_num_service *num;
   options options;
   program program;
   shape shape;          /* of rows; shape.m data, shape.nx eps */
   uint32_t nx, na, np, m, nout, nslot;
   uint32_t K, K_max;    /* order in time of the present step; most that there is room for */
   /* -- rows */
-  double *row;          /* [sum of orders_max x shape.stride] */
+  double *row;  /* [sum of orders_max x shape.stride] */
+  double *zero; /* [stride] */
+  double *scratch; /* [stride] */
   size_t *first;        /* [nslot] row 0 of the slot, in rows */
   double *inverse;      /* [ninverse x stride] */
   uint32_t *has_inverse; /* [ninstr] number of the inverse + 1, 0: none */
   int8_t *branch;       /* [ninstr] ABS, MIN, MAX: 1 as it is or the first, -1 negated or the second */
   /* -- the set */
-  double *about, *scale; /* [m] datum j is about_j + scale_j xi_j; scale 0 where it is a point */
+  uint32_t *unknown;     /* [m] which of the problem's unknowns datum j is; AMBIT_NO_SLOT: the solver's own */
+  double *about, *scale; /* [m] datum j is about_j + scale_j xi_j; 0 and 1 of the solver's own */
   double *start;         /* [nx x stride] P at time[0] */
   double *start_rad;     /* [nx] what is left of the initial value besides */
-  double *p_row, *p_rad; /* [np x stride] [np] parameters: rows and what is left */
+  double *start_p, *start_p_rad; /* [np x stride] [np] of parameters */
+  double *p_row, *p_rad;         /* [np x stride] [np] parameters: rows and what is left */
   double *P;             /* [nx x stride] rows without eps */
   double *E;             /* [nx] half widths of G rho, rounded up */
-  double *G;             /* [ngen_max x nx] column c at G + c nx */
+  double *G;             /* [(ngen_max + nx) x nx] column c at G + c nx */
   uint32_t ngen, ngen_max;
   /* -- the step: from t, h long (negative: backwards); s in [0, h] */
-  double t, t_next, h, guess;
-  int at_goal; /* t_next is the instant ahead: h is t_next - t but for rounding */
-  uint32_t next;
+  double t, t_next, h, h_error; /* |(t_next - t) - h| <= h_error */
+  double guess;                 /* length of the last step, without sign */
+  uint32_t next;                /* the instant ahead */
   double *r;      /* [nslot] what the operation itself fails by, see defect.c */
   double *rr;     /* [nslot] the lump of each slot (constants and inputs included): r and second order */
   double *rr_out; /* [nout] of each output */
   struct implicit *implicit; /* implicit.c */
   struct proof *proof;       /* sweep.c, error.c, close.c: allocated by zono_open_proof() */
   /* -- records */
-  double *lo, *hi, *tube_lo, *tube_hi, *limit; /* [nx] */
+  double *lo, *hi, *tube_lo, *tube_hi; /* [nx] */
+  double *largest;                     /* [nx] magnitude of the middle so far, at least 1 */
   /* -- failure */
   enum why why;
   uint32_t culprit;   /* state, slot or unknown */
@@ -108,8 +117,15 @@ static inline uint32_t orders(const zono *z, uint32_t slot) { return z->program.
 static inline double *row_at(const zono *z, uint32_t slot, uint32_t k) {
   return z->row + (z->first[slot] + k) * z->shape.stride;
 }
+/* order k of a slot that may have fewer */
+static inline const double *coefficient(const zono *z, uint32_t slot, uint32_t k) {
+  return k < orders(z, slot) ? row_at(z, slot, k) : z->zero;
+}
 /* that of instruction i, which has one */
 static inline const double *inverse_at(const zono *z, uint32_t i) {
+  return z->inverse + (z->has_inverse[i] - 1) * z->shape.stride;
+}
+static inline double *zono_inverse(const zono *z, uint32_t i) {
   return z->inverse + (z->has_inverse[i] - 1) * z->shape.stride;
 }
 static inline uint32_t slot_x(const zono *z, uint32_t i) { return z->program.tape->nconst + i; }
@@ -123,24 +139,25 @@ static inline const uint32_t *slot_out(const zono *z) { return z->program.tape->
 ambit_status zono_open(const ambit_host *h, const ambit_problem *p, const double *option, void **self);
 ambit_status zono_run(void *self, ambit_sink *sink);
 void zono_close(void *self);
-/* arrays for a program (shape, program, K_max are set); also that of the initial tape, whose inputs are all p */
-int zono_open_rows(const ambit_host *h, zono *z);
+/* arrays of rows, r, rr; host, program, shape, K_max are set; also for the initial tape, whose inputs are all p: it has
+** neither x nor a nor implicit nor proof, and K = 0 */
+int zono_open_rows(zono *z);
 ambit_status zono_start_open(zono *z); /* m, start, p_row from the initial tape */
 void zono_start(zono *z);              /* P, G, t as at time[0] */
 /* rows of all slots from P, E, p_row, t; z->K orders. 0: see z->why */
 int zono_series(zono *z);
-int zono_function_order0(zono *z, uint32_t instr); /* functions.c: row 0 of an elementary function */
+/* functions.c: row 0, row k > 0 of a quotient, root or elementary function; 0: undefined */
+int zono_function_order0(zono *z, uint32_t instr);
 int zono_function(zono *z, uint32_t instr, uint32_t k);
-int zono_open_implicit(zono *z);
-int zono_factor(zono *z, uint32_t stage);             /* M_0 and its factors from rows of order 0 */
-void zono_solve(zono *z, uint32_t stage, uint32_t k); /* a_k from the rows of R_k */
 
 /* -- the other half (phase 2). Each returns 0 with z->why set where it fails. None allocates but zono_open_proof(). */
 
 int zono_open_proof(zono *z);      /* all memory of what follows; 0: none left */
-int zono_choose_step(zono *z, double h_most); /* pace.c: z->h, |h| <= |h_most| with its sign, from the rows */
-void zono_choose_order(zono *z);   /* pace.c: z->K of the next step, before zono_series() */
-int zono_defects(zono *z);         /* defect.c: z->r of all slots and outputs over [0, z->h] */
+void zono_choose_order(zono *z);  /* pace.c: z->K of the next step, before zono_series() */
+/* pace.c: a length from the rows, |h| <= |h_most| with its sign; the caller sets h, t_next, h_error from it */
+double zono_choose_step(zono *z, double h_most);
+/* defect.c: z->r of all slots (and rr_out := what outputs fail by) over [0, z->h]; for the initial tape too */
+int zono_defects(zono *z);
 /* forward bounds |Delta| of all slots from those of the inputs ([nin], in the order of the tape), with z->r as lumps;
 ** delta [nslot]; used for the initial tape too, where rows have one order and h is 0 */
 int zono_spread(zono *z, const double *input, double *delta);

@@ -1,0 +1,7 @@
+/* avx2.c -- sums of rows in vectors of four; compiled with -mavx2 (plugin.cmake). */
+#if defined(__x86_64__)
+#define VARIANT sum_avx2
+#include "sum.h"
+#else
+typedef int nothing_here;
+#endif

@@ -1,0 +1,137 @@
+/* functions.c -- rows of quotients, roots and elementary functions. */
+#include "implicit.h"
+
+typedef struct instr {
+  uint32_t op, dst, a, b, aux, k;
+} instr;
+
+static instr instruction(const zono *z, uint32_t i, uint32_t k) {
+  const ambit_tape *t = z->program.tape;
+  return (instr) { t->op[i], t->dst[i], t->a[i], t->b[i], t->aux[i], k };
+}
+
+/* -- order 0: the Taylor polynomial of degree 2 about the constant */
+
+static void put_angle(const zono *z, const instr *n, double *to) {
+  const shape *s = &z->shape;
+  const double *y = row_at(z, n->a, 0), *x = row_at(z, n->b, 0);
+  double r = x[0] * x[0] + y[0] * y[0], mixed = x[0] * y[0] / r / r;
+  terms sum;
+  terms_clear(&sum);
+  sum.c = atan2(y[0], x[0]);
+  terms_moving(s, &sum, x[0] / r, y), terms_moving(s, &sum, -y[0] / r, x);
+  terms_outer(s, &sum, -mixed, y, y), terms_outer(s, &sum, mixed, x, x);
+  terms_outer(s, &sum, (y[0] - x[0]) * (y[0] + x[0]) / r / r, x, y);
+  terms_sum(s, &sum, to);
+}
+
+static void put_quotient(zono *z, uint32_t i, const instr *n, double *to) {
+  const shape *s = &z->shape;
+  double *inverse = zono_inverse(z, i);
+  row_inverse(s, inverse, row_at(z, n->b, 0));
+  terms sum;
+  terms_clear(&sum);
+  terms_product(s, &sum, 1, row_at(z, n->a, 0), inverse);
+  terms_sum(s, &sum, to);
+}
+
+int zono_function_order0(zono *z, uint32_t i) {
+  const instr n = instruction(z, i, 0);
+  const shape *s = &z->shape;
+  const double *a = row_at(z, n.a, 0);
+  double *to = row_at(z, n.dst, 0), c = a[0], g = 0, g1 = 0, g2 = 0;
+  switch (n.op) {
+  case AMBIT_OP_DIV:
+    if (row_at(z, n.b, 0)[0] == 0) return 0;
+    return put_quotient(z, i, &n, to), 1;
+  case AMBIT_OP_ATAN2:
+    if (c == 0 && row_at(z, n.b, 0)[0] == 0) return 0;
+    return put_angle(z, &n, to), 1;
+  case AMBIT_OP_SQRT:
+    if (!(c > 0)) return 0;
+    g = sqrt(c), g1 = 0.5 / g, g2 = -0.5 * g1 / c;
+    break;
+  case AMBIT_OP_EXP: g = g1 = g2 = exp(c); break;
+  case AMBIT_OP_LOG:
+    if (!(c > 0)) return 0;
+    g = log(c), g1 = 1 / c, g2 = -g1 * g1;
+    break;
+  case AMBIT_OP_SIN: g = sin(c), g1 = cos(c), g2 = -g; break;
+  case AMBIT_OP_COS: g = cos(c), g1 = -sin(c), g2 = -g; break;
+  case AMBIT_OP_SINH: g = sinh(c), g1 = cosh(c), g2 = g; break;
+  case AMBIT_OP_COSH: g = cosh(c), g1 = sinh(c), g2 = g; break;
+  case AMBIT_OP_ATAN: g = atan(c), g1 = 1 / (1 + c * c), g2 = -2 * c * g1 * g1; break;
+  default: return 0;
+  }
+  row_function(s, to, a, g, g1, g2);
+  return 1;
+}
+
+/* -- order k > 0: recurrences */
+
+/* sum += scale sum_{from <= j <= to} j u_j (*) v_(k-j) */
+static void add_weighted(
+    const zono *z, terms *sum, double scale, uint32_t u, uint32_t v, uint32_t k, uint32_t from, uint32_t to) {
+  uint32_t nu = orders(z, u), nv = orders(z, v);
+  for (uint32_t j = from; j <= to && j < nu; j++)
+    if (k - j < nv) terms_product(&z->shape, sum, scale * j, row_at(z, u, j), row_at(z, v, k - j));
+}
+
+/* what is divided by the inverse at order k; the function's own rows below k are known */
+static void add_dividend(const zono *z, terms *sum, const instr *n) {
+  const shape *s = &z->shape;
+  uint32_t k = n->k;
+  if (n->op != AMBIT_OP_ATAN2) terms_row(s, sum, 1, coefficient(z, n->a, k));
+  switch (n->op) {
+  case AMBIT_OP_DIV:
+    for (uint32_t j = 1; j <= k && j < orders(z, n->b); j++)
+      terms_product(s, sum, -1, row_at(z, n->b, j), row_at(z, n->dst, k - j));
+    break;
+  case AMBIT_OP_SQRT:
+    for (uint32_t j = 1; 2 * j < k; j++) terms_product(s, sum, -2, row_at(z, n->dst, j), row_at(z, n->dst, k - j));
+    if (k % 2 == 0) terms_product(s, sum, -1, row_at(z, n->dst, k / 2), row_at(z, n->dst, k / 2));
+    break;
+  case AMBIT_OP_LOG: add_weighted(z, sum, -1.0 / k, n->dst, n->a, k, 1, k - 1); break;
+  case AMBIT_OP_ATAN: add_weighted(z, sum, -1.0 / k, n->dst, n->aux, k, 1, k - 1); break;
+  default:
+    add_weighted(z, sum, 1.0 / k, n->a, n->b, k, 1, k);
+    add_weighted(z, sum, -1.0 / k, n->b, n->a, k, 1, k);
+    add_weighted(z, sum, -1.0 / k, n->dst, n->aux, k, 1, k - 1);
+  }
+}
+
+/* the inverse that the recurrence of instruction i needs; the operands' order 0 is final */
+static int find_inverse(zono *z, uint32_t i, const instr *n) {
+  const shape *s = &z->shape;
+  if (n->op == AMBIT_OP_DIV) return 1;
+  uint32_t of = n->op == AMBIT_OP_SQRT ? n->dst : n->op == AMBIT_OP_LOG ? n->a : n->aux;
+  const double *a = row_at(z, of, 0);
+  if (a[0] == 0) return 0;
+  row_inverse(s, zono_inverse(z, i), a);
+  if (n->op == AMBIT_OP_SQRT) row_scale(s, zono_inverse(z, i), 0.5, zono_inverse(z, i));
+  return 1;
+}
+
+int zono_function(zono *z, uint32_t i, uint32_t k) {
+  const instr n = instruction(z, i, k);
+  const shape *s = &z->shape;
+  double *to = row_at(z, n.dst, k);
+  terms sum;
+  terms_clear(&sum);
+  switch (n.op) {
+  case AMBIT_OP_EXP: add_weighted(z, &sum, 1.0 / k, n.a, n.dst, k, 1, k); break;
+  case AMBIT_OP_SIN:
+  case AMBIT_OP_SINH:
+  case AMBIT_OP_COSH: add_weighted(z, &sum, 1.0 / k, n.a, n.aux, k, 1, k); break;
+  case AMBIT_OP_COS: add_weighted(z, &sum, -1.0 / k, n.a, n.aux, k, 1, k); break;
+  default:
+    if (!z->has_inverse[i]) return 0;
+    if (k == 1 && !find_inverse(z, i, &n)) return 0;
+    add_dividend(z, &sum, &n);
+    terms_sum(s, &sum, z->scratch);
+    terms_clear(&sum);
+    terms_product(s, &sum, 1, z->scratch, inverse_at(z, i));
+  }
+  terms_sum(s, &sum, to);
+  return 1;
+}

@@ -1,0 +1,164 @@
+/* open.c -- memory, and which slots depend on which unknowns. */
+#include "implicit.h"
+#include <ambit/code.h>
+
+#define ROOM 400e6 /* bytes that rows may take at the highest order */
+#define ORDER_MOST 24
+#define ORDER_LEAST 8
+#define HISTORY 60 /* generators kept for each state */
+
+static void *room(const ambit_host *h, size_t count, size_t size) { return h->alloc(h, (count ? count : 1) * size); }
+static double *doubles(const ambit_host *h, size_t count) { return room(h, count, sizeof(double)); }
+
+/* -- levels */
+
+static int has_second(uint32_t op) {
+  return op == AMBIT_OP_ADD || op == AMBIT_OP_SUB || op == AMBIT_OP_MUL || op == AMBIT_OP_DIV || op == AMBIT_OP_ATAN2 ||
+         op == AMBIT_OP_MIN || op == AMBIT_OP_MAX;
+}
+
+static void find_levels(zono *z) {
+  program *p = &z->program;
+  const ambit_tape *t = p->tape;
+  for (uint32_t s = 0, j = 0; s < p->nstage; s++)
+    for (; j < p->stage_end[s]; j++) p->level[slot_a(z, j)] = s + 1;
+  for (uint32_t i = 0; i < t->ninstr; i++) {
+    uint32_t a = p->level[t->a[i]], b = has_second(t->op[i]) ? p->level[t->b[i]] : 0;
+    p->level[t->dst[i]] = a > b ? a : b;
+  }
+  uint32_t at = 0;
+  for (uint32_t level = 0; level <= p->nstage; level++) {
+    p->of_level[level] = at;
+    for (uint32_t i = 0; i < t->ninstr; i++)
+      if (p->level[t->dst[i]] == level) p->sorted[at++] = i;
+  }
+  p->of_level[p->nstage + 1] = at;
+}
+
+static void find_needed(zono *z) {
+  program *p = &z->program;
+  const ambit_tape *t = p->tape;
+  for (uint32_t s = 0, j = 0; s < p->nstage; s++)
+    for (; j < p->stage_end[s]; j++) p->needed[t->out[z->nx + j]] = p->level[t->out[z->nx + j]] == s + 1;
+  for (uint32_t i = t->ninstr; i-- > 0;) {
+    uint32_t dst = t->dst[i];
+    if (!p->needed[dst]) continue;
+    if (p->level[t->a[i]] == p->level[dst]) p->needed[t->a[i]] = 1;
+    if (has_second(t->op[i]) && p->level[t->b[i]] == p->level[dst]) p->needed[t->b[i]] = 1;
+  }
+}
+
+static int open_program(zono *z) {
+  program *p = &z->program;
+  const ambit_host *h = z->host;
+  p->level = room(h, p->tape->nslot, sizeof *p->level), p->needed = room(h, p->tape->nslot, 1);
+  p->sorted = room(h, p->tape->ninstr, sizeof *p->sorted), p->of_level = room(h, p->nstage + 2u, sizeof *p->of_level);
+  if (!p->level || !p->needed || !p->sorted || !p->of_level) return 0;
+  find_levels(z);
+  find_needed(z);
+  return 1;
+}
+
+/* -- rows */
+
+static int divides(uint32_t op) {
+  return op == AMBIT_OP_DIV || op == AMBIT_OP_SQRT || op == AMBIT_OP_LOG || op == AMBIT_OP_ATAN || op == AMBIT_OP_ATAN2;
+}
+
+int zono_open_rows(zono *z) {
+  const ambit_tape *t = z->program.tape;
+  const ambit_host *h = z->host;
+  size_t stride = z->shape.stride, rows = 0, inverses = 0;
+  z->nslot = t->nslot, z->nout = t->nout;
+  z->num = h->service(h, AMBIT_NUM_SERVICE);
+  z->first = room(h, t->nslot, sizeof *z->first);
+  z->has_inverse = room(h, t->ninstr, sizeof *z->has_inverse), z->branch = room(h, t->ninstr, 1);
+  if (!z->num || !z->first || !z->has_inverse || !z->branch || !open_program(z)) return 0;
+  for (uint32_t i = 0; i < t->nslot; i++) {
+    z->first[i] = rows;
+    rows += t->degree[i] ? z->K_max + 1u : 1u;
+  }
+  for (uint32_t i = 0; i < t->ninstr; i++)
+    if (divides(t->op[i])) z->has_inverse[i] = (uint32_t)++inverses;
+  z->row = doubles(h, rows * stride), z->inverse = doubles(h, inverses * stride);
+  z->zero = doubles(h, stride), z->scratch = doubles(h, stride);
+  z->r = doubles(h, t->nslot), z->rr = doubles(h, t->nslot), z->rr_out = doubles(h, t->nout);
+  z->p_row = doubles(h, z->np * stride), z->p_rad = doubles(h, z->np);
+  return z->row && z->inverse && z->zero && z->scratch && z->r && z->rr && z->rr_out && z->p_row && z->p_rad;
+}
+
+/* the highest order in time that there is room for */
+static uint32_t highest_order(const zono *z) {
+  const ambit_tape *t = z->program.tape;
+  if (z->options.time_order) return z->options.time_order;
+  double moving = 1, row = 8.0 * z->shape.stride;
+  for (uint32_t i = 0; i < t->nslot; i++) moving += t->degree[i] != 0;
+  double k = ROOM / (moving * row) - 1;
+  return k > ORDER_MOST ? ORDER_MOST : k < ORDER_LEAST ? ORDER_LEAST : (uint32_t)k;
+}
+
+static int open_set(zono *z) {
+  const ambit_host *h = z->host;
+  size_t nx = z->nx;
+  z->ngen_max = z->options.history * z->nx;
+  z->P = doubles(h, nx * z->shape.stride), z->E = doubles(h, nx), z->G = doubles(h, nx * (z->ngen_max + nx));
+  z->lo = doubles(h, nx), z->hi = doubles(h, nx), z->tube_lo = doubles(h, nx), z->tube_hi = doubles(h, nx);
+  z->largest = doubles(h, nx);
+  return z->P && z->E && z->G && z->lo && z->hi && z->tube_lo && z->tube_hi && z->largest;
+}
+
+/* -- the solver */
+
+static void choose_program(zono *z) {
+  const ambit_problem *p = &z->problem;
+  z->nx = p->nx, z->np = p->np;
+  z->program = (program) { .tape = p->rhs, .nx = p->nx, .np = p->np, .uses_time = p->uses_time };
+#ifdef AMBIT_WANT_IMPLICIT
+  const ambit_implicit *i = p->implicit;
+  if (!i || !i->tape) return;
+  z->na = i->na;
+  z->program.tape = i->tape, z->program.na = i->na, z->program.nstage = i->na ? i->nstage : 0;
+  z->program.stage_end = i->stage_end, z->program.pivot = i->pivot;
+#endif
+}
+
+static ambit_status no_memory(const ambit_host *h) {
+  return h->fail(h, AMBIT_NOMEM, "zonotope: out of memory; make fewer data uncertain, or lower `time_order`");
+}
+
+static ambit_status open_all(zono *z) {
+  const ambit_host *h = z->host;
+  choose_program(z);
+  for (uint32_t s = 0, from = 0; s < z->program.nstage; from = z->program.stage_end[s++])
+    if (z->program.stage_end[s] - from > STAGE_MAX)
+      return h->fail(h, AMBIT_INVALID, "zonotope: %u accelerations and multipliers at once, more than %d; take `lohner`",
+          z->program.stage_end[s] - from, STAGE_MAX);
+  ambit_status status = zono_start_open(z);
+  if (status == AMBIT_NOMEM) return no_memory(h);
+  if (status != AMBIT_OK) return status;
+  z->K_max = highest_order(z), z->K = z->K_max;
+  if (!zono_open_rows(z) || (z->na && !zono_open_implicit(z)) || !open_set(z) || !zono_open_proof(z))
+    return no_memory(h);
+  return AMBIT_OK;
+}
+
+ambit_status zono_open(const ambit_host *h, const ambit_problem *p, const double *option, void **self) {
+  *self = NULL;
+  zono *z = h->alloc(h, sizeof *z);
+  if (!z) return no_memory(h);
+  z->host = h;
+  memcpy(&z->problem, p, p->size < sizeof z->problem ? p->size : sizeof z->problem);
+  double order = option[0], history = option[1];
+  if (order != 0 && !(order >= 3 && order <= 40))
+    return h->fail(h, AMBIT_INVALID, "zonotope: `time_order` is 3 to 40, or 0; got %g", order);
+  if (history != 0 && !(history >= 2 && history <= 1000))
+    return h->fail(h, AMBIT_INVALID, "zonotope: `history` is 2 to 1000, or 0; got %g", history);
+  z->options = (options) { (uint32_t)order, history > 0 ? (uint32_t)history : HISTORY, option[2], option[3], option[4], option[5] };
+  const double *time = z->problem.time;
+  if (z->options.step_min == 0) z->options.step_min = 0x1p-40 * fabs(time[z->problem.ntime - 1] - time[0]);
+  ambit_status status = open_all(z);
+  if (status == AMBIT_OK) *self = z;
+  return status;
+}
+
+void zono_close(void *self) { (void)self; }

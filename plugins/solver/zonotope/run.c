@@ -1,0 +1,159 @@
+/* run.c -- from step to step, and what a run that could not go on has to say.
+**
+** A step is: rows of the flow over the set (series.c), a length (pace.c), what every operation fails by over that length
+** (defect.c), how far solutions can be from the rows (zono_prove), and the set at the end (zono_finish). Where the proof
+** fails the step is made shorter with the same rows.
+*/
+#include "zonotope.h"
+#include <ambit/code.h>
+#include <stdio.h>
+
+#define GROW 3.0     /* longest step, in multiples of the last one */
+#define CREEP 1e6    /* steps to the end, at the present pace, that are too many */
+#define CREEP_FOR 30 /* steps in a row */
+
+static int fails(zono *z, enum why why) {
+  z->why = why;
+  return 0;
+}
+
+/* -- one step */
+
+/* z->t_next, h and h_error for a length; 1 if it ends at the instant ahead */
+static int set_end(zono *z, double h) {
+  double goal = z->problem.time[z->next];
+  int at_goal = !(fabs(h) < fabs(goal - z->t) * (1 - 0x1p-40));
+  z->t_next = at_goal ? goal : z->t + h;
+  z->h = z->t_next - z->t;
+  z->h_error = 0x1p-52 * fabs(z->h); /* a difference is rounded by half of that */
+  return at_goal;
+}
+
+static double longest(const zono *z) {
+  double left = z->problem.time[z->next] - z->t, most = fabs(left);
+  if (z->guess > 0 && GROW * z->guess < most) most = GROW * z->guess;
+  if (z->options.step_max < most) most = z->options.step_max;
+  /* the last two steps before an instant are of like length: no sliver is left */
+  if (most < fabs(left) && most > 0.6 * fabs(left)) most = 0.5 * fabs(left);
+  return left < 0 ? -most : most;
+}
+
+/* 1: proved for some length, set in z */
+static int prove_some(zono *z, double h) {
+  enum why why;
+  for (;;) {
+    if (set_end(z, h)) z->h = z->t_next - z->t;
+    z->why = WHY_NOTHING, z->detail = NULL;
+    if (zono_defects(z) && zono_prove(z)) return 1;
+    why = z->why == WHY_NOTHING ? WHY_GROWTH : z->why;
+    if (fabs(h) * 0.5 < z->options.step_min || z->t + 0.5 * h == z->t) return fails(z, why == WHY_GROWTH ? WHY_STEP : why);
+    h *= 0.5;
+  }
+}
+
+static int step(zono *z) {
+  zono_choose_order(z);
+  if (!zono_series(z)) return 0;
+  double h = zono_choose_step(z, longest(z));
+  if (!(fabs(h) >= z->options.step_min || fabs(h) == fabs(longest(z))) || z->t + h == z->t) return fails(z, WHY_STEP);
+  return prove_some(z, h);
+}
+
+/* -- records */
+
+static int32_t emit(zono *z, ambit_record *r) {
+  double span = z->problem.time[z->problem.ntime - 1] - z->problem.time[0];
+  if (z->problem.wish & AMBIT_WISH_SET) r->set = zono_describe_set(z);
+  int32_t stop = z->sink->emit(z->sink, r);
+  if (!stop && z->sink->progress) stop = z->sink->progress(z->sink, (z->t - z->problem.time[0]) / span, NULL);
+  return stop;
+}
+
+static int is_wide(zono *z) {
+  for (uint32_t i = 0; i < z->nx; i++) {
+    double middle = 0.5 * fabs(z->lo[i] + z->hi[i]), width = z->hi[i] - z->lo[i];
+    double most = z->options.width_max > 0 ? z->options.width_max : 10;
+    if (z->options.width_max == 0 && middle > z->largest[i]) z->largest[i] = middle;
+    z->culprit = i;
+    if (!(width <= most * z->largest[i])) return 1;
+  }
+  return 0;
+}
+
+static int advance(zono *z) {
+  ambit_record r = { .size = sizeof r, .kind = AMBIT_REC_STEP, .t_from = z->t, .nx = z->nx, .rigorous = 1 };
+  if (!step(z)) return 0;
+  zono_tube(z);
+  if (z->problem.wish & AMBIT_WISH_DENSE) zono_describe_dense(z, &r);
+  zono_finish(z);
+  zono_hull(z);
+  if (is_wide(z)) return fails(z, WHY_WIDE);
+  z->guess = fabs(z->h), z->t = z->t_next;
+  z->next += z->t == z->problem.time[z->next];
+  r.t_to = z->t, r.order = z->K;
+  r.lo = z->lo, r.hi = z->hi, r.tube_lo = z->tube_lo, r.tube_hi = z->tube_hi;
+  return emit(z, &r) ? fails(z, WHY_STOPPED) : 1;
+}
+
+static void work(zono *z) {
+  uint32_t slow = 0;
+  zono_start(z);
+  zono_hull(z);
+  for (uint32_t i = 0; i < z->nx; i++) z->largest[i] = fmax(1, fmax(fabs(z->lo[i]), fabs(z->hi[i])));
+  while (z->next < z->problem.ntime && advance(z)) {
+    slow = fabs(z->problem.time[z->problem.ntime - 1] - z->t) > CREEP * z->guess ? slow + 1 : 0;
+    if (slow > CREEP_FOR) {
+      z->why = WHY_CREEP;
+      return;
+    }
+  }
+}
+
+/* -- reasons */
+
+static ambit_status explain(const zono *z) {
+  const ambit_host *h = z->host;
+  double width = 0;
+  for (uint32_t i = 0; i < z->nx; i++) width = fmax(width, z->hi[i] - z->lo[i]);
+  switch (z->why) {
+  case WHY_NOTHING: return AMBIT_OK;
+  case WHY_STOPPED: return AMBIT_STOPPED;
+  case WHY_KINK:
+    return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_KINK,
+        "at t = %.9g s the enclosure, up to %.3g wide, comes to where %s is not smooth, and Taylor series end; end "
+        "before it, or put a smooth law in its place",
+        z->t, width, z->detail ? z->detail : "an element's law");
+  case WHY_UNDEFINED:
+    return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_UNDEFINED,
+        "at t = %.9g s the enclosure, up to %.3g wide, reaches a point where the equations are not defined, not smooth "
+        "or too large; narrow the data, or end before it",
+        z->t, width);
+  case WHY_PIVOT:
+    return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_UNDEFINED,
+        "at t = %.9g s the equations for the accelerations may be singular somewhere in the enclosure, up to %.3g wide "
+        "(unknown %u); narrow the data, or end before it",
+        z->t, width, z->culprit + 1);
+  case WHY_WIDE:
+    return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_WIDTH,
+        "the enclosure of `%s` grew wider than allowed in the step from t = %.9g s; narrow the data, or allow more by "
+        "`width_max`",
+        z->problem.name[z->culprit], z->t);
+  case WHY_CREEP:
+    return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_CREEP,
+        "at t = %.9g s steps over an enclosure up to %.3g wide, now of %.3g s, are so short that the end is out of "
+        "reach: a solution may escape near here; if not, narrow the data",
+        z->t, width, z->guess);
+  default:
+    return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_STEP,
+        "at t = %.9g s no step of at least %.3g s could be proved, with an enclosure up to %.3g wide: a solution may "
+        "escape or leave the domain of the equations near here; if not, narrow the data or lower `step_min`",
+        z->t, z->options.step_min, width);
+  }
+}
+
+ambit_status zono_run(void *self, ambit_sink *sink) {
+  zono *z = self;
+  z->sink = sink;
+  work(z);
+  return explain(z);
+}

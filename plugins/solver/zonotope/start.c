@@ -1,0 +1,131 @@
+/* start.c -- the set at the start: the initial tape over the unknowns.
+**
+** The tape is run as a step of length 0 of a system without states: the rows of its slots, what its operations fail by,
+** and how far that spreads. A state or parameter that is more than rounding away from its row gets a datum of its own.
+*/
+#include "zonotope.h"
+#include <ambit/code.h>
+
+#define THIN 0x1p-40 /* relative radius up to which an initial value is a matter of rounding */
+
+/* -- the initial tape as a program */
+
+static int open_initial(const zono *z, zono *i) {
+  *i = (zono) { .host = z->host, .shape = z->shape };
+  memcpy(&i->problem, &z->problem, sizeof i->problem);
+  i->program = (program) { .tape = z->problem.initial, .np = z->problem.nu };
+  i->np = z->problem.nu, i->m = z->m, i->K = i->K_max = 0;
+  return zono_open_rows(i);
+}
+
+static void put_unknowns(const zono *z, zono *i) {
+  const ambit_problem *p = &z->problem;
+  for (uint32_t u = 0; u < p->nu; u++) row_constant(&z->shape, i->p_row + (size_t)u * z->shape.stride, 0.5 * (p->u_lo[u] + p->u_hi[u]));
+  for (uint32_t j = 0; j < z->m; j++) {
+    if (z->unknown[j] == AMBIT_NO_SLOT) continue;
+    double *row = i->p_row + (size_t)z->unknown[j] * z->shape.stride;
+    row[1 + j] = z->scale[j];
+    row_norms(&z->shape, row);
+  }
+}
+
+/* the middle of an unknown's range and its half width both may be rounded: |u - about - scale xi| is 0 all the same,
+** for scale is rounded up and xi is what it must be */
+static void choose_data(zono *z) {
+  const ambit_problem *p = &z->problem;
+  uint32_t j = 0;
+  for (uint32_t u = 0; u < p->nu; u++) {
+    double mid = 0.5 * (p->u_lo[u] + p->u_hi[u]), up = p->u_hi[u] - mid, down = mid - p->u_lo[u];
+    if (!(up > 0 || down > 0)) continue;
+    z->unknown[j] = u, z->about[j] = mid, z->scale[j++] = nextafter(up > down ? up : down, INFINITY);
+  }
+  for (; j < z->m; j++) z->unknown[j] = AMBIT_NO_SLOT, z->about[j] = 0, z->scale[j] = 1;
+}
+
+static uint32_t count_data(const ambit_problem *p) {
+  uint32_t n = 0;
+  for (uint32_t u = 0; u < p->nu; u++) n += p->u_hi[u] > p->u_lo[u];
+  return n;
+}
+
+static int allocate(zono *z) {
+  const ambit_host *h = z->host;
+  size_t row = z->shape.stride * sizeof(double), m = z->m + 1u;
+  z->unknown = h->alloc(h, m * sizeof *z->unknown);
+  z->about = h->alloc(h, m * sizeof(double)), z->scale = h->alloc(h, m * sizeof(double));
+  z->start = h->alloc(h, (z->nx + 1u) * row), z->start_rad = h->alloc(h, (z->nx + 1u) * sizeof(double));
+  z->start_p = h->alloc(h, (z->np + 1u) * row), z->start_p_rad = h->alloc(h, (z->np + 1u) * sizeof(double));
+  return z->unknown && z->about && z->scale && z->start && z->start_rad && z->start_p && z->start_p_rad;
+}
+
+/* -- */
+
+/* rows and radii of all outputs; *own: how many more data there should be */
+static void keep(zono *z, const zono *i, const double *delta, uint32_t *own) {
+  const shape *s = &z->shape;
+  uint32_t first = count_data(&z->problem), found = 0;
+  for (uint32_t o = 0; o < z->nx + z->np; o++) {
+    uint32_t slot = slot_out(i)[o];
+    int state = o < z->nx;
+    double *to = state ? z->start + (size_t)o * s->stride : z->start_p + (size_t)(o - z->nx) * s->stride;
+    double *rad = state ? z->start_rad + o : z->start_p_rad + (o - z->nx);
+    memcpy(to, row_at(i, slot, 0), s->stride * sizeof *to);
+    *rad = delta[slot];
+    if (*rad <= THIN * row_total(s, to) + 0x1p-900) continue;
+    if (first + found < z->m) {
+      to[1 + first + found] = *rad;
+      *rad = 0;
+      row_norms(s, to);
+    }
+    found++;
+  }
+  *own = found;
+}
+
+static ambit_status undefined(const zono *z, const zono *i) {
+  if (i->why == WHY_KINK && i->detail)
+    return z->host->fail_code(z->host, AMBIT_UNABLE, AMBIT_CODE_UNABLE_KINK,
+        "at t = %.9g s the initial values come to where %s is not smooth; narrow the ranges of the data in `initial`",
+        z->problem.time[0], i->detail);
+  return z->host->fail_code(z->host, AMBIT_UNABLE, AMBIT_CODE_UNABLE_INITIAL,
+      "at t = %.9g s the initial values are not defined, not smooth, or too large to compute with, for all values of "
+      "their uncertain data; narrow the ranges of the data in `initial`",
+      z->problem.time[0]);
+}
+
+static ambit_status evaluate_over(zono *z, uint32_t m, uint32_t *own) {
+  const ambit_host *h = z->host;
+  const ambit_tape *t = z->problem.initial;
+  zono i;
+  z->m = m;
+  if (!shape_open(h, &z->shape, m, z->nx) || !allocate(z) || !open_initial(z, &i)) return AMBIT_NOMEM;
+  double *delta = h->alloc(h, (t->nslot + 1u) * sizeof *delta), *input = h->alloc(h, (t->nin + 1u) * sizeof *input);
+  if (!delta || !input) return AMBIT_NOMEM;
+  choose_data(z);
+  put_unknowns(z, &i);
+  if (!zono_series(&i) || !zono_defects(&i) || !zono_spread(&i, input, delta)) return undefined(z, &i);
+  for (uint32_t o = 0; o < t->nout; o++)
+    if (!(delta[t->out[o]] < 1e200)) return undefined(z, &i);
+  keep(z, &i, delta, own);
+  return AMBIT_OK;
+}
+
+ambit_status zono_start_open(zono *z) {
+  uint32_t own = 0, m = count_data(&z->problem);
+  ambit_status status = evaluate_over(z, m, &own);
+  return status == AMBIT_OK && own ? evaluate_over(z, m + own, &own) : status;
+}
+
+void zono_start(zono *z) {
+  size_t bytes = z->shape.stride * sizeof(double);
+  z->t = z->problem.time[0], z->next = 1, z->guess = 0, z->ngen = 0, z->why = WHY_NOTHING, z->detail = NULL;
+  memcpy(z->P, z->start, z->nx * bytes);
+  memcpy(z->p_row, z->start_p, z->np * bytes), memcpy(z->p_rad, z->start_p_rad, z->np * sizeof(double));
+  for (uint32_t i = 0; i < z->nx; i++) {
+    z->E[i] = z->start_rad[i];
+    if (z->E[i] == 0) continue;
+    double *column = z->G + (size_t)z->ngen++ * z->nx;
+    memset(column, 0, z->nx * sizeof *column);
+    column[i] = z->E[i];
+  }
+}
