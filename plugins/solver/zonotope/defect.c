@@ -1,0 +1,317 @@
+/* defect.c -- by how much each operation fails along the polynomials of phase 1: one number for each, over the step.
+**
+** op(V_a(s), V_b(s)) = V_j(s) + tau_j,  |tau_j| <= r_j  for all s in [0, h], xi, eps in their boxes. Order by order,
+** `drop` bounds what a product left out (row_dropped: monomials that rows do not hold) and its rounding; orders beyond K
+** are bounded by sizes of rows. For functions that solve a differential equation, the difference u from the true
+** function solves it too, with what was dropped as its right-hand side. Quotients and roots are tested afterwards:
+** their rows are multiplied out again. Proofs: docs/numerics/zonotope.md, section 4.
+*/
+#include "proof.h"
+
+/* a coefficient of a sum of n products: 6 n + 8 operations (zonotope.h) */
+static double rounding(double n) { return (6 * n + 10) * UNIT; }
+static double total(const zono *z, uint32_t slot, uint32_t k) { return z->proof->total[z->first[slot] + k]; }
+static double scaled(const zono *z, uint32_t slot, uint32_t k) { return z->proof->scaled[z->first[slot] + k]; }
+static double *drop_at(const zono *z, uint32_t slot) { return z->proof->drop + z->first[slot]; }
+static uint32_t last(const zono *z, uint32_t slot) { return orders(z, slot) - 1; }
+
+/* -- what order k drops */
+
+/* sum_j w_j u_j (*) v_(k-j), w_j = j / k with `weighted`, else 1: monomials that are not held, and the sum of sizes */
+static double dropped(const zono *z, uint32_t u, uint32_t v, uint32_t k, int weighted, double *size) {
+  double sum = 0;
+  for (uint32_t j = weighted; j <= k && j <= last(z, u); j++) {
+    if (k - j > last(z, v)) continue;
+    double w = weighted ? (double)j / k : 1;
+    sum += w * row_dropped(&z->shape, row_at(z, u, j), row_at(z, v, k - j));
+    *size += w * total(z, u, j) * total(z, v, k - j);
+  }
+  return sum;
+}
+
+static void drop_product(zono *z, uint32_t dst, uint32_t u, uint32_t v, int weighted) {
+  double *drop = drop_at(z, dst);
+  for (uint32_t k = (uint32_t)weighted; k <= last(z, dst); k++) {
+    double size = 0;
+    drop[k] = dropped(z, u, v, k, weighted, &size);
+    drop[k] += rounding(k + 1.0) * size;
+  }
+}
+
+typedef struct product {
+  double scale;
+  uint32_t u, v;
+} product;
+
+/* what is left of  sum_n scale_n u_n v_n - linear  (weighted: of sum_n scale_n u_n' v_n - linear', over k) at each order,
+** its rounding, and what its products dropped; constant: added at order 0 */
+static void test(zono *z, double *drop, uint32_t count, uint32_t n, const product *p, uint32_t linear, double constant,
+    int weighted) {
+  const shape *s = &z->shape;
+  drop[0] = 0;
+  for (uint32_t k = (uint32_t)weighted; k < count; k++) {
+    terms sum;
+    terms_clear(&sum);
+    double lost = 0, size = 0;
+    if (k == 0) sum.c = constant, size = fabs(constant);
+    if (linear != AMBIT_NO_SLOT && k <= last(z, linear))
+      terms_row(s, &sum, -1, row_at(z, linear, k)), size += total(z, linear, k);
+    for (uint32_t i = 0; i < n; i++) {
+      lost += fabs(p[i].scale) * dropped(z, p[i].u, p[i].v, k, weighted, &size);
+      for (uint32_t j = (uint32_t)weighted; j <= k && j <= last(z, p[i].u); j++)
+        if (k - j <= last(z, p[i].v))
+          terms_product(s, &sum, p[i].scale * (weighted ? (double)j / k : 1), row_at(z, p[i].u, j),
+              row_at(z, p[i].v, k - j));
+    }
+    terms_sum(s, &sum, z->proof->end);
+    drop[k] = row_total(s, z->proof->end) + lost + rounding(n * (k + 1.0) + 2) * 2 * size;
+  }
+}
+
+/* -- order 0 of functions: Taylor's remainder of degree 2, g3 a bound of the third derivative */
+
+static double remainder_of(const zono *z, uint32_t a, double g, double g1, double g2, double g3) {
+  const double *x = row_at(z, a, 0);
+  double A = row_moving(&z->shape, x);
+  return 0.5 * g2 * row_dropped(&z->shape, x, x) + g3 * A * A * A / 6 + 32 * UNIT * (g + g1 * A + g2 * A * A);
+}
+
+/* atan2: the derivatives of an angle at the distance r are at most 1 / r, 1 / r^2, 2 / r^3 in every direction */
+static double angle_remainder(const zono *z, uint32_t a, uint32_t b) {
+  const shape *s = &z->shape;
+  const double *y = row_at(z, a, 0), *x = row_at(z, b, 0);
+  double A = row_moving(s, x) + row_moving(s, y), r = hypot(x[0], y[0]), near = r - A;
+  if (!(near > 0)) return INFINITY;
+  double lost = 0.5 * (row_dropped(s, x, x) + row_dropped(s, y, y)) + row_dropped(s, x, y);
+  return lost / (r * r) + A * A * A / (3 * near * near * near) + 32 * UNIT * (4 + A / r + A * A / (r * r));
+}
+
+static double order0(const zono *z, uint32_t i) {
+  const ambit_tape *t = z->program.tape;
+  uint32_t a = t->a[i];
+  const double *x = row_at(z, a, 0);
+  double A = row_moving(&z->shape, x), c = x[0], near = c - A;
+  switch (t->op[i]) {
+  case AMBIT_OP_SIN: return remainder_of(z, a, 1, 1, fabs(sin(c)) + 4 * UNIT, 1);
+  case AMBIT_OP_COS: return remainder_of(z, a, 1, 1, fabs(cos(c)) + 4 * UNIT, 1);
+  case AMBIT_OP_EXP: return remainder_of(z, a, exp(c), exp(c), exp(c), exp(c + A));
+  case AMBIT_OP_SINH:
+  case AMBIT_OP_COSH: return remainder_of(z, a, cosh(c), cosh(c), cosh(c), cosh(fabs(c) + A));
+  case AMBIT_OP_ATAN: return remainder_of(z, a, 2, 1, 1, 2);
+  case AMBIT_OP_LOG:
+    if (!(near > 0)) return INFINITY;
+    return remainder_of(z, a, fabs(log(c)), 1 / c, 1 / (c * c), 2 / (near * near * near));
+  case AMBIT_OP_ATAN2: return angle_remainder(z, a, t->b[i]);
+  default: return 0;
+  }
+}
+
+/* -- all of it, once a step */
+
+static void drop_sum(zono *z, uint32_t dst) {
+  for (uint32_t k = 0; k <= last(z, dst); k++) drop_at(z, dst)[k] = 2 * UNIT * total(z, dst, k);
+}
+
+/* ATAN, ATAN2: z' q - numerator */
+static void drop_angle(zono *z, uint32_t i) {
+  const ambit_tape *t = z->program.tape;
+  uint32_t a = t->a[i], b = t->b[i], q = t->aux[i], dst = t->dst[i];
+  if (t->op[i] == AMBIT_OP_ATAN) {
+    product p[1] = { { 1, dst, q } };
+    test(z, drop_at(z, dst), orders(z, dst), 1, p, a, 0, 1);
+  } else {
+    product p[3] = { { 1, dst, q }, { -1, a, b }, { 1, b, a } };
+    test(z, drop_at(z, dst), orders(z, dst), 3, p, AMBIT_NO_SLOT, 0, 1);
+  }
+}
+
+static void prepare(zono *z, uint32_t i) {
+  const ambit_tape *t = z->program.tape;
+  uint32_t op = t->op[i], a = t->a[i], b = t->b[i], dst = t->dst[i];
+  double *drop = drop_at(z, dst);
+  product square = { 1, dst, dst }, quotient = { 1, dst, b }, log = { 1, dst, a };
+  switch (op) {
+  case AMBIT_OP_ADD:
+  case AMBIT_OP_SUB:
+  case AMBIT_OP_NEG: drop_sum(z, dst); return;
+  case AMBIT_OP_ABS:
+  case AMBIT_OP_MIN:
+  case AMBIT_OP_MAX:
+    for (uint32_t k = 0; k <= last(z, dst); k++) drop[k] = 0;
+    return;
+  case AMBIT_OP_MUL: drop_product(z, dst, a, b, 0); return;
+  case AMBIT_OP_SQR: drop_product(z, dst, a, a, 0); return;
+  case AMBIT_OP_DIV: test(z, drop, orders(z, dst), 1, &quotient, a, 0, 0); return;
+  case AMBIT_OP_SQRT: test(z, drop, orders(z, dst), 1, &square, a, 0, 0); return;
+  case AMBIT_OP_LOG: test(z, drop, orders(z, dst), 1, &log, a, 0, 1); break;
+  case AMBIT_OP_ATAN:
+  case AMBIT_OP_ATAN2: drop_angle(z, i); break;
+  case AMBIT_OP_EXP: drop_product(z, dst, a, dst, 1); break;
+  default: drop_product(z, dst, a, t->aux[i], 1); /* SIN COS SINH COSH */
+  }
+  drop[0] = order0(z, i);
+}
+
+void defect_prepare(zono *z) {
+  const ambit_tape *t = z->program.tape;
+  for (uint32_t j = 0; j < z->nslot; j++)
+    for (uint32_t k = 0; k <= last(z, j); k++)
+      z->proof->total[z->first[j] + k] = row_total(&z->shape, row_at(z, j, k)) * ABOVE;
+  for (uint32_t i = 0; i < t->ninstr; i++) prepare(z, i);
+}
+
+/* -- over the step */
+
+/* orders beyond K of u v, or (weighted) of the integral of u' v */
+static double tail(const zono *z, uint32_t u, uint32_t v, int weighted) {
+  uint32_t nu = last(z, u), nv = last(z, v), K = z->K;
+  double sum = 0, behind = 0; /* behind: orders of v above K - j */
+  uint32_t next = nv + 1;
+  if (nu + nv <= K) return 0;
+  for (uint32_t j = K > nv ? K - nv : 0; j <= nu; j++) {
+    while (next > 0 && next + j > K + 1) behind += scaled(z, v, --next);
+    sum += (weighted ? (double)j / (K + 1) : 1) * scaled(z, u, j) * behind;
+  }
+  return sum;
+}
+
+static double polynomial(const double *c, uint32_t degree, double length) {
+  double sum = 0;
+  for (uint32_t k = degree + 1; k-- > 0;) sum = sum * length + c[k];
+  return sum;
+}
+
+/* |(u, w)(s)| <= |(u, w)(0)| + integral of |(d1, d2)|: sine and cosine turn, they do not stretch */
+static double turning(const zono *z, uint32_t i, double length) {
+  const ambit_tape *t = z->program.tape;
+  uint32_t dst = t->dst[i], other = t->aux[i];
+  const double *d = drop_at(z, dst), *e = drop_at(z, other);
+  double sum = hypot(tail(z, t->a[i], other, 1), tail(z, t->a[i], dst, 1)), power = 1;
+  for (uint32_t k = 0; k <= last(z, dst); k++, power *= length) sum += hypot(d[k], e[k]) * power;
+  return sum;
+}
+
+/* how far the operand moves from its start */
+static double motion(const zono *z, uint32_t a) {
+  double sum = 0;
+  for (uint32_t k = 1; k <= last(z, a); k++) sum += scaled(z, a, k);
+  return sum;
+}
+
+static double growing(const zono *z, uint32_t i, double length) {
+  const ambit_tape *t = z->program.tape;
+  uint32_t dst = t->dst[i], other = t->op[i] == AMBIT_OP_EXP ? dst : t->aux[i], a = t->a[i];
+  double sum = polynomial(drop_at(z, dst), last(z, dst), length) + tail(z, a, other, 1);
+  if (other != dst) sum += polynomial(drop_at(z, other), last(z, other), length) + tail(z, a, dst, 1);
+  return sum * exp(2 * motion(z, a));
+}
+
+/* q = 1 + a^2 or a^2 + b^2: how far the aux slot is off; near: a lower bound of the true q */
+static double aux_error(zono *z, uint32_t i, double length, double *near) {
+  const ambit_tape *t = z->program.tape;
+  uint32_t a = t->a[i], b = t->b[i], q = t->aux[i];
+  double drop[TIME_ORDERS], error;
+  if (t->op[i] == AMBIT_OP_ATAN) {
+    product p[1] = { { 1, a, a } };
+    test(z, drop, z->K + 1, 1, p, q, 1, 0);
+    error = polynomial(drop, z->K, length) + tail(z, a, a, 0);
+    *near = fmax(1, z->proof->low[q] - error);
+  } else {
+    product p[2] = { { 1, a, a }, { 1, b, b } };
+    test(z, drop, z->K + 1, 2, p, q, 0, 0);
+    error = polynomial(drop, z->K, length) + tail(z, a, a, 0) + tail(z, b, b, 0);
+    *near = z->proof->low[q] - error;
+  }
+  return error;
+}
+
+/* u' = (z' q - numerator + z' (true q - q)) / true q */
+static double angle(zono *z, uint32_t i, double length) {
+  const ambit_tape *t = z->program.tape;
+  uint32_t a = t->a[i], b = t->b[i], q = t->aux[i], dst = t->dst[i];
+  const double *drop = drop_at(z, dst);
+  double near, error = aux_error(z, i, length, &near);
+  if (!(near > 0)) return INFINITY;
+  double sum = polynomial(drop, last(z, dst), length) - drop[0] + tail(z, dst, q, 1), moved = 0;
+  for (uint32_t k = 1; k <= last(z, dst); k++) moved += scaled(z, dst, k);
+  if (t->op[i] == AMBIT_OP_ATAN2) sum += tail(z, a, b, 1) + tail(z, b, a, 1);
+  return drop[0] * ABOVE + (fmax(sum, 0) + moved * error + 1e-15 * drop[0]) / near;
+}
+
+static double evaluate(zono *z, uint32_t i, double length) {
+  const ambit_tape *t = z->program.tape;
+  uint32_t a = t->a[i], b = t->b[i], dst = t->dst[i];
+  const double *drop = drop_at(z, dst), *low = z->proof->low;
+  double sum = polynomial(drop, last(z, dst), length);
+  if (orders(z, dst) == 1 && (last(z, a) || last(z, b))) return INFINITY; /* a tape with wrong degrees */
+  switch (t->op[i]) {
+  case AMBIT_OP_MUL: return sum + tail(z, a, b, 0);
+  case AMBIT_OP_SQR: return sum + tail(z, a, a, 0);
+  case AMBIT_OP_DIV: return low[b] > 0 ? (sum + tail(z, dst, b, 0)) / low[b] : INFINITY;
+  case AMBIT_OP_SQRT:
+    if (!(low[a] > 0 && low[dst] > 0 && row_at(z, a, 0)[0] > 0)) return INFINITY;
+    return (sum + tail(z, dst, dst, 0)) / (sqrt(low[a]) + low[dst]);
+  case AMBIT_OP_LOG:
+    if (!(low[a] > 0 && row_at(z, a, 0)[0] > 0)) return INFINITY;
+    return drop[0] * ABOVE + (sum - drop[0] + 1e-15 * drop[0] + tail(z, dst, a, 1)) / low[a];
+  case AMBIT_OP_EXP:
+  case AMBIT_OP_SINH:
+  case AMBIT_OP_COSH: return growing(z, i, length);
+  case AMBIT_OP_SIN:
+  case AMBIT_OP_COS: return turning(z, i, length);
+  case AMBIT_OP_ATAN:
+  case AMBIT_OP_ATAN2: return angle(z, i, length);
+  default: return sum;
+  }
+}
+
+/* scaled, high, low */
+static void bound_slots(zono *z, double length) {
+  proof *p = z->proof;
+  for (uint32_t j = 0; j < z->nslot; j++) {
+    const double *row = row_at(z, j, 0);
+    double power = 1, sum = 0;
+    for (uint32_t k = 0; k <= last(z, j); k++, power *= length) {
+      p->scaled[z->first[j] + k] = total(z, j, k) * power;
+      sum += p->scaled[z->first[j] + k];
+    }
+    p->high[j] = sum * ABOVE;
+    double off = (sum - total(z, j, 0) + row_moving(&z->shape, row)) * ABOVE + 1e-15 * fabs(row[0]);
+    p->low[j] = fmax(fabs(row[0]) - off, 0) * (1 - 1e-9);
+  }
+}
+
+/* x'_i: V_F - V_x'; R: all of it */
+static void bound_outputs(zono *z, double length) {
+  for (uint32_t o = 0; o < z->nout; o++) {
+    uint32_t slot = slot_out(z)[o];
+    double sum = 0, power = 1;
+    for (uint32_t k = 0; k <= last(z, slot); k++, power *= length)
+      sum += total(z, slot, k) * power * (o >= z->nx ? 1 : k == z->K ? 1 : 4 * UNIT);
+    z->rr_out[o] = sum * ABOVE + LEAST;
+  }
+}
+
+int defect_evaluate(zono *z, double length) {
+  const ambit_tape *t = z->program.tape;
+  bound_slots(z, length);
+  for (uint32_t j = 0; j < t->nconst; j++) z->r[j] = 0.5 * (t->hi[j] - t->lo[j]) * ABOVE + UNIT * fabs(t->lo[j]);
+  for (uint32_t j = 0; j < t->nconst; j++)
+    if (t->hi[j] == t->lo[j]) z->r[j] = 0;
+  for (uint32_t j = t->nconst; j < t->nconst + t->nin; j++) z->r[j] = 0;
+  for (uint32_t i = 0; i < z->np; i++) z->r[slot_p(z, i)] = z->p_rad ? z->p_rad[i] : 0;
+  for (uint32_t i = 0; i < t->ninstr; i++) {
+    double r = evaluate(z, i, length);
+    if (!(r < INFINITY)) return z->why = WHY_UNDEFINED, z->culprit = t->dst[i], 0;
+    uint32_t op = t->op[i];
+    int exact = op == AMBIT_OP_ABS || op == AMBIT_OP_MIN || op == AMBIT_OP_MAX;
+    z->r[t->dst[i]] = exact ? 0 : r * ABOVE + LEAST;
+  }
+  bound_outputs(z, length);
+  return 1;
+}
+
+int zono_defects(zono *z) {
+  if (!z->proof->prepared) defect_prepare(z);
+  return defect_evaluate(z, fabs(z->h));
+}

@@ -1,0 +1,87 @@
+/* pace.c -- the length of a step and the order in time, by need.
+**
+** What the lumps add to each state per second, weighed with coefficients at the set's centre, is rate_i(h). It starts from
+** what rows drop at order 0 and grows with h. A step is the longest over which it at most doubles, but for what is
+** negligible beside the state's motion and beside its set. No proof depends on anything here.
+*/
+#include "proof.h"
+
+#define GROWTH 2.0
+#define TRIES 60
+#define REFINE 4
+#define BESIDE_SET 1e-5     /* share of the set that truncation may add in a step */
+#define BESIDE_MOTION 1e-13 /* of the state's size, where it has data; */
+#define EXACT 1e-15         /* where it has none */
+
+/* rate of each state from z->r, z->rr_out */
+static void find_rates(const zono *z, double *rate) {
+  const proof *p = z->proof;
+  double *target = p->work;
+  for (uint32_t n = 0; n < p->ntarget; n++) {
+    const double *C = p->weight + (size_t)n * z->nslot, *L = p->weight_L + (size_t)n * z->na;
+    double sum = 0;
+    for (uint32_t j = 0; j < z->nslot; j++) sum += fabs(C[j]) * z->r[j];
+    for (uint32_t q = 0; q < z->na; q++) sum += fabs(L[q]) * z->rr_out[z->nx + q];
+    target[n] = sum;
+  }
+  for (uint32_t i = 0; i < z->nx; i++)
+    rate[i] = z->rr_out[i] + (p->link[i] == LINK_STATE ? 0 : target[p->link_to[i]]);
+}
+
+/* the state's size with its motion, and its set's, over the step */
+static void find_sizes(const zono *z, uint32_t i, double length, double *size, double *set) {
+  uint32_t slot = slot_x(z, i);
+  double power = 1;
+  *size = *set = 0;
+  for (uint32_t k = 0; k < orders(z, slot); k++, power *= length) {
+    const double *row = row_at(z, slot, k);
+    *size += power * row_total(&z->shape, row), *set += power * row_moving(&z->shape, row);
+  }
+}
+
+/* 1: short enough; start: rates over a step of length 0 */
+static int fits(zono *z, double length, const double *start) {
+  const proof *p = z->proof;
+  double *rate = p->grow;
+  if (!defect_evaluate(z, length)) return 0;
+  find_rates(z, rate);
+  for (uint32_t i = 0; i < z->nx; i++) {
+    double size, set, share = z->options.tolerance;
+    find_sizes(z, i, length, &size, &set);
+    if (share == 0) share = set > 1e-10 * size ? BESIDE_MOTION : EXACT;
+    double allowed = share * size + BESIDE_SET * set;
+    if (!(length * rate[i] <= GROWTH * length * start[i] + allowed)) return 0;
+  }
+  return 1;
+}
+
+double zono_choose_step(zono *z, double h_most) {
+  proof *p = z->proof;
+  double *start = p->zeta, most = fabs(h_most), length = most, above = 0;
+  defect_prepare(z);
+  p->prepared = 1;
+  for (uint32_t i = 0; i < z->nx; i++) {
+    double size, set;
+    find_sizes(z, i, 0, &size, &set);
+    p->spread[i] = set > 0 ? set : size;
+    find_sizes(z, i, most, &size, &set);
+    if (!(p->spread[i] > 0)) p->spread[i] = size > 0 ? size : 1;
+  }
+  if (!defect_evaluate(z, 0) || !sweep_weights(z)) return 0;
+  find_rates(z, start);
+  for (uint32_t n = 0; n < TRIES && !fits(z, length, start); n++) above = length, length *= 0.5;
+  for (uint32_t n = 0; n < REFINE && above > 0; n++) {
+    double middle = sqrt(length * above);
+    if (fits(z, middle, start))
+      length = middle;
+    else
+      above = middle;
+  }
+  return h_most < 0 ? -length : length;
+}
+
+void zono_choose_order(zono *z) {
+  z->proof->prepared = 0;
+  uint32_t order = z->options.time_order ? z->options.time_order : z->m ? 8 : 18;
+  z->K = order < z->K_max ? order : z->K_max;
+}

@@ -1,0 +1,87 @@
+/* proof.h -- what the files of phase 2 share.
+**
+** A lump is a function of (xi, eps, s) of which only a bound is known: lump j of each slot, |theta_j| <= rr_j, and one of
+** each output. A target is a component of alpha (what a is off by) or an x'_i that is neither a state nor an unknown;
+** sweeps give the coefficient of every lump in every target, as a centre and a half width over the set and the step.
+*/
+#ifndef ZONOTOPE_PROOF_H
+#define ZONOTOPE_PROOF_H
+#include "form.h"
+#include "zonotope.h"
+
+#define TIME_ORDERS 64 /* room for orders in time */
+
+/* how x'_i depends on what was swept */
+enum link { LINK_STATE, LINK_UNKNOWN, LINK_TARGET };
+
+typedef struct sweeps {
+  forms forms;
+  double *value;  /* [nslot] forms of the slots over the step */
+  double *slope;  /* [nslope] forms of derivatives that are not slots; by z->proof->slope_at */
+  double *adjoint; /* [nslot] forms of the sweep at hand */
+  double *matrix; /* [na x na] dR/da, then its factors, in the order of elimination */
+  double *pivot;  /* [na] inverses of pivots */
+  double *lambda; /* [na x na] row k: -(row k of the inverse), by equation */
+  double *scratch; /* [(na + 4)] forms */
+} sweeps;
+
+/* shares of the width that one step added, for the profile and for reasons */
+typedef struct shares {
+  double cubic, time, rounding, data, square, slope, kernel, mixed, reduction, implicit;
+} shares;
+
+typedef struct proof {
+  size_t nrow;
+  double *total, *drop, *scaled; /* [nrow] size of each row; what order k of an operation drops; total |h|^k */
+  double *high, *low;            /* [nslot] bounds of |V| over the step; low 0 where it may vanish */
+  double *delta;                 /* [nslot] |v* - V| */
+  uint32_t *slope_at;            /* [nslot] its first derivative form, or AMBIT_NO_SLOT */
+  uint32_t *order;               /* [na] unknowns in the order of elimination */
+  uint32_t ntarget, nslope;
+  uint32_t *target_out;          /* [ntarget - na] the x' that target na + n is */
+  uint32_t *link;                /* [nx] kind of x'_i: enum link */
+  uint32_t *link_to;             /* [nx] the state, unknown or target */
+  sweeps forms, points;          /* over the set and the step; at its centre and start */
+  double *C, *dC;                /* [ntarget x nslot] coefficients of lumps in targets: middle, half width */
+  double *L, *dL;                /* [ntarget x na] of the lumps of the equations */
+  double *J, *dJ;                /* [nx x nx] */
+  double *weight;                /* [ntarget x nslot] C at the centre and the start: for the length of the step */
+  double *weight_L;              /* [ntarget x na] */
+  double *zeta, *zeta_new;       /* [nx] bound of |z| over the step */
+  double *alpha, *alpha_new;     /* [na] */
+  double *input;                 /* [nin] */
+  double *mean, *reach, *wobble; /* [nx x nx] mean and integral of |e^(J s)|, times |h|; integral of |e^(J s) - mean| */
+  double *power, *power_new, *size, *size_new, *jacobian_size; /* [nx x nx] */
+  double *grow;                  /* [nx] per state: sums for bounds */
+  double *box;                   /* [nx] what is put into a box at the end of the step */
+  double *columns;               /* [(ngen_max + nslot + nout + nx) x nx] */
+  double *turned;                /* [nx x (ngen_max + 4)] old generators, state by state */
+  double *score, *sorted;        /* one of each column */
+  double *end;                   /* [nx x stride] rows at the end of the step */
+  double *spread;                /* [nx] sizes of states' sets, for weights */
+  double *work;                   /* [4 nx + na] */
+  int prepared;                  /* total and drop are those of the rows */
+  shares *share;                 /* [nx] of the last step; NULL: nobody asks */
+  /* records */
+  double *dense_mid, *dense_rad, *dense_column;
+  ambit_set set;
+  double *rest, *coefficient;
+} proof;
+
+/* defect.c */
+void defect_prepare(zono *z);                 /* from the rows: once a step */
+int defect_evaluate(zono *z, double length);  /* z->r, z->rr_out, high, low over [0, length] */
+/* sweep.c */
+int sweep_open(zono *z, sweeps *w, uint32_t sigmas);
+int sweep_coefficients(zono *z); /* C, L, J of proof from forms over [0, h] */
+int sweep_weights(zono *z);      /* weight, weight_L: at the centre and the start */
+/* slope.c: forms of slots and of derivatives */
+int slope_forms(zono *z, const sweeps *w, double h);
+/* set.c, dense.c; 0: no memory */
+int set_open(zono *z);
+int dense_open(zono *z);
+/* kernel.c: mean, reach, wobble from J and |h|; 0: too long */
+int kernel_find(zono *z);
+
+static inline double *proof_form(const sweeps *w, double *array, size_t n) { return array + n * w->forms.stride; }
+#endif
