@@ -112,14 +112,11 @@ static int open_set(zono *z) {
 static void choose_program(zono *z) {
   const ambit_problem *p = &z->problem;
   z->nx = p->nx, z->np = p->np;
-  z->program = (program) { .tape = p->rhs, .nx = p->nx, .np = p->np, .uses_time = p->uses_time };
-#ifdef AMBIT_WANT_IMPLICIT
+  z->program = (program) { .nx = p->nx, .np = p->np, .uses_time = p->uses_time };
   const ambit_implicit *i = p->implicit;
-  if (!i || !i->tape) return;
   z->na = i->na;
   z->program.tape = i->tape, z->program.na = i->na, z->program.nstage = i->na ? i->nstage : 0;
   z->program.stage_end = i->stage_end, z->program.pivot = i->pivot;
-#endif
 }
 
 static ambit_status no_memory(const ambit_host *h) {

@@ -17,7 +17,7 @@ static const ambit_param param[] = {
 
 static const ambit_solver solver = {
   .size = sizeof solver,
-  .want = AMBIT_WANT_RHS | AMBIT_WANT_SERIES | AMBIT_WANT_INITIAL,
+  .want = AMBIT_WANT_IMPLICIT | AMBIT_WANT_SERIES | AMBIT_WANT_INITIAL,
   .needs_rigorous = 1,
   .param = param,
   .open = zono_open,
