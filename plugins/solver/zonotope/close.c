@@ -76,7 +76,7 @@ static void move_generators(zono *z) {
 /* -- new generators */
 
 /* x'_i's coefficient of the lump of slot j, and its half width */
-static double coefficient(const zono *z, uint32_t i, uint32_t j) {
+static double weight_of(const zono *z, uint32_t i, uint32_t j) {
   const proof *p = z->proof;
   return p->link[i] == LINK_STATE ? 0 : p->C[(size_t)p->link_to[i] * z->nslot + j];
 }
@@ -111,7 +111,7 @@ static uint32_t add_lumps(zono *z, uint32_t at, const sums *sum) {
   double *c = p->grow;
   for (uint32_t j = 0; j < z->nslot; j++) {
     if (z->rr[j] == 0) continue;
-    for (uint32_t i = 0; i < nx; i++) c[i] = coefficient(z, i, j), sum->width[i] += half_width(z, i, j) * z->rr[j];
+    for (uint32_t i = 0; i < nx; i++) c[i] = weight_of(z, i, j), sum->width[i] += half_width(z, i, j) * z->rr[j];
     at = add_lump(z, at, z->rr[j], c, sum);
   }
   for (uint32_t q = 0; q < z->na; q++) {

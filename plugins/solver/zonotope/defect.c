@@ -20,7 +20,7 @@ static uint32_t last(const zono *z, uint32_t slot) { return orders(z, slot) - 1;
 /* sum_j w_j u_j (*) v_(k-j), w_j = j / k with `weighted`, else 1: monomials that are not held, and the sum of sizes */
 static double dropped(const zono *z, uint32_t u, uint32_t v, uint32_t k, int weighted, double *size) {
   double sum = 0;
-  for (uint32_t j = weighted; j <= k && j <= last(z, u); j++) {
+  for (uint32_t j = (uint32_t)weighted; j <= k && j <= last(z, u); j++) {
     if (k - j > last(z, v)) continue;
     double w = weighted ? (double)j / k : 1;
     sum += w * row_dropped(&z->shape, row_at(z, u, j), row_at(z, v, k - j));

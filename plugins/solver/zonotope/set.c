@@ -1,7 +1,7 @@
 /* set.c -- the set at the end of a step as polynomials in the problem's unknowns, on the receiver's wish. */
 #include "proof.h"
 
-static int whole_term(const zono *z, uint32_t i, uint32_t j) {
+static uint32_t whole_term(const zono *z, uint32_t i, uint32_t j) {
   return z->unknown[i] != AMBIT_NO_SLOT && z->unknown[j] != AMBIT_NO_SLOT;
 }
 

@@ -15,7 +15,7 @@ static int open_initial(const zono *z, zono *i) {
   memcpy(&i->problem, &z->problem, sizeof i->problem);
   i->program = (program) { .tape = z->problem.initial, .np = z->problem.nu };
   i->np = z->problem.nu, i->m = z->m, i->K = i->K_max = 0;
-  return zono_open_rows(i);
+  return zono_open_rows(i) && zono_open_proof(i);
 }
 
 static void put_unknowns(const zono *z, zono *i) {

@@ -85,7 +85,7 @@ static void clear(const zono *z, const sweeps *w) {
   memset(adjoint(w, 0), 0, (size_t)z->nslot * w->forms.stride * sizeof(double));
 }
 
-static void seed_one(const zono *z, const sweeps *w, uint32_t slot) {
+static void seed_one(const sweeps *w, uint32_t slot) {
   double *one = proof_form(w, w->scratch, 0);
   form_constant(&w->forms, one, 1);
   form_close(&w->forms, one);
@@ -97,7 +97,7 @@ static void seed_one(const zono *z, const sweeps *w, uint32_t slot) {
 static void fill_matrix(const zono *z, const sweeps *w) {
   for (uint32_t r = 0; r < z->na; r++) {
     clear(z, w);
-    seed_one(z, w, slot_out(z)[z->nx + z->proof->order[r]]);
+    seed_one(w, slot_out(z)[z->nx + z->proof->order[r]]);
     sweep_back(z, w, 1);
     for (uint32_t c = 0; c < z->na; c++)
       memcpy(entry(z, w, w->matrix, r, c), adjoint(w, slot_a(z, z->proof->order[c])),
@@ -173,7 +173,7 @@ static double *find_seeds(const zono *z, const sweeps *w, uint32_t n) {
     return seeds;
   }
   clear(z, w);
-  seed_one(z, w, slot_out(z)[z->proof->target_out[n - z->na]]);
+  seed_one(w, slot_out(z)[z->proof->target_out[n - z->na]]);
   if (z->na) sweep_back(z, w, 1);
   for (uint32_t q = 0; q < z->na; q++) {
     double *to = proof_form(w, seeds, q);
@@ -194,9 +194,9 @@ static double varies(const sweeps *w, const double *x) {
 /* target n: C [nslot] and L [na], by equation, are the centres, dC and dL (or NULL) the half widths */
 static void sweep_target(const zono *z, const sweeps *w, uint32_t n, double *C, double *dC, double *L, double *dL) {
   const forms *f = &w->forms;
-  const double *seeds = find_seeds(z, w, n);
+  double *seeds = find_seeds(z, w, n);
   clear(z, w);
-  if (n >= z->na) seed_one(z, w, slot_out(z)[z->proof->target_out[n - z->na]]);
+  if (n >= z->na) seed_one(w, slot_out(z)[z->proof->target_out[n - z->na]]);
   for (uint32_t q = 0; q < z->na; q++) {
     const double *x = proof_form(w, seeds, q);
     uint32_t equation = z->proof->order[q];
