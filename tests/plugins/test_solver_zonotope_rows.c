@@ -1,0 +1,412 @@
+/* Phase 1 of the zonotope solver against arithmetic of its own: products of rows against products of lists of monomials
+** in long double, what products drop, and the rows of random tapes, with equations that are solved for unknowns, against
+** the relations that the bounds of phase 2 rely on (zonotope.h). */
+#include "oracle.h"
+#include "solver/zonotope/implicit.h"
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <cmocka.h>
+
+static uint64_t seed = 17;
+static double draw(double lo, double hi) { return oracle_uniform(&seed, lo, hi); }
+static uint32_t pick(uint32_t n) { return (uint32_t)(oracle_random(&seed) >> 33) % n; }
+
+/* -- a host that keeps what it lent */
+
+static void *lent[20000];
+static size_t nlent;
+
+static void *lend(const ambit_host *h, size_t bytes) {
+  (void)h;
+  assert_true(nlent < sizeof lent / sizeof *lent);
+  size_t size = (bytes + 127) / 64 * 64;
+  return memset(lent[nlent++] = aligned_alloc(64, size), 0, size);
+}
+
+static const void *service(const ambit_host *h, const char *id) {
+  (void)id;
+  return h; /* phase 1 asks for one, but calls nothing of it */
+}
+
+static const ambit_host host = { .size = sizeof host, .abi = AMBIT_ABI, .alloc = lend, .service = service };
+
+static void give_back(void) {
+  while (nlent) free(lent[--nlent]);
+}
+
+/* -- monomials of a shape: two variables each, the data, then eps; NONE for no variable */
+
+#define NONE 1000u
+typedef struct monomial {
+  uint32_t u, v; /* u <= v */
+} monomial;
+
+static monomial of[20000];
+
+static void list_monomials(const shape *s) {
+  uint32_t at = 0;
+  of[at++] = (monomial) { NONE, NONE };
+  for (uint32_t i = 0; i < s->m + s->nx; i++) of[at++] = (monomial) { i, NONE };
+  for (uint32_t i = 0; i < s->m; i++)
+    for (uint32_t j = i; j < s->reach[i]; j++) of[at++] = (monomial) { i, j };
+  for (uint32_t j = 0; j < s->mixed; j++)
+    for (uint32_t i = 0; i < s->nx; i++) of[at++] = (monomial) { j, s->m + i };
+  assert_int_equal(at, s->norms);
+}
+
+static uint32_t find(const shape *s, monomial p, monomial q) {
+  uint32_t all[4] = { p.u, p.v, q.u, q.v }, n = 0, x[4];
+  for (int i = 0; i < 4; i++)
+    if (all[i] != NONE) x[n++] = all[i];
+  if (n > 2) return NONE;
+  monomial m = { n > 0 ? x[0] : NONE, n > 1 ? x[1] : NONE };
+  if (n > 1 && m.v < m.u) m = (monomial) { x[1], x[0] };
+  for (uint32_t i = 0; i < s->norms; i++)
+    if (of[i].u == m.u && of[i].v == m.v) return i;
+  return NONE;
+}
+
+/* to += scale a b; returns the sizes of what is dropped */
+static long double multiply(const shape *s, long double *to, long double scale, const double *a, const double *b) {
+  static uint32_t table[700][700];
+  static const shape *tabled;
+  if (!s) tabled = NULL;
+  if (!s) return 0;
+  if (tabled != s) {
+    tabled = s;
+    list_monomials(s);
+    for (uint32_t i = 0; i < s->norms; i++)
+      for (uint32_t j = 0; j < s->norms; j++) table[i][j] = find(s, of[i], of[j]);
+  }
+  long double dropped = 0;
+  for (uint32_t i = 0; i < s->norms; i++)
+    for (uint32_t j = 0; j < s->norms && a[i] != 0; j++) {
+      long double p = scale * a[i] * b[j];
+      if (table[i][j] == NONE)
+        dropped += fabsl(p);
+      else
+        to[table[i][j]] += p;
+    }
+  return dropped;
+}
+
+static void fill(const shape *s, double *x, int kind) {
+  memset(x, 0, s->stride * sizeof *x);
+  x[0] = kind & 1 ? draw(-2, 2) : 0;
+  uint32_t to = kind & 2 ? s->norms : kind & 4 ? s->pair[0] : 1;
+  for (uint32_t i = 1; i < to; i++) x[i] = draw(-1, 1) / 4;
+  row_norms(s, x);
+}
+
+static void thin_out(shape *s) {
+  for (uint32_t i = 0, last = s->m; i < s->m; i++) {
+    uint32_t less = pick(3);
+    last = last > less ? last - less : 0;
+    s->reach[i] = last;
+  }
+  s->mixed = pick(s->m + 1);
+  shape_place(s);
+}
+
+static void products_are_those_of_polynomials(void **unused) {
+  (void)unused;
+  static shape shapes[24];
+  for (uint32_t n = 0; n < 24; n++) {
+    shape *s = &shapes[n];
+    assert_true(shape_open(&host, s, n % 9, 1 + n % 7) != 0);
+    if (n % 2) thin_out(s);
+    double *a = lend(&host, s->stride * 8), *b = lend(&host, s->stride * 8), *c = lend(&host, s->stride * 8);
+    double *d = lend(&host, s->stride * 8);
+    long double *truth = lend(&host, s->norms * sizeof *truth);
+    for (int kind = 0; kind < 64; kind++) {
+      fill(s, a, kind % 8), fill(s, b, kind / 8);
+      terms t;
+      terms_clear(&t);
+      terms_product(s, &t, 0.75, a, b), terms_row(s, &t, -2, b), terms_outer(s, &t, 0.5, a, a);
+      terms_sum(s, &t, c);
+      memset(truth, 0, s->norms * sizeof *truth);
+      double *linear = d;
+      memcpy(linear, a, s->stride * 8);
+      linear[0] = 0;
+      memset(linear + s->pair[0], 0, (s->norms - s->pair[0]) * 8);
+      multiply(s, truth, 0.5L, linear, linear);
+      long double dropped = multiply(s, truth, 0.75L, a, b) / 0.75L, size = 0;
+      for (uint32_t i = 0; i < s->norms; i++) {
+        truth[i] -= 2 * (long double)b[i], size = fmaxl(size, fabsl(truth[i]));
+        assert_true(fabsl(truth[i] - c[i]) <= 1e-14L * (1 + size));
+      }
+      double bound = row_dropped(s, a, b);
+      assert_true(bound >= (double)dropped * (1 - 1e-12) && bound <= (double)dropped * (1 + 1e-12) + 1e-300);
+      double norm[4];
+      memcpy(norm, c + s->norms, sizeof norm);
+      row_norms(s, c);
+      for (uint32_t i = 0; i < 4; i++) assert_true(fabs(norm[i] - c[s->norms + i]) <= 1e-13 * norm[i]);
+#if defined(__x86_64__)
+      if (!__builtin_cpu_supports("avx2")) continue;
+      sum_portable(s, &t, c), sum_avx2(s, &t, d);
+      assert_memory_equal(c, d, (s->norms + 4) * 8);
+#endif
+    }
+  }
+  give_back();
+}
+
+/* -- random tapes */
+
+#define SLOTS 200
+#define UNKNOWNS 3
+
+typedef struct maker {
+  ambit_tape tape;
+  uint32_t op[SLOTS], dst[SLOTS], a[SLOTS], b[SLOTS], aux[SLOTS], degree[SLOTS], out[16];
+  double lo[4], hi[4];
+} maker;
+
+static uint32_t put(maker *k, uint32_t op, uint32_t a, uint32_t b) {
+  uint32_t n = k->tape.ninstr++, slot = k->tape.nconst + k->tape.nin + n;
+  assert_true(slot < SLOTS);
+  k->op[n] = op, k->dst[n] = slot, k->a[n] = a, k->b[n] = b, k->aux[n] = AMBIT_NO_SLOT;
+  k->degree[slot] = AMBIT_DEGREE_ANY;
+  if (k->degree[a] == 0 && k->degree[b] == 0) k->degree[slot] = 0;
+  return slot;
+}
+
+static uint32_t put_pair(maker *k, uint32_t first, uint32_t second, uint32_t a) {
+  uint32_t n = k->tape.ninstr, s = put(k, first, a, a), c = put(k, second, a, a);
+  k->aux[n] = c, k->aux[n + 1] = s;
+  return pick(2) ? s : c;
+}
+
+/* a slot in (1, 3) or so */
+static uint32_t positive(maker *k, uint32_t a) {
+  uint32_t sine = put_pair(k, AMBIT_OP_SIN, AMBIT_OP_COS, a);
+  return put(k, AMBIT_OP_ADD, sine, 2);
+}
+
+static uint32_t any(maker *k, uint32_t from) {
+  uint32_t n = k->tape.nconst + k->tape.nin + k->tape.ninstr - from;
+  return from + pick(n);
+}
+
+/* one more operation on what there is; results stay of moderate size */
+static uint32_t grow(maker *k, uint32_t a, uint32_t b) {
+  uint32_t small = put_pair(k, AMBIT_OP_SIN, AMBIT_OP_COS, a), n;
+  switch (pick(12)) {
+  case 0: return put(k, AMBIT_OP_ADD, small, b);
+  case 1: return put(k, AMBIT_OP_SUB, a, small);
+  case 2: return put(k, AMBIT_OP_MUL, small, b);
+  case 3: return put(k, AMBIT_OP_SQR, small, small);
+  case 4: return put(k, AMBIT_OP_DIV, b, positive(k, a));
+  case 5: return put(k, AMBIT_OP_SQRT, positive(k, a), positive(k, a)), k->tape.nconst + k->tape.nin + k->tape.ninstr - 1;
+  case 6: return put(k, AMBIT_OP_EXP, small, small);
+  case 7: n = positive(k, b); return put(k, AMBIT_OP_LOG, n, n);
+  case 8: return put_pair(k, AMBIT_OP_SINH, AMBIT_OP_COSH, small);
+  case 9:
+    n = put(k, AMBIT_OP_SQR, a, a), n = put(k, AMBIT_OP_ADD, n, 0);
+    small = put(k, AMBIT_OP_ATAN, a, a), k->aux[k->tape.ninstr - 1] = n;
+    return small;
+  case 10: {
+    uint32_t y = small, x = positive(k, b);
+    n = put(k, AMBIT_OP_ADD, put(k, AMBIT_OP_SQR, y, y), put(k, AMBIT_OP_SQR, x, x));
+    small = put(k, AMBIT_OP_ATAN2, y, x), k->aux[k->tape.ninstr - 1] = n;
+    return small;
+  }
+  default: return put(k, AMBIT_OP_ABS, positive(k, b), 0), k->b[k->tape.ninstr - 1] = k->a[k->tape.ninstr - 1],
+                  k->tape.nconst + k->tape.nin + k->tape.ninstr - 1;
+  }
+}
+
+/* x [nx], a [na], p [2], t; two stages, the second with what the first found */
+static void make(maker *k, uint32_t nx, uint32_t na) {
+  memset(k, 0, sizeof *k);
+  k->tape = (ambit_tape) { .size = sizeof k->tape, .flags = AMBIT_TAPE_SERIES, .nconst = 3, .nin = nx + na + 3, .nout = nx + na,
+    .op = k->op, .dst = k->dst, .a = k->a, .b = k->b, .aux = k->aux, .lo = k->lo, .hi = k->hi, .out = k->out,
+    .degree = k->degree };
+  k->lo[0] = k->hi[0] = 1, k->lo[1] = k->hi[1] = -0.5, k->lo[2] = k->hi[2] = 2.25;
+  for (uint32_t i = 0; i < nx + na; i++) k->degree[3 + i] = AMBIT_DEGREE_ANY;
+  k->degree[3 + nx + na + 2] = 1;
+  uint32_t x = 3, a = 3 + nx, known[12], n = 0;
+  for (uint32_t i = 0; i < nx; i++) known[n++] = x + i;
+  for (uint32_t i = 0; i < 3; i++) known[n++] = a + na + i;
+  for (uint32_t i = 0; i < 3; i++) known[n - 1 - i] = grow(k, known[pick(n)], known[pick(n)]);
+  for (uint32_t e = 0; e < na; e++) {
+    if (e == 2) known[pick(n)] = grow(k, a, a + 1); /* nonlinear in what stage 1 found */
+    uint32_t from = e < 2 ? 0 : 2, to = e < 2 ? (na < 2 ? na : 2) : na, sum = known[pick(n)];
+    for (uint32_t j = from; j < to; j++) {
+      uint32_t factor = j == e ? put(k, AMBIT_OP_ADD, positive(k, known[pick(n)]), 2) : put_pair(k, AMBIT_OP_SIN, AMBIT_OP_COS, known[pick(n)]);
+      uint32_t term = pick(4) ? put(k, AMBIT_OP_MUL, factor, a + j) : j == e ? put(k, AMBIT_OP_DIV, a + j, factor) : put(k, AMBIT_OP_MUL, a + j, 1);
+      sum = put(k, pick(2) ? AMBIT_OP_ADD : AMBIT_OP_SUB, sum, term);
+    }
+    k->out[nx + e] = sum;
+  }
+  for (uint32_t i = 0; i < nx; i++) k->out[i] = i == 0 ? x + 1 : grow(k, na ? a + pick(na) : any(k, 3), any(k, 3 + nx + na));
+  k->tape.nslot = 3 + k->tape.nin + k->tape.ninstr;
+}
+
+/* -- the relations */
+
+typedef struct checker {
+  zono *z;
+  long double *sum;
+  long double size;
+} checker;
+
+static void clear(checker *c) {
+  memset(c->sum, 0, c->z->shape.norms * sizeof *c->sum);
+  c->size = 0;
+}
+
+static void add(checker *c, double scale, uint32_t slot, uint32_t k) {
+  const double *x = coefficient(c->z, slot, k);
+  for (uint32_t i = 0; i < c->z->shape.norms; i++) c->sum[i] += (long double)scale * x[i];
+  c->size += fabsl((long double)scale * row_total(&c->z->shape, x));
+}
+
+/* scale sum_{from <= j <= k} w_j u_j v_(k-j), w_j = j / k or 1 */
+static void convolve(checker *c, double scale, uint32_t u, uint32_t v, uint32_t k, int weighted) {
+  for (uint32_t j = 0; j <= k; j++) {
+    const double *a = coefficient(c->z, u, j), *b = coefficient(c->z, v, k - j);
+    long double w = weighted ? (long double)scale * j / k : (long double)scale;
+    multiply(&c->z->shape, c->sum, w, a, b);
+    c->size += fabsl(w) * row_total(&c->z->shape, a) * row_total(&c->z->shape, b);
+  }
+}
+
+static void is_zero(const checker *c, uint32_t op, uint32_t k) {
+  for (uint32_t i = 0; i < c->z->shape.norms; i++)
+    if (!(fabsl(c->sum[i]) <= 1e-13L * c->size + 1e-300L))
+      fail_msg("opcode %u, order %u, coefficient %u: %Lg of %Lg", op, k, i, c->sum[i], c->size);
+}
+
+static void check(checker *c, uint32_t i, uint32_t k) {
+  const ambit_tape *t = c->z->program.tape;
+  uint32_t op = t->op[i], z = t->dst[i], a = t->a[i], b = t->b[i], q = t->aux[i];
+  int weighted = op != AMBIT_OP_ADD && op != AMBIT_OP_SUB && op != AMBIT_OP_NEG && op != AMBIT_OP_MUL && op != AMBIT_OP_SQR &&
+                 op != AMBIT_OP_DIV && op != AMBIT_OP_SQRT && op != AMBIT_OP_ABS;
+  if (weighted && k == 0) return; /* Taylor polynomials: next test */
+  clear(c);
+  switch (op) {
+  case AMBIT_OP_ADD: add(c, 1, a, k), add(c, 1, b, k), add(c, -1, z, k); break;
+  case AMBIT_OP_SUB: add(c, 1, a, k), add(c, -1, b, k), add(c, -1, z, k); break;
+  case AMBIT_OP_NEG: add(c, 1, a, k), add(c, 1, z, k); break;
+  case AMBIT_OP_ABS: add(c, 1, a, k), add(c, -1, z, k); break;
+  case AMBIT_OP_MUL: convolve(c, 1, a, b, k, 0), add(c, -1, z, k); break;
+  case AMBIT_OP_SQR: convolve(c, 1, a, a, k, 0), add(c, -1, z, k); break;
+  case AMBIT_OP_DIV: convolve(c, 1, z, b, k, 0), add(c, -1, a, k); break;
+  case AMBIT_OP_SQRT: convolve(c, 1, z, z, k, 0), add(c, -1, a, k); break;
+  case AMBIT_OP_SIN:
+  case AMBIT_OP_SINH:
+  case AMBIT_OP_COSH: convolve(c, 1, a, q, k, 1), add(c, -1, z, k); break;
+  case AMBIT_OP_COS: convolve(c, -1, a, q, k, 1), add(c, -1, z, k); break;
+  case AMBIT_OP_EXP: convolve(c, 1, a, z, k, 1), add(c, -1, z, k); break;
+  case AMBIT_OP_LOG: convolve(c, 1, z, a, k, 1), add(c, -1, a, k); break;
+  case AMBIT_OP_ATAN: convolve(c, 1, z, q, k, 1), add(c, -1, a, k); break;
+  case AMBIT_OP_ATAN2: convolve(c, 1, z, q, k, 1), convolve(c, -1, a, b, k, 1), convolve(c, 1, b, a, k, 1); break;
+  default: fail();
+  }
+  is_zero(c, op, k);
+}
+
+static void open_case(zono *z, maker *k, uint32_t nx, uint32_t na, int thin) {
+  static const uint32_t stage_end[2] = { 2, UNKNOWNS };
+  static const uint32_t pivot[UNKNOWNS] = { 1, 0, 2 };
+  make(k, nx, na);
+  *z = (zono) { .host = &host, .nx = nx, .na = na, .np = 2, .m = 4, .K = 6, .K_max = 6, .t = 0.25 };
+  z->program = (program) { &k->tape, nx, na, 2, 1, na > 2 ? 2 : na ? 1 : 0, na > 1 ? stage_end : &z->na, na > 1 ? pivot : pivot + 1,
+    NULL, NULL, NULL, NULL };
+  assert_true(shape_open(&host, &z->shape, z->m, nx));
+  if (thin) thin_out(&z->shape);
+  assert_true(zono_open_rows(z) && zono_open_implicit(z));
+  z->P = lend(&host, nx * z->shape.stride * 8), z->E = lend(&host, nx * 8);
+  for (uint32_t i = 0; i < nx; i++) {
+    double *x = z->P + i * z->shape.stride;
+    fill(&z->shape, x, 3);
+    for (uint32_t j = 1; j < z->shape.norms; j++) x[j] *= j < z->shape.eps || (j >= z->shape.pair[0] && j < z->shape.mix) ? 0.1 : 0;
+    row_norms(&z->shape, x);
+    z->E[i] = draw(0, 1e-3);
+  }
+  for (uint32_t i = 0; i < 2; i++) fill(&z->shape, z->p_row + i * z->shape.stride, 5);
+}
+
+static void rows_satisfy_their_relations(void **unused) {
+  (void)unused;
+  static zono z;
+  static maker k;
+  for (uint32_t n = 0; n < 60; n++) {
+    uint32_t na = n % 4 == 3 ? UNKNOWNS : n % 3, nx = 2 + n % 3;
+    open_case(&z, &k, nx, na, n % 2);
+    if (!zono_series(&z)) fail_msg("tape %u: why %d, slot %u", n, z.why, z.culprit);
+    multiply(NULL, NULL, 0, NULL, NULL);
+    checker c = { &z, lend(&host, z.shape.norms * sizeof(long double)), 0 };
+    for (uint32_t i = 0; i < k.tape.ninstr; i++)
+      for (uint32_t o = 0; o < orders(&z, k.dst[i]); o++) check(&c, i, o);
+    for (uint32_t i = 0; i < nx; i++)
+      for (uint32_t o = 0; o < z.K; o++) {
+        clear(&c), add(&c, o + 1.0, slot_x(&z, i), o + 1), add(&c, -1, k.out[i], o);
+        is_zero(&c, 100, o);
+      }
+    for (uint32_t e = 0; e < na; e++)
+      for (uint32_t o = 0; o <= z.K; o++) {
+        double left = row_total(&z.shape, coefficient(&z, k.out[nx + e], o)), size = 1;
+        for (uint32_t j = 0; j < k.tape.nslot; j++) size = fmax(size, row_total(&z.shape, coefficient(&z, j, o)));
+        if (!(left <= 1e-11 * size)) fail_msg("tape %u: equation %u, order %u is off by %g of %g", n, e, o, left, size);
+      }
+    give_back();
+  }
+}
+
+/* -- Taylor polynomials: the truth at points, in long double; an error of third order */
+
+static long double truth(uint32_t op, long double a, long double b) {
+  switch (op) {
+  case AMBIT_OP_SIN: return sinl(a);
+  case AMBIT_OP_COS: return cosl(a);
+  case AMBIT_OP_EXP: return expl(a);
+  case AMBIT_OP_LOG: return logl(a);
+  case AMBIT_OP_SINH: return sinhl(a);
+  case AMBIT_OP_COSH: return coshl(a);
+  case AMBIT_OP_ATAN: return atanl(a);
+  case AMBIT_OP_SQRT: return sqrtl(a);
+  case AMBIT_OP_ATAN2: return atan2l(a, b);
+  default: return a / b;
+  }
+}
+
+static void functions_are_of_second_order(void **unused) {
+  (void)unused;
+  static const uint32_t op[] = { AMBIT_OP_SIN, AMBIT_OP_COS, AMBIT_OP_EXP, AMBIT_OP_LOG, AMBIT_OP_SINH, AMBIT_OP_COSH,
+    AMBIT_OP_ATAN, AMBIT_OP_SQRT, AMBIT_OP_ATAN2, AMBIT_OP_DIV };
+  static zono z;
+  static maker k;
+  for (uint32_t n = 0; n < 200; n++) {
+    memset(&k, 0, sizeof k);
+    k.tape = (ambit_tape) { .nin = 2, .nout = 1, .ninstr = 0, .op = k.op, .dst = k.dst, .a = k.a, .b = k.b, .aux = k.aux, .lo = k.lo,
+      .hi = k.hi, .out = k.out, .degree = k.degree };
+    k.out[0] = put(&k, op[n % 10], 0, 1), k.aux[0] = 1, k.tape.nslot = 3;
+    z = (zono) { .host = &host, .np = 2, .m = 2 };
+    z.program = (program) { .tape = &k.tape, .np = 2 };
+    assert_true(shape_open(&host, &z.shape, 2, 1) && zono_open_rows(&z));
+    double a = draw(0.5, 2), b = draw(0.5, 2), da = draw(-1, 1), db = draw(-1, 1), h = 1e-3;
+    double *x = z.p_row, *y = x + z.shape.stride;
+    x[0] = a, x[1] = h * da, y[0] = b, y[1] = h * db, row_norms(&z.shape, x), row_norms(&z.shape, y);
+    assert_true(zono_series(&z));
+    const double *r = row_at(&z, 2, 0);
+    for (int at = -1; at <= 1; at++) {
+      long double exact = truth(op[n % 10], a + at * (long double)h * da, b + at * (long double)h * db);
+      long double value = r[0] + at * (long double)r[1] + at * at * (long double)r[z.shape.pair[0]];
+      assert_true(fabsl(exact - value) < 3e-8L);
+    }
+    give_back();
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(products_are_those_of_polynomials),
+    cmocka_unit_test(rows_satisfy_their_relations),
+    cmocka_unit_test(functions_are_of_second_order),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
