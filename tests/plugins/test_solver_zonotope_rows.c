@@ -199,7 +199,8 @@ static uint32_t grow(maker *k, uint32_t a, uint32_t b) {
   case 2: return put(k, AMBIT_OP_MUL, small, b);
   case 3: return put(k, AMBIT_OP_SQR, small, small);
   case 4: return put(k, AMBIT_OP_DIV, b, positive(k, a));
-  case 5: return put(k, AMBIT_OP_SQRT, positive(k, a), positive(k, a)), k->tape.nconst + k->tape.nin + k->tape.ninstr - 1;
+  case 5:
+    return put(k, AMBIT_OP_SQRT, positive(k, a), positive(k, a)), k->tape.nconst + k->tape.nin + k->tape.ninstr - 1;
   case 6: return put(k, AMBIT_OP_EXP, small, small);
   case 7: n = positive(k, b); return put(k, AMBIT_OP_LOG, n, n);
   case 8: return put_pair(k, AMBIT_OP_SINH, AMBIT_OP_COSH, small);
@@ -213,16 +214,28 @@ static uint32_t grow(maker *k, uint32_t a, uint32_t b) {
     small = put(k, AMBIT_OP_ATAN2, y, x), k->aux[k->tape.ninstr - 1] = n;
     return small;
   }
-  default: return put(k, AMBIT_OP_ABS, positive(k, b), 0), k->b[k->tape.ninstr - 1] = k->a[k->tape.ninstr - 1],
-                  k->tape.nconst + k->tape.nin + k->tape.ninstr - 1;
+  default:
+    return put(k, AMBIT_OP_ABS, positive(k, b), 0),
+           k->b[k->tape.ninstr - 1] = k->a[k->tape.ninstr - 1], k->tape.nconst + k->tape.nin + k->tape.ninstr - 1;
   }
 }
 
 /* x [nx], a [na], p [2], t; two stages, the second with what the first found */
 static void make(maker *k, uint32_t nx, uint32_t na) {
   memset(k, 0, sizeof *k);
-  k->tape = (ambit_tape) { .size = sizeof k->tape, .flags = AMBIT_TAPE_SERIES, .nconst = 3, .nin = nx + na + 3, .nout = nx + na,
-    .op = k->op, .dst = k->dst, .a = k->a, .b = k->b, .aux = k->aux, .lo = k->lo, .hi = k->hi, .out = k->out,
+  k->tape = (ambit_tape) { .size = sizeof k->tape,
+    .flags = AMBIT_TAPE_SERIES,
+    .nconst = 3,
+    .nin = nx + na + 3,
+    .nout = nx + na,
+    .op = k->op,
+    .dst = k->dst,
+    .a = k->a,
+    .b = k->b,
+    .aux = k->aux,
+    .lo = k->lo,
+    .hi = k->hi,
+    .out = k->out,
     .degree = k->degree };
   k->lo[0] = k->hi[0] = 1, k->lo[1] = k->hi[1] = -0.5, k->lo[2] = k->hi[2] = 2.25;
   for (uint32_t i = 0; i < nx + na; i++) k->degree[3 + i] = AMBIT_DEGREE_ANY;
@@ -235,13 +248,17 @@ static void make(maker *k, uint32_t nx, uint32_t na) {
     if (e == 2) known[pick(n)] = grow(k, a, a + 1); /* nonlinear in what stage 1 found */
     uint32_t from = e < 2 ? 0 : 2, to = e < 2 ? (na < 2 ? na : 2) : na, sum = known[pick(n)];
     for (uint32_t j = from; j < to; j++) {
-      uint32_t factor = j == e ? put(k, AMBIT_OP_ADD, positive(k, known[pick(n)]), 2) : put_pair(k, AMBIT_OP_SIN, AMBIT_OP_COS, known[pick(n)]);
-      uint32_t term = pick(4) ? put(k, AMBIT_OP_MUL, factor, a + j) : j == e ? put(k, AMBIT_OP_DIV, a + j, factor) : put(k, AMBIT_OP_MUL, a + j, 1);
+      uint32_t factor = j == e ? put(k, AMBIT_OP_ADD, positive(k, known[pick(n)]), 2)
+                               : put_pair(k, AMBIT_OP_SIN, AMBIT_OP_COS, known[pick(n)]);
+      uint32_t term = pick(4)  ? put(k, AMBIT_OP_MUL, factor, a + j)
+                      : j == e ? put(k, AMBIT_OP_DIV, a + j, factor)
+                               : put(k, AMBIT_OP_MUL, a + j, 1);
       sum = put(k, pick(2) ? AMBIT_OP_ADD : AMBIT_OP_SUB, sum, term);
     }
     k->out[nx + e] = sum;
   }
-  for (uint32_t i = 0; i < nx; i++) k->out[i] = i == 0 ? x + 1 : grow(k, na ? a + pick(na) : any(k, 3), any(k, 3 + nx + na));
+  for (uint32_t i = 0; i < nx; i++)
+    k->out[i] = i == 0 ? x + 1 : grow(k, na ? a + pick(na) : any(k, 3), any(k, 3 + nx + na));
   k->tape.nslot = 3 + k->tape.nin + k->tape.ninstr;
 }
 
@@ -283,8 +300,8 @@ static void is_zero(const checker *c, uint32_t op, uint32_t k) {
 static void check(checker *c, uint32_t i, uint32_t k) {
   const ambit_tape *t = c->z->program.tape;
   uint32_t op = t->op[i], z = t->dst[i], a = t->a[i], b = t->b[i], q = t->aux[i];
-  int weighted = op != AMBIT_OP_ADD && op != AMBIT_OP_SUB && op != AMBIT_OP_NEG && op != AMBIT_OP_MUL && op != AMBIT_OP_SQR &&
-                 op != AMBIT_OP_DIV && op != AMBIT_OP_SQRT && op != AMBIT_OP_ABS;
+  int weighted = op != AMBIT_OP_ADD && op != AMBIT_OP_SUB && op != AMBIT_OP_NEG && op != AMBIT_OP_MUL &&
+                 op != AMBIT_OP_SQR && op != AMBIT_OP_DIV && op != AMBIT_OP_SQRT && op != AMBIT_OP_ABS;
   if (weighted && k == 0) return; /* Taylor polynomials: next test */
   clear(c);
   switch (op) {
@@ -314,8 +331,11 @@ static void open_case(zono *z, maker *k, uint32_t nx, uint32_t na, int thin) {
   static const uint32_t pivot[UNKNOWNS] = { 1, 0, 2 };
   make(k, nx, na);
   *z = (zono) { .host = &host, .nx = nx, .na = na, .np = 2, .m = 4, .K = 6, .K_max = 6, .t = 0.25 };
-  z->program = (program) { &k->tape, nx, na, 2, 1, na > 2 ? 2 : na ? 1 : 0, na > 1 ? stage_end : &z->na, na > 1 ? pivot : pivot + 1,
-    NULL, NULL, NULL, NULL };
+  z->program = (program) { &k->tape, nx, na, 2, 1,
+    na > 2 ? 2
+    : na   ? 1
+           : 0,
+    na > 1 ? stage_end : &z->na, na > 1 ? pivot : pivot + 1, NULL, NULL, NULL, NULL };
   assert_true(shape_open(&host, &z->shape, z->m, nx));
   if (thin) thin_out(&z->shape);
   assert_true(zono_open_rows(z) && zono_open_implicit(z));
@@ -323,7 +343,8 @@ static void open_case(zono *z, maker *k, uint32_t nx, uint32_t na, int thin) {
   for (uint32_t i = 0; i < nx; i++) {
     double *x = z->P + i * z->shape.stride;
     fill(&z->shape, x, 3);
-    for (uint32_t j = 1; j < z->shape.norms; j++) x[j] *= j < z->shape.eps || (j >= z->shape.pair[0] && j < z->shape.mix) ? 0.1 : 0;
+    for (uint32_t j = 1; j < z->shape.norms; j++)
+      x[j] *= j < z->shape.eps || (j >= z->shape.pair[0] && j < z->shape.mix) ? 0.1 : 0;
     row_norms(&z->shape, x);
     z->E[i] = draw(0, 1e-3);
   }
@@ -382,8 +403,18 @@ static void functions_are_of_second_order(void **unused) {
   static maker k;
   for (uint32_t n = 0; n < 200; n++) {
     memset(&k, 0, sizeof k);
-    k.tape = (ambit_tape) { .nin = 2, .nout = 1, .ninstr = 0, .op = k.op, .dst = k.dst, .a = k.a, .b = k.b, .aux = k.aux, .lo = k.lo,
-      .hi = k.hi, .out = k.out, .degree = k.degree };
+    k.tape = (ambit_tape) { .nin = 2,
+      .nout = 1,
+      .ninstr = 0,
+      .op = k.op,
+      .dst = k.dst,
+      .a = k.a,
+      .b = k.b,
+      .aux = k.aux,
+      .lo = k.lo,
+      .hi = k.hi,
+      .out = k.out,
+      .degree = k.degree };
     k.out[0] = put(&k, op[n % 10], 0, 1), k.aux[0] = 1, k.tape.nslot = 3;
     z = (zono) { .host = &host, .np = 2, .m = 2 };
     z.program = (program) { .tape = &k.tape, .np = 2 };

@@ -148,7 +148,8 @@ static uint32_t add_distance(zono *z, uint32_t at) {
       slope += reach * sum.width[l], second += reach * square[l], size += reach * sum.centre[l];
     }
     p->box[i] += (kernel + slope + second + 4 * (nx + 4) * UNIT * size) * ABOVE;
-    if (p->share) p->share[i].kernel = kernel, p->share[i].slope = slope, p->share[i].square = second, p->share[i].cubic = size;
+    if (p->share)
+      p->share[i].kernel = kernel, p->share[i].slope = slope, p->share[i].square = second, p->share[i].cubic = size;
   }
   return at;
 }

@@ -60,8 +60,8 @@ static void test(zono *z, double *drop, uint32_t count, uint32_t n, const produc
       lost += fabs(p[i].scale) * dropped(z, p[i].u, p[i].v, k, weighted, &size);
       for (uint32_t j = (uint32_t)weighted; j <= k && j <= last(z, p[i].u); j++)
         if (k - j <= last(z, p[i].v))
-          terms_product(s, &sum, p[i].scale * (weighted ? (double)j / k : 1), row_at(z, p[i].u, j),
-              row_at(z, p[i].v, k - j));
+          terms_product(
+              s, &sum, p[i].scale * (weighted ? (double)j / k : 1), row_at(z, p[i].u, j), row_at(z, p[i].v, k - j));
     }
     terms_sum(s, &sum, z->proof->end);
     drop[k] = row_total(s, z->proof->end) + lost + rounding(n * (k + 1.0) + 2) * 2 * size;

@@ -10,10 +10,10 @@ typedef struct implicit {
   uint32_t *has_partial; /* [ninstr] number + 1 of the row, 0: none */
   double *change;        /* [nslot] rows: the change of slots by one unknown */
   uint32_t *changed;     /* [nslot] number + 1 of the unknown that it was last changed by */
-  double *factor;        /* [sum of squares of stages] rows, in the order of pivots: L below, U on and above the diagonal */
-  size_t *stage_at;      /* [nstage] where a stage starts in `factor`, in rows */
-  double *inverse;       /* [na] rows, 1 / the pivot of each unknown, in the order of pivots */
-  double *y;             /* [na] rows */
+  double *factor;   /* [sum of squares of stages] rows, in the order of pivots: L below, U on and above the diagonal */
+  size_t *stage_at; /* [nstage] where a stage starts in `factor`, in rows */
+  double *inverse;  /* [na] rows, 1 / the pivot of each unknown, in the order of pivots */
+  double *y;        /* [na] rows */
 } implicit;
 
 int zono_open_implicit(zono *z);                      /* 0: no memory */

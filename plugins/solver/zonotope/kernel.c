@@ -3,11 +3,12 @@
 ** With T_k = (J h)^k / k! and tau = (h - s) / h, K = sum_k T_k tau^k: its mean is sum T_k / (k + 1), the integral of |K|
 ** at most |h| sum |T_k| / (k + 1), that of |K - mean| at most |h| sum c_k |T_k|, where c_k = integral of
 ** |tau^k - 1 / (k + 1)| = 2 k (k + 1)^(-2 - 1/k). Rounding is bounded by powers of |J h|; what is beyond the last power
-** by its norm in units of the states' sizes.
+** by its norm in units in which J h is small.
 */
 #include "proof.h"
 
 #define TERMS_MAX 40
+#define TURNS 12
 
 static void multiply(uint32_t n, double *to, const double *a, const double *b, double scale) {
   for (uint32_t i = 0; i < n; i++) {
@@ -24,7 +25,7 @@ static void multiply(uint32_t n, double *to, const double *a, const double *b, d
 
 /* max over i of sum_j a_ij u_j / u_i */
 static double norm(const zono *z, const double *a) {
-  const double *u = z->proof->spread;
+  const double *u = z->proof->unit;
   double most = 0;
   for (uint32_t i = 0; i < z->nx; i++) {
     double sum = 0;
@@ -34,9 +35,27 @@ static double norm(const zono *z, const double *a) {
   return most * ABOVE;
 }
 
+/* units in which |J h| is about as small as its spectral radius: what it makes of the states' sizes, again and again */
+static void find_units(const zono *z, double length) {
+  proof *p = z->proof;
+  uint32_t n = z->nx;
+  double *u = p->unit, *next = p->grow;
+  memcpy(u, p->spread, n * sizeof *u);
+  for (int turn = 0; turn < TURNS; turn++) {
+    double most = 0;
+    for (uint32_t i = 0; i < n; i++) {
+      next[i] = u[i];
+      for (uint32_t j = 0; j < n; j++) next[i] += p->jacobian_size[(size_t)i * n + j] * length * u[j];
+      most = fmax(most, next[i]);
+    }
+    for (uint32_t i = 0; i < n; i++) u[i] = fmax(next[i] / most, 1e-150);
+  }
+}
+
 /* adds T_k and a bound of its rounding */
 static void add_power(proof *p, uint32_t n, uint32_t k, double length) {
-  double off = k < 1 ? 0 : 2 * k * pow(k + 1.0, -2 - 1.0 / k) * (1 + 1e-12), lost = k < 1 ? 0 : 2 * k * (n + 3.0) * UNIT;
+  double off = k < 1 ? 0 : 2 * k * pow(k + 1.0, -2 - 1.0 / k) * (1 + 1e-12),
+         lost = k < 1 ? 0 : 2 * k * (n + 3.0) * UNIT;
   for (size_t e = 0; e < (size_t)n * n; e++) {
     double most = fabs(p->power[e]) + lost * p->size[e];
     p->mean[e] += p->power[e] / (k + 1.0);
@@ -49,7 +68,7 @@ static void add_rest(const zono *z, double length, double rest) {
   proof *p = z->proof;
   for (uint32_t i = 0; i < z->nx; i++)
     for (uint32_t j = 0; j < z->nx; j++) {
-      double most = length * rest * p->spread[i] / p->spread[j];
+      double most = length * rest * p->unit[i] / p->unit[j];
       p->reach[(size_t)i * z->nx + j] += most, p->wobble[(size_t)i * z->nx + j] += 2 * most;
     }
 }
@@ -63,6 +82,7 @@ int kernel_find(zono *z) {
   memset(p->power, 0, bytes), memset(p->size, 0, bytes);
   for (uint32_t i = 0; i < n; i++) p->power[(size_t)i * n + i] = p->size[(size_t)i * n + i] = 1;
   for (size_t e = 0; e < all; e++) p->jacobian_size[e] = fabs(p->J[e]) * ABOVE;
+  find_units(z, length);
   double step = norm(z, p->jacobian_size) * length, now = 1;
   if (!(step < 4)) return z->why = WHY_GROWTH, 0;
   for (;; k++) {

@@ -2,8 +2,9 @@
 #include "implicit.h"
 #include <ambit/code.h>
 
-#define ROOM 400e6 /* bytes that rows may take at the highest order */
-#define ORDER_MOST 24
+#define ROOM 400e6    /* bytes that rows may take at the highest order */
+#define ORDER_MOST 40 /* that may be asked for */
+#define ORDER_HIGH 24 /* that is chosen */
 #define ORDER_LEAST 8
 #define HISTORY 60 /* generators kept for each state */
 
@@ -94,7 +95,7 @@ static uint32_t highest_order(const zono *z) {
   double moving = 1, row = 8.0 * z->shape.stride;
   for (uint32_t i = 0; i < t->nslot; i++) moving += t->degree[i] != 0;
   double k = ROOM / (moving * row) - 1;
-  return k > ORDER_MOST ? ORDER_MOST : k < ORDER_LEAST ? ORDER_LEAST : (uint32_t)k;
+  return k > ORDER_HIGH ? ORDER_HIGH : k < ORDER_LEAST ? ORDER_LEAST : (uint32_t)k;
 }
 
 static int open_set(zono *z) {
@@ -128,7 +129,8 @@ static ambit_status open_all(zono *z) {
   choose_program(z);
   for (uint32_t s = 0, from = 0; s < z->program.nstage; from = z->program.stage_end[s++])
     if (z->program.stage_end[s] - from > STAGE_MAX)
-      return h->fail(h, AMBIT_INVALID, "zonotope: %u accelerations and multipliers at once, more than %d; take `lohner`",
+      return h->fail(h, AMBIT_INVALID,
+          "zonotope: %u accelerations and multipliers at once, more than %d; take `lohner`",
           z->program.stage_end[s] - from, STAGE_MAX);
   ambit_status status = zono_start_open(z);
   if (status == AMBIT_NOMEM) return no_memory(h);
@@ -139,18 +141,32 @@ static ambit_status open_all(zono *z) {
   return AMBIT_OK;
 }
 
+static ambit_status refuse(const ambit_host *h, const char *option, const char *expected, double got) {
+  return h->fail(h, AMBIT_INVALID, "zonotope: option `%s` must be %s, not %g", option, expected, got);
+}
+
+static ambit_status choose(const ambit_host *h, const double *option, options *o) {
+  double order = option[0], history = option[1];
+  if (!(order == 0 || (order >= 3 && order <= ORDER_MOST))) return refuse(h, "time_order", "0, or 3 to 40", order);
+  if (!(history == 0 || (history >= 2 && history <= 1000))) return refuse(h, "history", "0, or 2 to 1000", history);
+  if (!(option[2] >= 0)) return refuse(h, "tolerance", "0 or more", option[2]);
+  if (!(option[3] > 0)) return refuse(h, "step_max", "more than 0", option[3]);
+  if (!(option[4] >= 0)) return refuse(h, "step_min", "0 or more", option[4]);
+  if (!(option[5] >= 0)) return refuse(h, "width_max", "0 or more", option[5]);
+  *o = (options) { (uint32_t)order, history > 0 ? (uint32_t)history : HISTORY, option[2], option[3], option[4],
+    option[5] };
+  return AMBIT_OK;
+}
+
 ambit_status zono_open(const ambit_host *h, const ambit_problem *p, const double *option, void **self) {
   *self = NULL;
+  options o;
+  ambit_status chosen = choose(h, option, &o);
+  if (chosen != AMBIT_OK) return chosen;
   zono *z = h->alloc(h, sizeof *z);
   if (!z) return no_memory(h);
-  z->host = h;
+  z->host = h, z->options = o;
   memcpy(&z->problem, p, p->size < sizeof z->problem ? p->size : sizeof z->problem);
-  double order = option[0], history = option[1];
-  if (order != 0 && !(order >= 3 && order <= 40))
-    return h->fail(h, AMBIT_INVALID, "zonotope: `time_order` is 3 to 40, or 0; got %g", order);
-  if (history != 0 && !(history >= 2 && history <= 1000))
-    return h->fail(h, AMBIT_INVALID, "zonotope: `history` is 2 to 1000, or 0; got %g", history);
-  z->options = (options) { (uint32_t)order, history > 0 ? (uint32_t)history : HISTORY, option[2], option[3], option[4], option[5] };
   const double *time = z->problem.time;
   if (z->options.step_min == 0) z->options.step_min = 0x1p-40 * fabs(time[z->problem.ntime - 1] - time[0]);
   ambit_status status = open_all(z);

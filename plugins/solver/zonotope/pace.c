@@ -24,8 +24,7 @@ static void find_rates(const zono *z, double *rate) {
     for (uint32_t q = 0; q < z->na; q++) sum += fabs(L[q]) * z->rr_out[z->nx + q];
     target[n] = sum;
   }
-  for (uint32_t i = 0; i < z->nx; i++)
-    rate[i] = z->rr_out[i] + (p->link[i] == LINK_STATE ? 0 : target[p->link_to[i]]);
+  for (uint32_t i = 0; i < z->nx; i++) rate[i] = z->rr_out[i] + (p->link[i] == LINK_STATE ? 0 : target[p->link_to[i]]);
 }
 
 /* the state's size with its motion, and its set's, over the step */
@@ -49,6 +48,7 @@ static int fits(zono *z, double length, const double *start) {
     double size, set, share = z->options.tolerance;
     find_sizes(z, i, length, &size, &set);
     if (share == 0) share = set > 1e-10 * size ? BESIDE_MOTION : EXACT;
+    share = fmax(share, EXACT);
     double allowed = share * size + BESIDE_SET * set;
     if (!(length * rate[i] <= GROWTH * length * start[i] + allowed)) return 0;
   }

@@ -3,14 +3,17 @@
 
 static const ambit_param param[] = {
   { "time_order", "1", "integer", "0", "order of the series in time, 3 to 40; 0: by need" },
-  { "history", "1", "integer", "0", "generators that are kept, in multiples of the number of states, 2 to 1000; 0: 60" },
+  { "history", "1", "integer", "0",
+      "generators that are kept, in multiples of the number of states, 2 to 1000; 0: 60" },
   { "tolerance", "1", "", "0",
-      "truncation error that one step may add to a state, relative to the state's size; 0: chosen from the width of the "
+      "truncation error that one step may add to a state, relative to the state's size; 0: chosen from the width of "
+      "the "
       "data" },
   { "step_max", "s", "", "inf", "longest step" },
   { "step_min", "s", "", "0", "shortest step that is tried before the run gives up; 0: 2^-40 of the time span" },
   { "width_max", "1", "", "0",
-      "the run ends when a state is wider than this times its initial magnitude (at least times 1); 0: than 10 times the "
+      "the run ends when a state is wider than this times its initial magnitude (at least times 1); 0: than 10 times "
+      "the "
       "largest magnitude that its middle has had (at least 10)" },
   { NULL, NULL, NULL, NULL, NULL },
 };
@@ -28,7 +31,9 @@ static const ambit_solver solver = {
 static const void *get(const char *interface_id) { return strcmp(interface_id, AMBIT_SOLVER) == 0 ? &solver : NULL; }
 
 const ambit_plugin ambit_entry = { sizeof ambit_entry, AMBIT_ABI, "solver.zonotope", "1.0",
-  "Proves where every solution of an initial-value problem is, with many uncertain data: polynomials of low degree in the "
-  "data, generators for all that they leave out, and accelerations from the equations that they satisfy instead of from "
+  "Proves where every solution of an initial-value problem is, with many uncertain data: polynomials of low degree in "
+  "the "
+  "data, generators for all that they leave out, and accelerations from the equations that they satisfy instead of "
+  "from "
   "formulas that divide.",
   get };

@@ -16,12 +16,12 @@ enum link { LINK_STATE, LINK_UNKNOWN, LINK_TARGET };
 
 typedef struct sweeps {
   forms forms;
-  double *value;  /* [nslot] forms of the slots over the step */
-  double *slope;  /* [nslope] forms of derivatives that are not slots; by z->proof->slope_at */
+  double *value;   /* [nslot] forms of the slots over the step */
+  double *slope;   /* [nslope] forms of derivatives that are not slots; by z->proof->slope_at */
   double *adjoint; /* [nslot] forms of the sweep at hand */
-  double *matrix; /* [na x na] dR/da, then its factors, in the order of elimination */
-  double *pivot;  /* [na] inverses of pivots */
-  double *lambda; /* [na x na] row k: -(row k of the inverse), by equation */
+  double *matrix;  /* [na x na] dR/da, then its factors, in the order of elimination */
+  double *pivot;   /* [na] inverses of pivots */
+  double *lambda;  /* [na x na] row k: -(row k of the inverse), by equation */
   double *scratch; /* [(na + 4)] forms */
 } sweeps;
 
@@ -52,16 +52,17 @@ typedef struct proof {
   double *input;                 /* [nin] */
   double *mean, *reach, *wobble; /* [nx x nx] mean and integral of |e^(J s)|, times |h|; integral of |e^(J s) - mean| */
   double *power, *power_new, *size, *size_new, *jacobian_size; /* [nx x nx] */
-  double *grow;                  /* [nx] per state: sums for bounds */
-  double *box;                   /* [nx] what is put into a box at the end of the step */
-  double *columns;               /* [(ngen_max + nslot + nout + nx) x nx] */
-  double *turned;                /* [nx x (ngen_max + 4)] old generators, state by state */
-  double *score, *sorted;        /* one of each column */
-  double *end;                   /* [nx x stride] rows at the end of the step */
-  double *spread;                /* [nx] sizes of states' sets, for weights */
-  double *work;                   /* [4 nx + na] */
-  int prepared;                  /* total and drop are those of the rows */
-  shares *share;                 /* [nx] of the last step; NULL: nobody asks */
+  double *grow;                                                /* [nx] per state: sums for bounds */
+  double *box;                                                 /* [nx] what is put into a box at the end of the step */
+  double *columns;                                             /* [(ngen_max + nslot + nout + nx) x nx] */
+  double *turned;         /* [nx x (ngen_max + 4)] old generators, state by state */
+  double *score, *sorted; /* one of each column */
+  double *end;            /* [nx x stride] rows at the end of the step */
+  double *spread;         /* [nx] sizes of states' sets, for weights */
+  double *unit;           /* [nx] of the states, for norms */
+  double *work;           /* [4 nx + na] */
+  int prepared;           /* total and drop are those of the rows */
+  shares *share;          /* [nx] of the last step; NULL: nobody asks */
   /* records */
   double *dense_mid, *dense_rad, *dense_column;
   ambit_set set;
@@ -69,8 +70,8 @@ typedef struct proof {
 } proof;
 
 /* defect.c */
-void defect_prepare(zono *z);                 /* from the rows: once a step */
-int defect_evaluate(zono *z, double length);  /* z->r, z->rr_out, high, low over [0, length] */
+void defect_prepare(zono *z);                /* from the rows: once a step */
+int defect_evaluate(zono *z, double length); /* z->r, z->rr_out, high, low over [0, length] */
 /* sweep.c */
 int sweep_open(zono *z, sweeps *w, uint32_t sigmas);
 int sweep_coefficients(zono *z); /* C, L, J of proof from forms over [0, h] */

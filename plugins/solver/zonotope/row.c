@@ -72,8 +72,7 @@ double row_dropped(const shape *s, const double *a, const double *b) {
   double la = row_l(s, a), ra = row_r(s, a), high_a = row_q(s, a) + row_x(s, a);
   double lb = row_l(s, b), rb = row_r(s, b), high_b = row_q(s, b) + row_x(s, b);
   double sum = la * high_b + ra * (rb + high_b) + high_a * (lb + rb + high_b);
-  if (s->mixed < s->m)
-    sum += sizes(a, 1 + s->mixed, 1 + s->m) * rb + sizes(b, 1 + s->mixed, 1 + s->m) * ra;
+  if (s->mixed < s->m) sum += sizes(a, 1 + s->mixed, 1 + s->m) * rb + sizes(b, 1 + s->mixed, 1 + s->m) * ra;
   if (s->m && s->reach[s->m - 1] < s->m) sum += dropped_pairs(s, a, b);
   return sum;
 }

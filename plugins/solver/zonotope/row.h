@@ -44,7 +44,7 @@ static inline double row_total(const shape *s, const double *x) { return fabs(x[
 double row_dropped(const shape *s, const double *a, const double *b);
 
 void row_constant(const shape *s, double *to, double c);
-void row_norms(const shape *s, double *x); /* brings L R Q X up to date */
+void row_norms(const shape *s, double *x);                                 /* brings L R Q X up to date */
 void row_scale(const shape *s, double *to, double scale, const double *a); /* to := scale a; may be a */
 
 /* -- a sum of multiples of rows and of products of rows, made in one go */

@@ -46,7 +46,8 @@ static int prove_some(zono *z, double h) {
     z->why = WHY_NOTHING, z->detail = NULL;
     if (zono_defects(z) && zono_prove(z)) return 1;
     why = z->why == WHY_NOTHING ? WHY_GROWTH : z->why;
-    if (fabs(h) * 0.5 < z->options.step_min || z->t + 0.5 * h == z->t) return fails(z, why == WHY_GROWTH ? WHY_STEP : why);
+    if (fabs(h) * 0.5 < z->options.step_min || z->t + 0.5 * h == z->t)
+      return fails(z, why == WHY_GROWTH ? WHY_STEP : why);
     h *= 0.5;
   }
 }

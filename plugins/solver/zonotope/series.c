@@ -79,8 +79,12 @@ static int evaluate(zono *z, uint32_t i, uint32_t k) {
   terms sum;
   terms_clear(&sum);
   switch (op) {
-  case AMBIT_OP_ADD: terms_row(s, &sum, 1, coefficient(z, t->a[i], k)), terms_row(s, &sum, 1, coefficient(z, t->b[i], k)); break;
-  case AMBIT_OP_SUB: terms_row(s, &sum, 1, coefficient(z, t->a[i], k)), terms_row(s, &sum, -1, coefficient(z, t->b[i], k)); break;
+  case AMBIT_OP_ADD:
+    terms_row(s, &sum, 1, coefficient(z, t->a[i], k)), terms_row(s, &sum, 1, coefficient(z, t->b[i], k));
+    break;
+  case AMBIT_OP_SUB:
+    terms_row(s, &sum, 1, coefficient(z, t->a[i], k)), terms_row(s, &sum, -1, coefficient(z, t->b[i], k));
+    break;
   case AMBIT_OP_NEG: terms_row(s, &sum, -1, coefficient(z, t->a[i], k)); break;
   case AMBIT_OP_SQR: add_square(z, &sum, t->a[i], k); break;
   default: return k ? zono_function(z, i, k) : zono_function_order0(z, i);

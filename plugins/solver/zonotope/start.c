@@ -20,7 +20,8 @@ static int open_initial(const zono *z, zono *i) {
 
 static void put_unknowns(const zono *z, zono *i) {
   const ambit_problem *p = &z->problem;
-  for (uint32_t u = 0; u < p->nu; u++) row_constant(&z->shape, i->p_row + (size_t)u * z->shape.stride, 0.5 * (p->u_lo[u] + p->u_hi[u]));
+  for (uint32_t u = 0; u < p->nu; u++)
+    row_constant(&z->shape, i->p_row + (size_t)u * z->shape.stride, 0.5 * (p->u_lo[u] + p->u_hi[u]));
   for (uint32_t j = 0; j < z->m; j++) {
     if (z->unknown[j] == AMBIT_NO_SLOT) continue;
     double *row = i->p_row + (size_t)z->unknown[j] * z->shape.stride;

@@ -100,8 +100,7 @@ static void fill_matrix(const zono *z, const sweeps *w) {
     seed_one(w, slot_out(z)[z->nx + z->proof->order[r]]);
     sweep_back(z, w, 1);
     for (uint32_t c = 0; c < z->na; c++)
-      memcpy(entry(z, w, w->matrix, r, c), adjoint(w, slot_a(z, z->proof->order[c])),
-          w->forms.stride * sizeof(double));
+      memcpy(entry(z, w, w->matrix, r, c), adjoint(w, slot_a(z, z->proof->order[c])), w->forms.stride * sizeof(double));
   }
 }
 

@@ -70,37 +70,37 @@ typedef struct zono {
   const ambit_num_service *num;
   options options;
   program program;
-  shape shape;          /* of rows; shape.m data, shape.nx eps */
+  shape shape; /* of rows; shape.m data, shape.nx eps */
   uint32_t nx, na, np, m, nout, nslot;
-  uint32_t K, K_max;    /* order in time of the present step; most that there is room for */
+  uint32_t K, K_max; /* order in time of the present step; most that there is room for */
   /* -- rows */
-  double *row;  /* [sum of orders_max x shape.stride] */
-  double *zero; /* [stride] */
-  double *scratch; /* [stride] */
-  size_t *first;        /* [nslot] row 0 of the slot, in rows */
-  double *inverse;      /* [ninverse x stride] */
+  double *row;           /* [sum of orders_max x shape.stride] */
+  double *zero;          /* [stride] */
+  double *scratch;       /* [stride] */
+  size_t *first;         /* [nslot] row 0 of the slot, in rows */
+  double *inverse;       /* [ninverse x stride] */
   uint32_t *has_inverse; /* [ninstr] number of the inverse + 1, 0: none */
-  int8_t *branch;       /* [ninstr] ABS, MIN, MAX: 1 as it is or the first, -1 negated or the second */
+  int8_t *branch;        /* [ninstr] ABS, MIN, MAX: 1 as it is or the first, -1 negated or the second */
   /* -- the set */
-  uint32_t *unknown;     /* [m] which of the problem's unknowns datum j is; AMBIT_NO_SLOT: the solver's own */
-  double *about, *scale; /* [m] datum j is about_j + scale_j xi_j; 0 and 1 of the solver's own */
-  double *start;         /* [nx x stride] P at time[0] */
-  double *start_rad;     /* [nx] what is left of the initial value besides */
+  uint32_t *unknown;             /* [m] which of the problem's unknowns datum j is; AMBIT_NO_SLOT: the solver's own */
+  double *about, *scale;         /* [m] datum j is about_j + scale_j xi_j; 0 and 1 of the solver's own */
+  double *start;                 /* [nx x stride] P at time[0] */
+  double *start_rad;             /* [nx] what is left of the initial value besides */
   double *start_p, *start_p_rad; /* [np x stride] [np] of parameters */
   double *p_row, *p_rad;         /* [np x stride] [np] parameters: rows and what is left */
-  double *P;             /* [nx x stride] rows without eps */
-  double *E;             /* [nx] half widths of G rho, rounded up */
-  double *G;             /* [(ngen_max + nx) x nx] column c at G + c nx */
+  double *P;                     /* [nx x stride] rows without eps */
+  double *E;                     /* [nx] half widths of G rho, rounded up */
+  double *G;                     /* [(ngen_max + nx) x nx] column c at G + c nx */
   uint32_t ngen, ngen_max;
   /* -- the step: from t, h long (negative: backwards); s in [0, h] */
   double t, t_next, h, h_error; /* |(t_next - t) - h| <= h_error */
   double guess;                 /* length of the last step, without sign */
   uint32_t next;                /* the instant ahead */
-  double *r;      /* [nslot] what the operation itself fails by, see defect.c */
-  double *rr;     /* [nslot] the lump of each slot (constants and inputs included): r and second order */
-  double *rr_out; /* [nout] of each output */
-  struct implicit *implicit; /* implicit.c */
-  struct proof *proof;       /* sweep.c, error.c, close.c: allocated by zono_open_proof() */
+  double *r;                    /* [nslot] what the operation itself fails by, see defect.c */
+  double *rr;                   /* [nslot] the lump of each slot (constants and inputs included): r and second order */
+  double *rr_out;               /* [nout] of each output */
+  struct implicit *implicit;    /* implicit.c */
+  struct proof *proof;          /* sweep.c, error.c, close.c: allocated by zono_open_proof() */
   /* -- records */
   double *lo, *hi, *tube_lo, *tube_hi; /* [nx] */
   double *largest;                     /* [nx] magnitude of the middle so far, at least 1 */
@@ -152,8 +152,8 @@ int zono_function(zono *z, uint32_t instr, uint32_t k);
 
 /* -- the other half (phase 2). Each returns 0 with z->why set where it fails. None allocates but zono_open_proof(). */
 
-int zono_open_proof(zono *z);      /* all memory of what follows; 0: none left */
-void zono_choose_order(zono *z);  /* pace.c: z->K of the next step, before zono_series() */
+int zono_open_proof(zono *z);    /* all memory of what follows; 0: none left */
+void zono_choose_order(zono *z); /* pace.c: z->K of the next step, before zono_series() */
 /* pace.c: a length from the rows, |h| <= |h_most| with its sign; the caller sets h, t_next, h_error from it */
 double zono_choose_step(zono *z, double h_most);
 /* defect.c: z->r of all slots (and rr_out := what outputs fail by) over [0, z->h]; for the initial tape too */
@@ -163,9 +163,9 @@ int zono_defects(zono *z);
 int zono_spread(zono *z, const double *input, double *delta);
 /* sweeps, zeta, kernels: proves the step over [0, z->h]; 0 with WHY_GROWTH: shorten it */
 int zono_prove(zono *z);
-void zono_finish(zono *z);         /* close.c: P, G, E at the end of the step */
-void zono_hull(zono *z);           /* range.c: lo, hi of P + E */
-void zono_tube(zono *z);           /* range.c: tube_lo, tube_hi of the step; before zono_finish() */
+void zono_finish(zono *z); /* close.c: P, G, E at the end of the step */
+void zono_hull(zono *z);   /* range.c: lo, hi of P + E */
+void zono_tube(zono *z);   /* range.c: tube_lo, tube_hi of the step; before zono_finish() */
 /* dense.c, set.c: what the receiver wished for */
 void zono_describe_dense(zono *z, ambit_record *r); /* before zono_finish() */
 const ambit_set *zono_describe_set(zono *z);
