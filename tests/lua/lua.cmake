@@ -21,6 +21,13 @@ target_link_libraries(test_multibody PRIVATE ambit_flags)
 set_target_properties(test_multibody PROPERTIES PREFIX "" OUTPUT_NAME multibody C_VISIBILITY_PRESET hidden
   LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests/lua)
 
+# Solutions of random equations, likewise
+add_library(test_equations MODULE ${PROJECT_SOURCE_DIR}/tests/oracle/equations_lua.c)
+target_include_directories(test_equations PRIVATE ${LUA_INCLUDE_DIRS})
+target_link_libraries(test_equations PRIVATE ambit_flags)
+set_target_properties(test_equations PROPERTIES PREFIX "" OUTPUT_NAME equations C_VISIBILITY_PRESET hidden
+  LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests/lua)
+
 set(lua_environment "AMBIT_PATH=${PROJECT_BINARY_DIR}/tests/lua/plugins:${PROJECT_BINARY_DIR}/tests/plugins:${PROJECT_BINARY_DIR}/plugins"
   "LUA_CPATH=${PROJECT_BINARY_DIR}/${AMBIT_LUA_DIR}/?.so\\;${PROJECT_BINARY_DIR}/tests/lua/?.so\\;\\;" "AMBIT_COMMAND=$<TARGET_FILE:ambit>" "NO_COLOR=1")
 

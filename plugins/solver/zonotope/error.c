@@ -172,5 +172,4 @@ static int close_bound(zono *z) {
   return z->why = WHY_GROWTH, 0;
 }
 
-#include <stdio.h>
-int zono_prove(zono *z) { int a=sweep_coefficients(z), b=a&&kernel_find(z), c=b&& close_bound(z); fprintf(stderr,"prove h %g: %d %d %d why %d culprit %u\n",z->h,a,b,c,z->why,z->culprit); return c; }
+int zono_prove(zono *z) { return sweep_coefficients(z) && kernel_find(z) && close_bound(z); }

@@ -5,7 +5,6 @@
 ** negligible beside the state's motion and beside its set. No proof depends on anything here.
 */
 #include "proof.h"
-#include <stdio.h>
 
 #define GROWTH 2.0
 #define TRIES 60
@@ -68,8 +67,7 @@ double zono_choose_step(zono *z, double h_most) {
     find_sizes(z, i, most, &size, &set);
     if (!(p->spread[i] > 0)) p->spread[i] = size > 0 ? size : 1;
   }
-  int DD=defect_evaluate(z,0); int EE=DD&&sweep_weights(z);
-  if (!DD || !EE) { fprintf(stderr,"choose fails %d %d why %d culprit %u op %u\n", DD,EE,z->why,z->culprit, z->culprit>=z->program.tape->nconst+z->program.tape->nin? z->program.tape->op[z->culprit-z->program.tape->nconst-z->program.tape->nin]:999); return 0; }
+  if (!defect_evaluate(z, 0) || !sweep_weights(z)) return 0;
   find_rates(z, start);
   for (uint32_t n = 0; n < TRIES && !fits(z, length, start); n++) above = length, length *= 0.5;
   for (uint32_t n = 0; n < REFINE && above > 0; n++) {
@@ -79,7 +77,6 @@ double zono_choose_step(zono *z, double h_most) {
     else
       above = middle;
   }
-  fprintf(stderr,"chose %g of %g\n",length,most);
   return h_most < 0 ? -length : length;
 }
 

@@ -1,0 +1,215 @@
+-- random_equations.lua -- does any solution of random equations leave what was proved about it?
+--   ambit run tests/lua/random_equations.lua [--solver NAME] [--systems N] [--draws N] [--seed N] [--beyond X] [--verbose]
+--
+-- Systems of 1 to 8 states and 1 to 10 data of .01 to 10 %, of every operation that a tape may hold, forwards and
+-- backwards in time; solutions for drawn data and initial values, most of them corners, are integrated in extended
+-- precision (tests/oracle/equations_lua.c) and must lie inside, at ends of steps and between. Needs the test module
+-- `equations` in LUA_CPATH. --beyond 2: data are drawn from twice their ranges, so that solutions must be found outside.
+-- Exit 1 if a solution is outside.
+local ambit = require "ambit"
+local session = require "ambit.session"
+local equations = require "equations"
+
+local o = { systems = 40, draws = 20, seed = 1, beyond = 1, solver = "zonotope" }
+do
+  local i = 1
+  while arg[i] do
+    local key = arg[i]:match "^%-%-(%a+)$"
+    if key == "verbose" then
+      o.verbose, i = true, i + 1
+    elseif key and o[key] and arg[i + 1] then
+      o[key], i = tonumber(arg[i + 1]) or arg[i + 1], i + 2
+    else
+      io.stderr:write(("random_equations.lua: unknown or incomplete option `%s`\n"):format(arg[i]))
+      os.exit(2)
+    end
+  end
+end
+
+-- A generator of its own, so that systems do not depend on the interpreter's.
+local state = o.seed * 2654435761 + 12345
+local function unit()
+  state = (state * 6364136223846793005 + 1442695040888963407)
+  return ((state >> 11) & 0x1fffffffffffff) / 0x20000000000000
+end
+local function pick(n) return 1 + math.floor(unit() * n) end
+
+-- -- systems: lists of instructions over slots x, p, t
+
+local binary = { add = 1, sub = 1, mul = 1, div = 1, atan2 = 1, min = 1, max = 1 }
+
+local function random_system()
+  local nx, np = pick(8), pick(10)
+  local s = { nx = nx, np = np, code = {}, out = {}, inputs = nx + np + 1 }
+  local function emit(op, a, b)
+    s.code[#s.code + 1] = { op, a, b }
+    return s.inputs + #s.code
+  end
+  local function number(x) return emit("number", x) end
+  local function leaf()
+    local r = unit()
+    return r < 0.6 and pick(nx) or r < 0.9 and nx + pick(np) or r < 0.95 and nx + np + 1 or number(2 * unit() - 1)
+  end
+  local positive -- of a slot: 1 + a^2 or so
+  local expression
+  function positive(a) return emit("add", number(1 + unit()), emit("sqr", a)) end
+  local function tame(a) return emit("sin", a) end
+  local kinds = {
+    function(d) return emit("add", expression(d), expression(d)) end,
+    function(d) return emit("sub", expression(d), expression(d)) end,
+    function(d) return emit("mul", expression(d), expression(d)) end,
+    function(d) return emit("mul", expression(d), expression(d)) end,
+    function(d) return emit("sqr", expression(d)) end,
+    function(d) return emit("div", expression(d), positive(expression(d))) end,
+    function(d) return emit("sqrt", positive(expression(d))) end,
+    function(d) return emit("exp", tame(expression(d))) end,
+    function(d) return emit("log", positive(expression(d))) end,
+    function(d) return emit("sin", expression(d)) end,
+    function(d) return emit("cos", expression(d)) end,
+    function(d) return emit("tan", emit("mul", number(0.7), tame(expression(d)))) end,
+    function(d) return emit("atan", expression(d)) end,
+    function(d) return emit("atan2", expression(d), positive(expression(d))) end,
+    function(d) return emit("sinh", tame(expression(d))) end,
+    function(d) return emit("cosh", tame(expression(d))) end,
+    function(d) return emit("tanh", expression(d)) end,
+    function(d) return emit("asin", emit("mul", number(0.8), tame(expression(d)))) end,
+    function(d) return emit("acos", emit("mul", number(0.8), tame(expression(d)))) end,
+    function(d) return emit("abs", positive(expression(d))) end,
+    function(d) return emit("min", tame(expression(d)), number(1.5)) end,
+    function(d) return emit("max", tame(expression(d)), number(-1.5)) end,
+    function(d) return emit("neg", expression(d)) end,
+  }
+  function expression(d)
+    if d == 0 or unit() < 0.2 then return leaf() end
+    return kinds[pick(#kinds)](d - 1)
+  end
+  for i = 1, nx do
+    if i < nx and unit() < 0.2 then
+      s.out[i] = pick(nx) -- a copy of a state, as positions have
+    else
+      local f = emit("mul", number(0.8), tame(expression(3)))
+      if unit() < 0.5 then f = emit("mul", number(0.6), expression(2)) end
+      s.out[i] = emit("sub", f, emit("mul", number(0.5), i))
+    end
+  end
+  return s
+end
+
+-- The system as Ambit's expressions.
+local function build(s, x, p, t)
+  local slot = {}
+  for i = 1, s.nx do slot[i] = x["x" .. i] end
+  for i = 1, s.np do slot[s.nx + i] = p["p" .. i] end
+  slot[s.inputs] = t
+  for k, c in ipairs(s.code) do
+    local op, a, b = c[1], slot[c[2]], slot[c[3]]
+    local r
+    if op == "number" then r = ambit.number(c[2])
+    elseif op == "add" then r = a + b
+    elseif op == "sub" then r = a - b
+    elseif op == "mul" then r = a * b
+    elseif op == "div" then r = a / b
+    elseif op == "neg" then r = -a
+    elseif op == "sqr" then r = a ^ 2
+    elseif binary[op] then r = ambit[op](a, b)
+    else r = ambit[op](a) end
+    slot[s.inputs + k] = r
+  end
+  local f = {}
+  for i = 1, s.nx do f["x" .. i] = slot[s.out[i]] end
+  return f
+end
+
+local function random_data(s)
+  local function range(middle, tolerance) return { middle, middle == 0 and tolerance or math.abs(middle) * tolerance } end
+  local tolerance = 10 ^ (-4 + 3 * unit())
+  s.p, s.x = {}, {}
+  for i = 1, s.np do s.p[i] = range(2 * unit() - 1, tolerance) end
+  for i = 1, s.nx do s.x[i] = range(unit() < 0.2 and 0 or 2 * unit() - 1, unit() < 0.3 and 0 or tolerance) end
+  s.from = unit() < 0.3 and 2 * unit() - 1 or 0
+  s.to = s.from + (unit() < 0.3 and -1 or 1) * (0.2 + unit())
+end
+
+local function draw(s)
+  local is_corner = unit() < 0.7
+  local function value(r)
+    local u = 2 * unit() - 1
+    if is_corner then u = u < 0 and -1 or 1 end
+    return r[1] + (1 - 1e-12) * o.beyond * r[2] * u
+  end
+  local point = { x = {}, p = {} }
+  for i = 1, s.nx do point.x[i] = value(s.x[i]) end
+  for i = 1, s.np do point.p[i] = value(s.p[i]) end
+  return point
+end
+
+local function prove(s)
+  local states, parameters, initial = {}, {}, {}
+  for i = 1, s.nx do
+    states[i] = "x" .. i
+    local r = s.x[i]
+    initial["x" .. i] = r[2] == 0 and r[1] or ambit.between(r[1] - r[2], r[1] + r[2])
+  end
+  for i = 1, s.np do parameters["p" .. i] = ambit.between(s.p[i][1] - s.p[i][2], s.p[i][1] + s.p[i][2]) end
+  local ode = ambit.ode { states = states, parameters = parameters,
+    equations = function(x, p, t) return build(s, x, p, t) end }
+  return ambit.simulate { ode, initial = initial, t = { s.from, s.to }, solver = o.solver, dense = true }
+end
+
+-- Ends of steps, and times between.
+local function instants(run, s)
+  local list, apart = {}, { s.from }
+  for step in run:steps() do list[#list + 1] = step.t end
+  while #list > 6 do table.remove(list, pick(#list - 1)) end
+  for _ = 1, 6 do list[#list + 1] = s.from + (run.t_reached - s.from) * unit() end
+  table.sort(list, function(a, b) return (a - b) * (s.to - s.from) < 0 end)
+  for _, t in ipairs(list) do
+    if t ~= apart[#apart] then apart[#apart + 1] = t end
+  end
+  return apart
+end
+
+local total = { values = 0, outside = 0, complete = 0, solutions = 0, widths = 0 }
+
+local function check(number)
+  local s = random_system()
+  random_data(s)
+  local run = prove(s)
+  local done = math.abs(run.t_reached - s.from) > 0
+  if run.status == "complete" then total.complete = total.complete + 1 end
+  local worst = 0
+  if done then
+    local times = instants(run, s)
+    local sets = {}
+    for k, t in ipairs(times) do sets[k] = run:at(t) end
+    for _ = 1, o.draws do
+      local point = draw(s)
+      local solution = equations.solve { x = point.x, p = point.p, code = s.code, out = s.out, times = times, tolerance = 1e-17 }
+      if solution then
+        total.solutions = total.solutions + 1
+        for k = 2, #times do
+          for i = 1, s.nx do
+            local value, set = solution[k][i], sets[k]["x" .. i]
+            local off = math.max(set.lo - value, value - set.hi) - 1e-15 * (1 + math.abs(value))
+            total.values = total.values + 1
+            if off > 0 or off ~= off then
+              worst = math.max(worst, off)
+              total.outside = total.outside + 1
+              if o.verbose then print(("system %d: x%d at %.17g is %.17g, proved %s"):format(number, i, times[k], value, set)) end
+            end
+          end
+        end
+      end
+    end
+  end
+  if o.verbose then
+    print(("%4d  %d states, %d data: %s to %g of [%g, %g] %s%s"):format(number, s.nx, s.np, run.status, run.t_reached, s.from,
+      s.to, worst > 0 and ("OUTSIDE by %.3g"):format(worst) or "", run.status == "complete" and "" or run.reason))
+  end
+end
+
+for number = 1, o.systems do check(number) end
+session.worst = "ok" -- what could not be proved is no failure here
+print(("%d systems, %d complete; %d solutions, %d values: %d outside"):format(o.systems, total.complete, total.solutions,
+  total.values, total.outside))
+os.exit(total.outside == 0 and 0 or 1)
