@@ -89,6 +89,8 @@ static void nasty_entries_prove_nothing(void **state) {
     assert_false(ambit_is_regular(2, b, scratch));
     assert_int_equal(ambit_is_singular(2, b), nasty[k].lo == 0 && nasty[k].hi == 0);
   }
+  ambit_interval edge[4] = { { 0, 1 }, { 0, 0 }, { 0, 0 }, { -1, 0 } }; /* holds regular matrices, too */
+  assert_false(ambit_is_singular(1, edge) || ambit_is_singular(1, edge + 3) || ambit_is_singular(2, edge));
   ambit_interval tiny[1] = { { 0x1p-1074, 0x1p-1074 } }; /* its inverse overflows */
   assert_false(ambit_is_regular(1, tiny, scratch));
 }
