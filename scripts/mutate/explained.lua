@@ -49,4 +49,14 @@ return {
     "fewer boxes are taken for allowed: less is refuted",
   ["scripts/prelude/verify/box.lua | relation 1 | moved[j] = least <= most and math.min(math.max(x, least), most) or x"] =
     "a value that was not moved where it should be is not taken for allowed (is_allowed): less is refuted",
+  ["framework/num/power_kernel.h | logic 1 | if (n.size > PLAIN_MOST && bit % 4 == 0)"] =
+    "the pair is normalised more often, which is exact",
+  ["framework/num/solve.c | guard 1 | if (ambit_interval_is_empty(a[i]) || !ambit_interval_is_bounded(a[i])) return false;"] =
+    "such an entry makes the distance from one infinite, which the next check refuses",
+  ["framework/num/spectrum.c | term 1 | *spread += ambit_interval_width(value[i].re) + ambit_interval_width(value[i].im);"] =
+    "decides which of two enclosures, both true, is given",
+  ["plugins/solver/taylor_model/functions.c | extremum 3 | double floor = range(s, q).lo, ga = larger(larger(ra.lo, -ra.hi), 0), gb = larger(larger(rb.lo, -rb.hi), 0);"] =
+    "a smaller lower bound of the distance from 0: the radius is wider",
+  ["plugins/solver/taylor_model/range.c | guard 1 | if (part == reach[v]) continue;"] =
+    "nothing is left out of the box, and only the count of cuts grows",
 }

@@ -240,6 +240,8 @@ static void misuse_is_refused(void **unused) {
   ambit_expr far = 1u << 30, leaf = ambit_graph_op(t.s.g, AMBIT_OP_SIN, t.x, 0), d;
   ambit_failure f = { 0 };
   assert_int_equal(ambit_graph_difference(t.s.g, 1, &far, &t.x, 0, NULL, NULL, false, &d, &f), AMBIT_INVALID);
+  assert_int_equal(ambit_graph_difference(t.s.g, 1, &t.x, &far, 0, NULL, NULL, false, &d, &f), AMBIT_INVALID);
+  assert_int_equal(ambit_graph_difference(t.s.g, 1, &t.x, &t.x, 1, &t.x, &far, false, &d, &f), AMBIT_INVALID);
   ambit_failure_clear(&f);
   assert_int_equal(ambit_graph_difference(t.s.g, 1, &t.x, &t.x, 1, &leaf, &t.dx, false, &d, &f), AMBIT_INVALID);
   ambit_failure_clear(&f);

@@ -220,14 +220,14 @@ static uint32_t square_root(series *s, cell to, cell a) {
   if (!(floor > 0)) return AMBIT_F_PARTIAL;
   centre(s, u, a);
   expand(AMBIT_OP_SQRT, w->d, first(s, a), c), horner(s, y, c, u);
-  double below = range(s, y).lo + enclose(s, AMBIT_OP_SQRT, (bounds) { floor, floor }, (bounds) { 0, 0 }).lo;
+  double root = enclose(s, AMBIT_OP_SQRT, (bounds) { floor, floor }, (bounds) { 0, 0 }).lo;
+  double below = -(-range(s, y).lo - root);
   if (!(range(s, y).lo > 0)) return BAD;
   sum_clear(w, &s->sum);
   sum_add(w, &s->sum, 1, y, y);
   sum_take(w, &s->sum, 1, left);
   cell_add(w, left, left, u, -1);
-  /* `below` is a sum of two lower bounds, rounded up by an ulp at most */
-  double error = (cell_norm(left) + cell_rad(left) + cell_rad(a)) / (below * (1 - 0x1p-50));
+  double error = (cell_norm(left) + cell_rad(left) + cell_rad(a)) / below;
   finish(s, to, y, error);
   return error < INFINITY ? 0 : BAD;
 }
