@@ -7,6 +7,14 @@
 #define KIT_TIMES 8
 #define KIT_DATA 3
 
+/* A system in implicit form: na unknowns in nstage stages. */
+typedef struct kit_form {
+  ambit_implicit_source source; /* first */
+  size_t na, nstage;
+  ambit_expr unknown[KIT_STATES], rate[KIT_STATES], residual[KIT_STATES];
+  uint32_t stage_end[2], pivot[KIT_STATES];
+} kit_form;
+
 typedef struct kit_model {
   ambit_graph *graph;
   size_t nx;
@@ -17,6 +25,7 @@ typedef struct kit_model {
   const char *invariant_name[KIT_STATES];
   size_t ndatum;
   ambit_expr datum[KIT_DATA];
+  kit_form form; /* of random systems, solver_kit_implicit.h; na = 0: there is none */
   ambit_system system;
 } kit_model;
 

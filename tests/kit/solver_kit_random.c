@@ -1,5 +1,6 @@
 /* solver_kit_random.c -- see solver_kit_random.h. */
 #include "kit/solver_kit_random.h"
+#include "kit/solver_kit_implicit.h"
 #include "num/random.h"
 #include <math.h>
 #include <stdio.h>
@@ -55,6 +56,7 @@ void kit_random_make(kit_random_system *r, uint64_t seed, size_t item) {
   static const double start[] = { 0, -1, 0.5 };
   ambit_random random = { seed * 0x9e3779b97f4a7c15u + item + 1 };
   *r = (kit_random_system) { .nx = 1 + item % KIT_STATES };
+  r->stages = r->nx > 1 ? item % 3 : item % 2;
   bool backwards = item % 2;
   kit_problem *p = &r->problem;
   for (size_t i = 0; i < r->nx; i++) choose_block(&random, r, i);
@@ -90,8 +92,9 @@ static ambit_expr shift(kit_model *m, const kit_block *b, const ambit_expr *x) {
   }
 }
 
-static ambit_expr shift_rate(kit_model *m, const kit_block *b) {
-  const ambit_expr *x = m->state, *dx = m->rate;
+/* dx: the derivatives of the states */
+static ambit_expr shift_rate(kit_model *m, const kit_block *b, const ambit_expr *dx) {
+  const ambit_expr *x = m->state;
   ambit_expr w = number(m, b->weight);
   switch (b->couple) {
   case LINEAR: return times(m, w, dx[b->a]);
@@ -117,7 +120,7 @@ static ambit_expr own_rate(kit_model *m, const kit_random_system *r, size_t i, c
 
 void kit_random_build(kit_model *m, const kit_random_system *r) {
   static const char *const name[KIT_STATES] = { "a", "b", "c", "d", "e", "f", "g", "h", "i", "j", "k", "l" };
-  ambit_expr y[KIT_STATES];
+  ambit_expr y[KIT_STATES], f[KIT_STATES], residual[KIT_STATES];
   m->nx = r->nx, m->ndatum = r->problem.nu;
   for (uint32_t j = 0; j < r->problem.nu; j++)
     m->datum[j] = ambit_graph_unknown(m->graph, "u", (ambit_interval) { r->problem.u_lo[j], r->problem.u_hi[j] });
@@ -131,11 +134,16 @@ void kit_random_build(kit_model *m, const kit_random_system *r) {
     m->initial[i] = plus(m, start, shift(m, b, m->initial));
     y[i] = op(m, AMBIT_OP_SUB, m->state[i], shift(m, b, m->state));
   }
+  if (r->stages) kit_form_open(m, r->stages);
   for (size_t i = 0; i < r->nx; i++) {
     const kit_block *b = &r->block[i];
     ambit_expr k = b->rate_datum < 0 ? number(m, b->rate) : m->datum[b->rate_datum];
-    m->rate[i] = plus(m, own_rate(m, r, i, y, k), shift_rate(m, b));
+    m->rate[i] = plus(m, own_rate(m, r, i, y, k), shift_rate(m, b, m->rate));
+    if (r->stages == 0) continue;
+    f[i] = plus(m, own_rate(m, r, i, y, k), shift_rate(m, b, m->form.unknown));
+    residual[i] = op(m, AMBIT_OP_SUB, m->form.unknown[i], f[i]);
   }
+  if (r->stages) kit_form_close(m, residual, f);
 }
 
 /* -- the solution */

@@ -15,7 +15,7 @@ typedef struct kit_block { /* of one state */
 } kit_block;
 
 typedef struct kit_random_system {
-  size_t nx;
+  size_t nx, stages; /* stages: of its implicit form; 0: it has none */
   double t0;
   kit_block block[KIT_STATES];
   kit_problem problem;

@@ -1,5 +1,8 @@
 /* The kit of solvers notices records whose dense enclosure or set is wrong: lohner's records, spoilt on their way. */
 #include "solver_case.h"
+#include "graph/hull.h"
+#include "graph/tape.h"
+#include "kit/solver_kit_random.h"
 #include <math.h>
 
 enum spoil {
@@ -100,7 +103,73 @@ static void what_is_spoilt_is_found(void **unused) {
   case_close(&c);
 }
 
+/* -- implicit forms */
+
+static ambit_interval at(kit_model *m, ambit_expr e, const double *x) {
+  ambit_failure f = { 0 };
+  ambit_arena *arena = ambit_arena_open();
+  const ambit_tape *tape;
+  ambit_expr in[KIT_STATES + KIT_DATA + 1];
+  ambit_interval value[KIT_STATES + KIT_DATA + 1], slot[4096], y;
+  size_t n = 0;
+  for (size_t i = 0; i < m->nx; i++, n++) in[n] = m->state[i], value[n] = (ambit_interval) { x[i], x[i] };
+  for (size_t j = 0; j < m->ndatum; j++, n++) in[n] = m->datum[j], value[n] = (ambit_interval) { 0.75, 0.75 };
+  in[n] = ambit_graph_time(m->graph), value[n++] = (ambit_interval) { 0.375, 0.375 };
+  assert_int_equal(ambit_tape_seal(m->graph, arena, 1, &e, n, in, 0, 0, &tape, &f), AMBIT_OK);
+  assert_true(tape->nslot <= 4096);
+  ambit_hull(tape, value, slot);
+  y = slot[tape->out[0]];
+  ambit_arena_close(arena);
+  return y;
+}
+
+static void expect_form(kit_model *m, const ambit_implicit_form *form) {
+  static const double x[KIT_STATES] = { 0.5, -1.25, 0.75, 1.5, -0.5, 0.25, -0.75, 1, 2, -2, 0.125, 0.875 };
+  ambit_failure f = { 0 };
+  ambit_expr all[2 * KIT_STATES];
+  memcpy(all, form->residual, m->nx * sizeof *all);
+  memcpy(all + m->nx, form->rate, m->nx * sizeof *all);
+  assert_int_equal(ambit_graph_substitute(m->graph, 2 * m->nx, all, m->nx, form->unknown, m->rate, &f), AMBIT_OK);
+  for (size_t i = 0; i < m->nx; i++) {
+    ambit_interval r = at(m, all[i], x);
+    assert_true(r.lo <= 0 && r.hi >= 0 && r.hi - r.lo < 1e-11);
+    ambit_interval a = at(m, all[m->nx + i], x), b = at(m, m->rate[i], x);
+    assert_true(a.lo <= b.hi && b.lo <= a.hi && a.hi - a.lo < 1e-11);
+  }
+}
+
+/* Their a is x', and solvers that take it are tried on it like all others. */
+static void implicit_forms_are_those_of_the_systems(void **unused) {
+  (void)unused;
+  size_t seen = 0;
+  for (size_t item = 0; item < 36; item++) {
+    kit_random_system r;
+    kit_model m;
+    ambit_failure f = { 0 };
+    ambit_arena *arena = ambit_arena_open();
+    kit_random_make(&r, 7, item);
+    kit_model_open(&m, &r.problem);
+    const ambit_implicit_form *form;
+    assert_int_equal(ambit_system_implicit(&m.system, &form, &f), AMBIT_OK);
+    assert_true((form != NULL) == (r.stages > 0));
+    if (form) expect_form(&m, form);
+    seen += form != NULL;
+    ambit_problem p;
+    const ambit_problem_request q = { .system = &m.system,
+      .initial = m.initial,
+      .ntime = r.problem.ntime,
+      .time = r.problem.time,
+      .want = AMBIT_WANT_IMPLICIT | AMBIT_WANT_INITIAL };
+    if (ambit_problem_build(&q, arena, &p, &f) != AMBIT_OK) fail_msg("%s: %s", r.name, f.message);
+    assert_true(p.implicit->na == (form ? m.nx : 0) && p.implicit->nstage == r.stages && !p.rhs);
+    kit_model_close(&m);
+    ambit_arena_close(arena);
+  }
+  assert_true(seen >= 18);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = { cmocka_unit_test(what_is_spoilt_is_found) };
+  const struct CMUnitTest tests[] = { cmocka_unit_test(what_is_spoilt_is_found),
+    cmocka_unit_test(implicit_forms_are_those_of_the_systems) };
   return cmocka_run_group_tests_name("solver kit", tests, NULL, NULL);
 }
