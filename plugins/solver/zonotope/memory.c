@@ -80,7 +80,8 @@ static int open_targets(zono *z) {
     return 0;
   find_links(z), find_order(z), find_slopes(z);
   size_t c = p->ntarget * (size_t)z->nslot, l = p->ntarget * na;
-  return doubles(h, c, &p->C) && doubles(h, c, &p->dC) && doubles(h, c, &p->weight) && doubles(h, l, &p->L) &&
+  return doubles(h, c, &p->C) && doubles(h, c, &p->dC) && doubles(h, c, &p->dC_new) && doubles(h, l, &p->dL_new) &&
+         doubles(h, l, &p->rho) && doubles(h, l, &p->close) && doubles(h, c, &p->weight) && doubles(h, l, &p->L) &&
          doubles(h, l, &p->dL) && doubles(h, l, &p->weight_L) && doubles(h, z->program.tape->nin, &p->input) &&
          sweep_open(z, &p->forms, z->shape.m + z->shape.nx + 1) && sweep_open(z, &p->points, 0);
 }
@@ -95,7 +96,7 @@ static int open_states(zono *z) {
     if (!doubles(h, square, matrix[n])) return 0;
   return doubles(h, nx, &p->zeta) && doubles(h, nx, &p->zeta_new) && doubles(h, z->na, &p->alpha) &&
          doubles(h, z->na, &p->alpha_new) && doubles(h, nx, &p->grow) && doubles(h, nx, &p->box) &&
-         doubles(h, nx, &p->spread) && doubles(h, nx, &p->unit) && doubles(h, 4 * nx + z->na, &p->work) &&
+         doubles(h, nx, &p->spread) && doubles(h, nx, &p->unit) && doubles(h, 4 * (nx + z->na), &p->work) &&
          doubles(h, columns * nx, &p->columns) && doubles(h, (z->ngen_max + nx) * (nx + 1), &p->turned) &&
          doubles(h, columns, &p->score) && doubles(h, columns, &p->sorted);
 }

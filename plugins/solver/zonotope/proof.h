@@ -38,13 +38,14 @@ typedef struct proof {
   uint32_t *slope_at;            /* [nslot] its first derivative form, or AMBIT_NO_SLOT */
   uint32_t *order;               /* [na] unknowns in the order of elimination */
   uint32_t ntarget, nslope;
-  uint32_t *target_out;          /* [ntarget - na] the x' that target na + n is */
-  uint32_t *link;                /* [nx] kind of x'_i: enum link */
-  uint32_t *link_to;             /* [nx] the state, unknown or target */
-  sweeps forms, points;          /* over the set and the step; at its centre and start */
-  double *C, *dC;                /* [ntarget x nslot] coefficients of lumps in targets: middle, half width */
-  double *L, *dL;                /* [ntarget x na] of the lumps of the equations */
-  double *J, *dJ;                /* [nx x nx] */
+  uint32_t *target_out;                  /* [ntarget - na] the x' that target na + n is */
+  uint32_t *link;                        /* [nx] kind of x'_i: enum link */
+  uint32_t *link_to;                     /* [nx] the state, unknown or target */
+  sweeps forms, points;                  /* over the set and the step; at its centre and start */
+  double *C, *dC;                        /* [ntarget x nslot] coefficients of lumps in targets: middle, half width */
+  double *dC_new, *dL_new, *rho, *close; /* while they are made */
+  double *L, *dL;                        /* [ntarget x na] of the lumps of the equations */
+  double *J, *dJ;                        /* [nx x nx] */
   double *weight;                /* [ntarget x nslot] C at the centre and the start: for the length of the step */
   double *weight_L;              /* [ntarget x na] */
   double *zeta, *zeta_new;       /* [nx] bound of |z| over the step */
@@ -76,6 +77,8 @@ int defect_evaluate(zono *z, double length); /* z->r, z->rr_out, high, low over 
 int sweep_open(zono *z, sweeps *w, uint32_t sigmas);
 int sweep_coefficients(zono *z); /* C, L, J of proof from forms over [0, h] */
 int sweep_weights(zono *z);      /* weight, weight_L: at the centre and the start */
+/* inverse.c: w->lambda from w->matrix; 0: a pivot is 0 */
+int inverse_find(zono *z, const sweeps *w);
 /* slope.c: forms of slots and of derivatives */
 int slope_forms(zono *z, const sweeps *w, double h);
 /* set.c, dense.c; 0: no memory */

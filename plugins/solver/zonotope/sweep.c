@@ -1,11 +1,15 @@
 /* sweep.c -- coefficients of the error equation, by reverse sweeps in linear forms.
 **
-** 0 = W_x z + W_a alpha + sum_j W_j theta_j + V_R,  W the adjoints of the equations R. One sweep from each equation,
-** through slots that depend on a only, gives W_a; its factors (eliminated in the order of pivots, no exchange) give the
-** rows of -W_a^-1. A sweep that is seeded with such a row on all equations, and with 1 on an x'_i, gives the
-** coefficients of all lumps and of z in this target: what cancels between equations cancels in the sweep.
+** 0 = W_x z + W_a alpha + sum_j W_j theta_j + V_R,  W the adjoints of the equations R. inverse.c finds forms near the rows
+** of -W_a^-1. A sweep that is seeded with such a row on all equations, and with 1 on an x'_i, gives coefficients C of all
+** lumps and of z in this target: what cancels between equations cancels in the sweep. What it leaves at the unknowns a is
+** by how much the row fails, rho; the true coefficients are C + rho C_a (close_rows), C_a those of the unknowns.
 */
 #include "proof.h"
+
+#define TURNS 12
+#define POWERS 6
+#define MOST_RHO 0.9
 
 static double *adjoint(const sweeps *w, uint32_t slot) { return proof_form(w, w->adjoint, slot); }
 static double *entry(const zono *z, const sweeps *w, double *matrix, uint32_t i, uint32_t j) {
@@ -94,6 +98,7 @@ static void seed_one(const sweeps *w, uint32_t slot) {
 
 /* -- the equations */
 
+/* dR/da, in the order of elimination; only centres and linear parts are used */
 static void fill_matrix(const zono *z, const sweeps *w) {
   for (uint32_t r = 0; r < z->na; r++) {
     clear(z, w);
@@ -101,63 +106,6 @@ static void fill_matrix(const zono *z, const sweeps *w) {
     sweep_back(z, w, 1);
     for (uint32_t c = 0; c < z->na; c++)
       memcpy(entry(z, w, w->matrix, r, c), adjoint(w, slot_a(z, z->proof->order[c])), w->forms.stride * sizeof(double));
-  }
-}
-
-static int factor(zono *z, const sweeps *w) {
-  const forms *f = &w->forms;
-  uint32_t n = z->na;
-  for (uint32_t p = 0; p < n; p++) {
-    double *inverse = proof_form(w, w->pivot, p), *l = proof_form(w, w->scratch, 0);
-    if (!form_inverse(f, inverse, entry(z, w, w->matrix, p, p), 0))
-      return z->why = WHY_PIVOT, z->culprit = z->proof->order[p], 0;
-    for (uint32_t i = p + 1; i < n; i++) {
-      double *left = entry(z, w, w->matrix, i, p);
-      if (!form_seen(f, left)) continue;
-      form_clear(f, l), form_product(f, l, 1, left, inverse), form_close(f, l);
-      memcpy(left, l, f->stride * sizeof *l);
-      for (uint32_t j = p + 1; j < n; j++) {
-        const double *up = entry(z, w, w->matrix, p, j);
-        double *to = entry(z, w, w->matrix, i, j);
-        if (form_seen(f, up)) form_product(f, to, -1, left, up), form_close(f, to);
-      }
-    }
-  }
-  return 1;
-}
-
-/* x L U = b, b in x [na forms, in the order of elimination] */
-static void solve_left(const zono *z, const sweeps *w, double *x) {
-  const forms *f = &w->forms;
-  double *y = proof_form(w, w->scratch, 0);
-  uint32_t n = z->na;
-  for (uint32_t j = 0; j < n; j++) {
-    double *xj = proof_form(w, x, j);
-    for (uint32_t i = 0; i < j; i++)
-      if (form_seen(f, proof_form(w, x, i)) && form_seen(f, entry(z, w, w->matrix, i, j)))
-        form_product(f, xj, -1, proof_form(w, x, i), entry(z, w, w->matrix, i, j));
-    if (!form_seen(f, xj)) continue;
-    form_close(f, xj);
-    form_clear(f, y), form_product(f, y, 1, xj, proof_form(w, w->pivot, j)), form_close(f, y);
-    memcpy(xj, y, f->stride * sizeof *y);
-  }
-  for (uint32_t j = n; j-- > 0;) {
-    double *xj = proof_form(w, x, j);
-    for (uint32_t i = j + 1; i < n; i++)
-      if (form_seen(f, proof_form(w, x, i)) && form_seen(f, entry(z, w, w->matrix, i, j)))
-        form_product(f, xj, -1, proof_form(w, x, i), entry(z, w, w->matrix, i, j));
-    if (form_seen(f, xj)) form_close(f, xj);
-  }
-}
-
-/* row k of lambda: -(row of W_a^-1 for unknown k), by place in the order of elimination */
-static void find_lambda(const zono *z, const sweeps *w) {
-  for (uint32_t p = 0; p < z->na; p++) {
-    double *row = entry(z, w, w->lambda, z->proof->order[p], 0), *one = proof_form(w, row, p);
-    memset(row, 0, (size_t)z->na * w->forms.stride * sizeof(double));
-    form_constant(&w->forms, one, -1);
-    form_close(&w->forms, one);
-    solve_left(z, w, row);
   }
 }
 
@@ -181,7 +129,7 @@ static double *find_seeds(const zono *z, const sweeps *w, uint32_t n) {
       const double *by = adjoint(w, slot_a(z, k)), *row = entry(z, w, w->lambda, k, q);
       if (form_seen(f, by) && form_seen(f, row)) form_product(f, to, 1, by, row);
     }
-    if (form_seen(f, to)) form_close(f, to);
+    if (form_seen(f, to)) form_close(f, to), *form_rad(f, to) = 0; /* any function near it will do */
   }
   return seeds;
 }
@@ -190,35 +138,42 @@ static double varies(const sweeps *w, const double *x) {
   return form_seen(&w->forms, x) ? form_moving(&w->forms, x) * ABOVE + LEAST : 0;
 }
 
-/* target n: C [nslot] and L [na], by equation, are the centres, dC and dL (or NULL) the half widths */
-static void sweep_target(const zono *z, const sweeps *w, uint32_t n, double *C, double *dC, double *L, double *dL) {
+/* coefficients of targets: centres and (or NULL) half widths */
+typedef struct coefficients {
+  double *C, *dC, *L, *dL, *rho;
+} coefficients;
+
+/* target n: C [nslot] and L [na], by equation, and rho [na], by unknown */
+static void sweep_target(const zono *z, const sweeps *w, uint32_t n, const coefficients *k) {
   const forms *f = &w->forms;
+  size_t at = (size_t)n * z->nslot, row = (size_t)n * z->na;
   double *seeds = find_seeds(z, w, n);
   clear(z, w);
   if (n >= z->na) seed_one(w, slot_out(z)[z->proof->target_out[n - z->na]]);
   for (uint32_t q = 0; q < z->na; q++) {
-    const double *x = proof_form(w, seeds, q);
+    double *x = proof_form(w, seeds, q);
     uint32_t equation = z->proof->order[q];
-    L[equation] = x[0];
-    if (dL) dL[equation] = varies(w, x);
+    k->L[row + equation] = x[0];
+    if (k->dL) k->dL[row + equation] = varies(w, x);
     if (form_seen(f, x)) form_add(f, adjoint(w, slot_out(z)[z->nx + equation]), 1, x);
   }
   sweep_back(z, w, 0);
   for (uint32_t j = 0; j < z->nslot; j++) {
     const double *x = adjoint(w, j);
-    C[j] = x[0];
-    if (dC) dC[j] = varies(w, x);
+    k->C[at + j] = x[0];
+    if (k->dC) k->dC[at + j] = varies(w, x);
+  }
+  for (uint32_t c = 0; k->rho && c < z->na; c++) {
+    const double *x = adjoint(w, slot_a(z, c));
+    k->rho[row + c] = (fabs(x[0] + (c == n)) + form_moving(f, x)) * ABOVE + 2 * UNIT;
   }
 }
 
-static int sweep(zono *z, const sweeps *w, double h, double *C, double *dC, double *L, double *dL) {
+static int sweep(zono *z, const sweeps *w, double h, const coefficients *k) {
   if (!slope_forms(z, w, h)) return 0;
   fill_matrix(z, w);
-  if (!factor(z, w)) return 0;
-  find_lambda(z, w);
-  for (uint32_t n = 0; n < z->proof->ntarget; n++)
-    sweep_target(z, w, n, C + (size_t)n * z->nslot, dC ? dC + (size_t)n * z->nslot : NULL, L + (size_t)n * z->na,
-        dL ? dL + (size_t)n * z->na : NULL);
+  if (!inverse_find(z, w)) return 0;
+  for (uint32_t n = 0; n < z->proof->ntarget; n++) sweep_target(z, w, n, k);
   return 1;
 }
 
@@ -238,11 +193,86 @@ static void read_slope(zono *z, uint32_t i) {
   memcpy(dJ, p->dC + at, z->nx * sizeof *dJ);
 }
 
+/* close := rho (I + rho + rho^2 + ...): powers, and the rest by the norm `most` in units of `unit` */
+static int close_series(const zono *z, const double *unit, double most) {
+  proof *p = z->proof;
+  uint32_t n = z->na;
+  size_t row = n * sizeof(double);
+  double *now = p->work + 2 * (size_t)n, *next = now + n;
+  for (uint32_t t = 0; t < p->ntarget; t++) {
+    double *sum = p->close + (size_t)t * n, size = 0;
+    memcpy(now, p->rho + (size_t)t * n, row), memcpy(sum, now, row);
+    for (int power = 0; power < POWERS; power++) {
+      memset(next, 0, row);
+      for (uint32_t i = 0; i < n; i++)
+        for (uint32_t j = 0; j < n; j++) next[j] += now[i] * p->rho[(size_t)i * n + j];
+      for (uint32_t j = 0; j < n; j++) sum[j] += next[j];
+      memcpy(now, next, row);
+    }
+    for (uint32_t i = 0; i < n; i++) size += now[i] * unit[i];
+    size *= most / (1 - most) * ABOVE;
+    for (uint32_t j = 0; j < n; j++) sum[j] = (sum[j] + size / unit[j]) * ABOVE;
+  }
+  return 1;
+}
+
+/* (I - rho)^-1 <= sum of powers of rho: p->close := rho (I - rho)^-1 for all targets; 0: rho is not small */
+static int close_rows(zono *z) {
+  proof *p = z->proof;
+  uint32_t n = z->na;
+  double *unit = p->work, *next = p->work + n, worst = 0;
+  for (uint32_t k = 0; k < n; k++) unit[k] = 1;
+  for (int turn = 0; turn < TURNS; turn++) {
+    double most = 0;
+    for (uint32_t i = 0; i < n; i++) {
+      next[i] = 1e-3 * unit[i];
+      for (uint32_t j = 0; j < n; j++) next[i] += p->rho[(size_t)i * n + j] * unit[j];
+      most = fmax(most, next[i]);
+    }
+    for (uint32_t i = 0; i < n; i++) unit[i] = fmax(next[i] / most, 1e-100);
+  }
+  for (uint32_t i = 0; i < n; i++) {
+    double sum = 0;
+    for (uint32_t j = 0; j < n; j++) sum += p->rho[(size_t)i * n + j] * unit[j];
+    if (!(sum / unit[i] <= worst)) worst = sum / unit[i], z->culprit = i;
+  }
+  if (!(worst * ABOVE < MOST_RHO)) return z->why = WHY_PIVOT, 0;
+  return close_series(z, unit, worst * ABOVE);
+}
+
+/* |true C - C| <= close |C_a|, for all lumps and for z */
+static void add_rest(zono *z) {
+  proof *p = z->proof;
+  uint32_t n = z->na;
+  for (uint32_t t = p->ntarget; t-- > 0;) { /* unknowns last: others use their coefficients */
+    const double *by = p->close + (size_t)t * n;
+    for (uint32_t k = 0; k < n; k++) {
+      const double *C = p->C + (size_t)k * z->nslot, *dC = p->dC + (size_t)k * z->nslot;
+      double *to = p->dC_new + (size_t)t * z->nslot;
+      if (k == 0) memcpy(to, p->dC + (size_t)t * z->nslot, z->nslot * sizeof *to);
+      for (uint32_t j = 0; j < z->nslot; j++) to[j] += by[k] * (fabs(C[j]) + dC[j]) * ABOVE;
+      const double *L = p->L + (size_t)k * n, *dL = p->dL + (size_t)k * n;
+      double *left = p->dL_new + (size_t)t * n;
+      if (k == 0) memcpy(left, p->dL + (size_t)t * n, n * sizeof *left);
+      for (uint32_t q = 0; q < n; q++) left[q] += by[k] * (fabs(L[q]) + dL[q]) * ABOVE;
+    }
+  }
+  if (!n) return;
+  double *old = p->dC;
+  p->dC = p->dC_new, p->dC_new = old;
+  old = p->dL, p->dL = p->dL_new, p->dL_new = old;
+}
+
 int sweep_coefficients(zono *z) {
   proof *p = z->proof;
-  if (!sweep(z, &p->forms, z->h, p->C, p->dC, p->L, p->dL)) return 0;
+  coefficients k = { p->C, p->dC, p->L, p->dL, p->rho };
+  if (!sweep(z, &p->forms, z->h, &k) || !close_rows(z)) return 0;
+  add_rest(z);
   for (uint32_t i = 0; i < z->nx; i++) read_slope(z, i);
   return 1;
 }
 
-int sweep_weights(zono *z) { return sweep(z, &z->proof->points, 0, z->proof->weight, NULL, z->proof->weight_L, NULL); }
+int sweep_weights(zono *z) {
+  coefficients k = { z->proof->weight, NULL, z->proof->weight_L, NULL, NULL };
+  return sweep(z, &z->proof->points, 0, &k);
+}
