@@ -33,6 +33,7 @@ typedef struct ambit_lua {
   double deadline;               /* when runs are stopped, s of CPU time of this process; 0: never */
   const char *text_mode;         /* "ambit", "watched", "lua": whose is arithmetic on texts (text.c); NULL: Lua's */
   char text_rounded[80];         /* "scene.lua:12: " where Lua's arithmetic rounded a text (text.c), or "" */
+  bool text_wrapped;             /* a whole number of texts is known modulo 2^64 only */
   int depth;                     /* functions of the core that are running, at least; an error leaves it too large */
   ambit_holder holder;           /* of `boxes`, all expressions of this Lua state */
   struct ambit_lua_box *boxes;

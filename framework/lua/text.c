@@ -4,7 +4,7 @@
 ** operators: what they make of texts are expressions. A host's Lua state keeps Lua's results (`require "ambit"` alone
 ** must not change a program); but where one is not exactly what the texts say, this is remembered, and from then on
 ** numbers of the host that may be such results are refused (value.c) until the host has said by text_arithmetic which
-** arithmetic it means. Proof that nothing else is refused or let through: docs/soundness.md.
+** arithmetic it means: those with a point, and whole ones too once one of them has wrapped around. Proof that nothing else is refused or let through: docs/soundness.md.
 */
 #include "lua/core.h"
 #include "num/decimal.h"
@@ -83,19 +83,50 @@ static ambit_interval enclose(int lua_op, ambit_interval a, ambit_interval b) {
   }
 }
 
+/* The whole number of an operand. False: Lua reads another one than the text says, since hexadecimal digits wrap. */
+static bool read_whole(lua_State *L, int idx, lua_Integer *n) {
+  *n = lua_tointeger(L, idx); /* 0 if it is none: then the result is none either */
+  if (lua_type(L, idx) != LUA_TSTRING) return true;
+  const char *text = lua_tostring(L, idx);
+  while (isspace((unsigned char)*text)) text++;
+  if (*text == '-' || *text == '+') text++;
+  if (text[0] != '0' || (text[1] != 'x' && text[1] != 'X')) return true;
+  text += 2;
+  while (*text == '0') text++;
+  size_t digits = strspn(text, "0123456789abcdefABCDEF");
+  return digits < 16 || (digits == 16 && *text < '8');
+}
+
+/* Of whole numbers: Lua calculates modulo 2^64. */
+static bool wraps(lua_State *L, int lua_op) {
+  lua_Integer a, b, result;
+  if (!read_whole(L, 1, &a) || !read_whole(L, 2, &b)) return true;
+  switch (lua_op) {
+  case LUA_OPADD: return __builtin_add_overflow(a, b, &result);
+  case LUA_OPSUB: return __builtin_sub_overflow(a, b, &result);
+  case LUA_OPMUL: return __builtin_mul_overflow(a, b, &result);
+  case LUA_OPUNM: return __builtin_sub_overflow(0, a, &result);
+  case LUA_OPIDIV: return a == LUA_MININTEGER && b == -1;
+  default: return false;
+  }
+}
+
 /* As Lua does; upvalue 2: Lua's own metamethod. */
 static int observe(lua_State *L) {
   int k = (int)lua_tointeger(L, AMBIT_LUA_OWN(1));
   lua_settop(L, 2);
   bool plain = is_plain(L, 1) && is_plain(L, 2);
   ambit_interval exact = plain ? enclose(operators[k].lua_op, said(L, 1), said(L, 2)) : AMBIT_EMPTY;
+  bool wrapped = plain && wraps(L, operators[k].lua_op);
   lua_pushvalue(L, AMBIT_LUA_OWN(2));
   lua_insert(L, 1);
   lua_call(L, 2, 1);
-  if (!plain || lua_isinteger(L, -1)) return 1;
+  if (!plain) return 1;
+  bool whole = lua_isinteger(L, -1);
   double x = lua_tonumber(L, -1);
-  if (exact.lo == x && exact.hi == x) return 1;
+  if (whole ? !wrapped : exact.lo == x && exact.hi == x) return 1;
   ambit_lua *core = AMBIT_LUA(L);
+  core->text_wrapped = core->text_wrapped || whole;
   if (!core->text_rounded[0]) {
     ambit_lua_where(L);
     snprintf(core->text_rounded, sizeof core->text_rounded, "%s", lua_tostring(L, -1));
@@ -146,6 +177,7 @@ static int text_arithmetic(lua_State *L) {
     lua_setfield(L, 1, operators[k].event);
   }
   core->text_rounded[0] = '\0';
+  core->text_wrapped = false;
   core->text_mode = modes[mode];
   lua_pushstring(L, before ? before : "lua");
   return 1;

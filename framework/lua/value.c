@@ -67,10 +67,11 @@ static const char *type_name(lua_State *L, int idx) {
   return luaL_getmetafield(L, idx, "__name") == LUA_TSTRING ? lua_tostring(L, -1) : luaL_typename(L, idx);
 }
 
-/* In a host's Lua state, once Lua has rounded a text, any number with a point may be what came of it (text.c). */
+/* In a host's Lua state, once Lua has rounded a text, any number with a point may be what came of it, and any whole one
+** if that wrapped around (text.c). */
 void ambit_lua_check_number(lua_State *L, int idx, const char *what) {
   const char *where = AMBIT_LUA(L)->text_rounded;
-  if (!where[0] || lua_isinteger(L, idx)) return;
+  if (!where[0] || (lua_isinteger(L, idx) && !AMBIT_LUA(L)->text_wrapped)) return;
   char message[AMBIT_MESSAGE_MAX];
   snprintf(message, sizeof message,
       "%sLua calculated with a text there and rounded it, so that this number may not be what the scene says. "
@@ -83,6 +84,7 @@ void ambit_lua_check_number(lua_State *L, int idx, const char *what) {
 static ambit_expr number_expression(lua_State *L, int idx, const char *what) {
   ambit_graph *g = AMBIT_LUA(L)->graph;
   double x = lua_tonumber(L, idx);
+  ambit_lua_check_number(L, idx, what);
   if (lua_isinteger(L, idx) && (lua_Number)(lua_Integer)x != (lua_Number)INFINITY) {
     lua_Integer n = lua_tointeger(L, idx);
     if (n > 9007199254740992LL || n < -9007199254740992LL) {
@@ -91,7 +93,6 @@ static ambit_expr number_expression(lua_State *L, int idx, const char *what) {
       return ambit_graph_decimal(g, text, NULL);
     }
   }
-  ambit_lua_check_number(L, idx, what);
   if (!isfinite(x)) wrong(L, what, isnan(x) ? "the number is NaN" : "the number is infinite");
   return ambit_graph_number(g, x);
 }

@@ -102,6 +102,28 @@ describe("arithmetic on texts in a host's Lua", function()
       print(ambit.interval("1" / "4"):text(), ambit.interval("4" - 2):text(2)) ]]:gsub("\t", " "), nil)
   end)
 
+  it("that wrapped around are refused until somebody has said what is meant, whole numbers too", function()
+    for _, wrong in ipairs { '"4294967296" * "4294967296"', '"9223372036854775807" + 1', '-2 - "9223372036854775807"',
+      '-"-9223372036854775808"', '"-9223372036854775808" // -1', '"0xffffffffffffffff" + 0',
+      '"0x1" * " -0X10000000000000000"' } do
+      local text = stock(([[
+        local ambit = require "ambit"
+        local x = %s
+        print(select(2, pcall(ambit.number, x)))
+        print((pcall(function() return ambit.number "1" + x end)))
+        local still = ambit.ode { states = { "x" }, equations = function(s) return { x = s.x } end }
+        print((pcall(ambit.simulate, { still, initial = { x = "1" }, t = { "0", x } })))
+        ambit.text_arithmetic(false)
+        print((pcall(ambit.number, x))) ]]):format(wrong))
+      assert.is_truthy(text:find ":2: Lua calculated with a text", wrong .. text)
+      assert.equal("false\nfalse\ntrue\n", text:match "\n(.*)$", wrong .. text)
+    end
+    assert.equal("true\n", stock [[
+      local ambit = require "ambit"
+      local x = ("3037000499" * "3037000499" + "0x7fffffffffffffff" // "0x10") % "-7" - -"5"
+      print((pcall(ambit.number, x))) ]])
+  end)
+
   it("that are rounded are refused until somebody has said what is meant", function()
     local text = stock [[
       local ambit = require "ambit"
