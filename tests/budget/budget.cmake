@@ -13,6 +13,8 @@ if(NOT AMBIT_SANITIZE) # sanitizers have a heap of their own
 endif()
 add_test(NAME budget.collect COMMAND ${LUA_PROGRAM} tests/budget/collect.lua $<TARGET_FILE:ambit>
   WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
-set_tests_properties(budget budget.notices budget.collect PROPERTIES TIMEOUT 600 ENVIRONMENT "${budget_environment}")
+add_test(NAME budget.place COMMAND ${LUA_PROGRAM} tests/budget/place.lua $<TARGET_FILE:ambit>
+  WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+set_tests_properties(budget budget.notices budget.collect budget.place PROPERTIES TIMEOUT 600 ENVIRONMENT "${budget_environment}")
 add_custom_target(budget COMMAND ${CMAKE_COMMAND} -E env ${budget_environment}
   ${LUA_PROGRAM} tests/budget/check.lua $<TARGET_FILE:ambit> --rewrite WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} VERBATIM)
