@@ -110,6 +110,14 @@ static int around(lua_State *L) {
   return 1;
 }
 
+/* tight(constant expression) -> the number that it is, to a few units in the last place */
+static int tight(lua_State *L) {
+  ambit_lua *core = AMBIT_LUA(L);
+  ambit_lua_expression c = ambit_lua_to_expression(L, 1, NULL, "tight");
+  ambit_lua_push_enclosure(L, ambit_tight(core->graph, core->registry, c.e), 0);
+  return 1;
+}
+
 /* between(lo, hi [, name]) */
 static int between(lua_State *L) {
   ambit_lua_expression lo = ambit_lua_to_expression(L, 1, NULL, "between"),
@@ -169,6 +177,6 @@ static int interval(lua_State *L) {
 
 void ambit_lua_open_data(lua_State *L, ambit_lua *core) {
   static const luaL_Reg functions[] = { { "around", around }, { "between", between }, { "interval", interval },
-    { NULL, NULL } };
+    { "tight", tight }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
 }

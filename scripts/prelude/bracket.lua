@@ -1,9 +1,11 @@
 -- bracket.lua -- where the states of a run are at an instant of which only a bracket is known: at all times of it.
 --
 -- What a solver says of the steps that the bracket meets is one enclosure. If one of them ends within the bracket, at m
--- with the states in x, they are also in x + (bracket - m) f(X), the flow over the last ulp, where X holds the states for
--- all of it. Proof: docs/numerics/instants.md.
+-- with the states in x, they are also in x + s f(X), the flow over the last ulp, where X holds the states for all of it
+-- and s is how far the instant lies behind m: a number that is known much better than the bracket. Proof:
+-- docs/numerics/instants.md.
 local core = require "ambit.core"
+local instant = require "ambit.instant"
 
 local bracket = {}
 
@@ -54,28 +56,30 @@ local function times_span(rates, span)
   return rates and way
 end
 
--- A box about `start` that the solutions do not leave in this short a time, as the way from `start` stays inside it:
--- Picard's argument; nil: this one does not show it.
-local function way_by_box(run, start, times, span)
+-- The rates in a box about `start` that the solutions do not leave in this short a time, as the way from `start` stays
+-- inside it: Picard's argument; nil: this one does not show it.
+local function rates_in_box(run, start, times, span)
   local guess, box = times_span(rates_over(run, start, times), span), {}
   for k, x in ipairs(guess and start or {}) do
     local r = 2 * guess[k]:mag() + 0x1p-54 * x:mag() + 0x1p-1000
     box[k] = x + core.interval(-r, r)
   end
-  local way = guess and times_span(rates_over(run, box, times), span)
+  local rates = guess and rates_over(run, box, times)
+  local way = times_span(rates, span)
   for k, x in ipairs(way and start or {}) do
     local reached = x + way[k]
     if not (reached.lo > box[k].lo and reached.hi < box[k].hi) then return nil end
   end
-  return way
+  return rates
 end
 
--- How far the states, which are in `start` at m, move from there to any time from `from` to `to`; nil: not known. list:
--- where they are all the time, as far as the solver says.
-local function moved(run, start, list, from, to, m)
+-- How far the states, which are in `start` at m, move from there to t, or to any time from `from` to `to` if t is nil;
+-- nil: not known. list: where they are all the time, as far as the solver says.
+local function moved(run, start, list, from, to, m, t)
   local times = core.interval(math.min(from, to), math.max(from, to))
-  local span = times - core.interval(m)
-  return way_by_box(run, start, times, span) or list and times_span(rates_over(run, list, times), span)
+  local span, exact = times - core.interval(m), t and instant.behind(t, m, run.times[1])
+  local rates = rates_in_box(run, start, times, span) or list and rates_over(run, list, times)
+  return times_span(rates, exact and exact:intersect(span) or span)
 end
 
 local function ends_of(run, i)
@@ -104,8 +108,8 @@ local function first_step(run, from)
 end
 
 -- { enclosure of each state }, or nil; from, to: on the clock, within the run, in its direction; m: in between, where
--- the solver was asked to end a step.
-function bracket.values(run, from, to, m)
+-- the solver was asked to end a step; t: the instant whose bracket that is, nil: all times of it are meant.
+function bracket.values(run, from, to, m, t)
   local start
   for _, t in ipairs { m, from, to } do
     start = known_at(run, t)
@@ -115,7 +119,7 @@ function bracket.values(run, from, to, m)
   if not run.rigorous and start then return start end
   local first = first_step(run, from)
   local list = first and hull(run, first, from, to)
-  local way = start and moved(run, start, list, from, to, m)
+  local way = start and moved(run, start, list, from, to, m, t)
   if not way then return list end
   for k, x in ipairs(start) do
     local reached = x + way[k]
@@ -124,11 +128,12 @@ function bracket.values(run, from, to, m)
   return start
 end
 
--- How far the states may move from the end of the run, `to`, back to a time of the bracket; nil: not known.
-function bracket.moved(run, from, to)
+-- How far the states may move from the end of the run, `to`, back to t, of which `from` is the bracket's first end; nil:
+-- not known.
+function bracket.moved(run, from, to, t)
   local start = run.rigorous and known_at(run, to)
   local first = start and first_step(run, from)
-  return start and moved(run, start, first and hull(run, first, from, to), from, to, to)
+  return start and moved(run, start, first and hull(run, first, from, to), from, to, to, t)
 end
 
 return bracket

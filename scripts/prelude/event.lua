@@ -82,20 +82,22 @@ local reasons = {
 }
 
 -- What was found of an event, as a user sees it.
-local function result_of(found, list, states, shift)
+local function result_of(found, list, states, times)
   local x = {}
   for i, name in ipairs(states) do x[name] = found.x[i] end
-  local reason = reasons[found.outcome] or not found.rigorous and "the solver proves nothing" or nil
+  local reason = reasons[found.outcome] or not found.rigorous and "the solver proves nothing"
+    or instant.is_behind(times, found.t) and "it may lie behind the end, which is no double" or nil
   return { index = found.event, name = list[found.event].name,
-    t = instant.of_clock(found.t, shift), x = x, certain = reason == nil,
+    t = instant.of_clock(found.t, times.shift), x = x, certain = reason == nil,
     reason = reason, direction = names_of_direction[found.direction] }
 end
 
--- The found events, the one that ended the run (or nil), and whether there were too many.
-function event.read(watch, list, states, shift)
+-- The found events, the one that ended the run (or nil), and whether there were too many. times: of the run, or nil if
+-- they are doubles.
+function event.read(watch, list, states, times)
   local found, by, is_full = core.events_found(watch)
   local results = {}
-  for i, f in ipairs(found) do results[i] = result_of(f, list, states, shift) end
+  for i, f in ipairs(found) do results[i] = result_of(f, list, states, times or {}) end
   return results, by and results[by], is_full and ROOM
 end
 
@@ -110,7 +112,7 @@ end
 
 function event.finish(q, facts)
   if not q.events then return end
-  local results, last, most = event.read(q.watch, q.events, q.system.states, q.times.shift)
+  local results, last, most = event.read(q.watch, q.events, q.system.states, q.times)
   facts.events = results
   if most then
     facts.status, facts.code, facts.reason = "unable", "unable.events-max", ("there are more than %d events"):format(most)

@@ -17,8 +17,11 @@ local function enclose(value, what)
 end
 
 -- { lo, hi, near, value }: a bracket, the double in it that a solver steps on, and what was said; value nil: it is the
--- double lo = hi = near
-function instant.read(value, what)
+-- double lo = hi = near. is_set: an enclosure is allowed, and stands for all its times.
+function instant.read(value, what, is_set)
+  if is_set and check.kind(value) == "enclosure" and value:is_bounded() and value.lo < value.hi then
+    return { lo = value.lo, hi = value.hi, near = value:mid(), set = value }
+  end
   if type(value) ~= "number" then
     local x = enclose(value, what)
     if not x:is_bounded() then check.fail("%s: the time must be finite, got %s", what, tostring(value)) end
@@ -46,11 +49,20 @@ end
 -- Exactly.
 function instant.expression(t) return core.expression(t.value or t.lo, "s") end
 
--- On the clock of what was started with this shift.
-function instant.on_clock(t, shift)
-  if not shift then return t end
-  local x = core.interval(instant.expression(t) - shift)
-  return { lo = x.lo, hi = x.hi, near = x:mid(), value = t.value }
+-- On the clock of what was started with these times.
+function instant.on_clock(t, times)
+  if not times.shift then return t end
+  local start = instant.expression(times.start)
+  local x = times[1] + (t.set and t.set - core.interval(start) or core.tight(instant.expression(t) - start))
+  return { lo = x.lo, hi = x.hi, near = x:mid(), set = t.set, said = t, shift = times.shift }
+end
+
+-- How far t, on a clock, lies behind m, which its clock shows: enclosed to a few units in the last place of that; nil:
+-- the bracket is all that is known, or as good for a run that started at `start`.
+function instant.behind(t, m, start)
+  if t.set or t.hi - t.lo <= 0x1p-51 * math.abs(t.near - start) then return nil end
+  local e = instant.expression(t.said or t) - core.expression(m)
+  return core.tight(t.shift and e - t.shift or e)
 end
 
 -- The time, an enclosure, at which the clock shows t, an enclosure or a number; as it is without a shift.
@@ -59,10 +71,11 @@ function instant.of_clock(t, shift)
   return (type(t) == "number" and core.interval(t) or t) + core.interval(shift)
 end
 
--- Is a surely in front of b, in the direction?
-local function is_before(a, b, forward)
-  if forward then return a.lo < b.hi end
-  return a.hi > b.lo
+-- 1: b is surely later than a, -1: earlier, 0: neither is known
+local function order(a, b)
+  if a.hi < b.lo then return 1 elseif a.lo > b.hi then return -1 end
+  local way = core.tight(instant.expression(b) - instant.expression(a))
+  return way.lo > 0 and 1 or way.hi < 0 and -1 or 0
 end
 
 -- Are they surely the same?
@@ -83,18 +96,17 @@ end
 
 local function check_order(list, what)
   local first, last = list[1], list[#list]
-  local forward = last.lo > first.hi
-  if not forward and not (last.hi < first.lo) then
-    check.fail("%s: the horizon is zero%s: start and end are both %s", what,
-      instant.is_same(first, last) and "" or ", or less than the spacing of doubles", instant.text(last))
+  local direction = order(first, last)
+  if direction == 0 then
+    check.fail("%s: the horizon is zero: start and end are both %s", what, instant.text(last))
   end
   for i = 2, #list do
-    if instant.is_same(list[i - 1], list[i]) or not is_before(list[i - 1], list[i], forward) then
+    if order(list[i - 1], list[i]) ~= direction then
       check.fail("%s: the times must go one way, but %s follows %s", what, instant.text(list[i]),
         instant.text(list[i - 1]))
     end
   end
-  return forward
+  return direction == 1
 end
 
 -- Doubles as numbers, others as they were said.
@@ -120,14 +132,21 @@ function instant.list(t, what)
   local function add(double)
     if (double > times[#times]) == forward and double ~= times[#times] then times[#times + 1] = double end
   end
-  for i = 2, #list - 1 do add(instant.on_clock(list[i], times.shift).near) end
-  local final = instant.on_clock(list[#list], times.shift)
-  add(forward and final.lo or final.hi)
+  for i = 2, #list - 1 do add(instant.on_clock(list[i], times).near) end
+  local final = instant.on_clock(list[#list], times)
   if final.lo < final.hi then
+    add(forward and final.lo or final.hi)
     times.last, times.final = times[#times], final
-    add(forward and final.hi or final.lo)
   end
+  add(forward and final.hi or final.lo)
   return times
+end
+
+-- May times on the clock, an enclosure, lie behind the end, which is known by a bracket?
+function instant.is_behind(times, x)
+  if not times.final then return false end
+  if times[#times] > times[1] then return x.hi > times.final.lo end
+  return x.lo < times.final.hi
 end
 
 -- Another list of doubles for the same horizon.

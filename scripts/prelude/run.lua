@@ -82,15 +82,6 @@ local function by_name(self, list)
   return strict(values, self.states)
 end
 
--- At an instant with a bracket on the clock.
-local function at_bracket(self, t, given)
-  local first, last = self.times[1], self.t_reached
-  local forward = last >= first
-  if t.lo < math.min(first, last) or t.hi > math.max(first, last) then not_within(self, given or t) end
-  local list = bracket.values(self, forward and t.lo or t.hi, forward and t.hi or t.lo, t.near)
-  return list and by_name(self, list)
-end
-
 local function at_double(self, t)
   if t.lo == self.times[1] then return strict(self.initial(), self.states) end
   local i, is_end = core.track_find(self.track, t.lo)
@@ -99,11 +90,24 @@ local function at_double(self, t)
   return within(self, i, t.lo)
 end
 
--- The enclosure at a time: tight at the ends of steps and, if the run was made with dense = true, everywhere.
+-- At an instant with a bracket on the clock; of an enclosure, at its times within the run.
+local function at_bracket(self, t, given)
+  local first, last, lo, hi = self.times[1], self.t_reached, t.lo, t.hi
+  local forward = last >= first
+  local least, most = math.min(first, last), math.max(first, last)
+  if t.set then lo, hi = math.max(lo, least), math.min(hi, most) end
+  if lo < least or hi > most or lo > hi then not_within(self, given or t) end
+  if lo == hi then return at_double(self, { lo = lo, hi = lo }) end
+  local list = bracket.values(self, forward and lo or hi, forward and hi or lo, t.near, not t.set and t or nil)
+  return list and by_name(self, list)
+end
+
+-- The enclosure at a time: tight at the ends of steps and, if the run was made with dense = true, everywhere. At an
+-- enclosure of times (step.t): of the states at all of them.
 function methods:at(t)
-  local given, start = instant.read(t, "at: t"), self.times.start
+  local given, start = instant.read(t, "at: t", true), self.times.start
   if start and instant.is_same(given, start) then return strict(self.initial(), self.states) end
-  local own = instant.on_clock(given, self.times.shift)
+  local own = instant.on_clock(given, self.times)
   local values
   if own.lo == own.hi then values = at_double(self, own) else values = at_bracket(self, own, given) end
   if not values then
@@ -117,7 +121,7 @@ local function ends_in_bracket(self) return self.times.last and self.t_reached =
 
 -- The states at the end as expressions: there the clock is past the true end, by up to the width of the bracket.
 local function set_back(self, list)
-  local way = bracket.moved(self, self.times.last, self.times[#self.times])
+  local way = bracket.moved(self, self.times.last, self.times[#self.times], self.times.final)
   for k, x in ipairs(list) do
     list[k] = way and x + core.expression(way[k]) or core.expression(self.x[self.states[k]])
   end

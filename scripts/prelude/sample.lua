@@ -96,7 +96,7 @@ Sample.__index = Sample
 local function number_of(self, t)
   local given = instant.read(t, "at: t")
   if self.start and instant.is_same(given, self.start) then return 1 end
-  local own = instant.on_clock(given, self.shift)
+  local own = instant.on_clock(given, self.t)
   for k, time in ipairs(self.t) do if own.lo <= time and time <= own.hi then return k end end
   check.fail("at: t = %s is not one of the listed times", instant.text(given))
 end
@@ -136,7 +136,7 @@ local function solve(q, draws, seed, plan)
   local values, facts, report = core.sample_system(q.system.system, q.solver or "", q.arithmetic, q.options or {},
     q.arithmetic_options, q.initial, q.times, draws, seed, plan)
   facts.values, facts.states, facts.t, facts.report = values, q.system.states, q.times, report
-  facts.shift, facts.start = q.times.shift, q.times.start
+  facts.start = q.times.start
   return setmetatable(facts, Sample), report
 end
 

@@ -72,7 +72,7 @@ function switch_run.add_switch(result, mode, guard, image, away, t, T)
   widen_by_run(tube, away.run, target)
   local when = instant.of_clock(image.when, result.times.shift)
   result.events[#result.events + 1] = { name = guard.name, from = mode.name, to = guard.to.name, t = when,
-    x = picked(source, image.run.x), certain = image.run.rigorous }
+    x = picked(source, image.run.x), clock = image.when, certain = image.run.rigorous }
   if core.recording() then
     core.record("event", { "t", when, "name", guard.name, "from", mode.name, "to", guard.to.name })
   end
@@ -113,15 +113,15 @@ local function at_double(self, t)
   end
 end
 
--- Of all parts that the bracket meets.
-local function at_bracket(self, lo, hi)
+-- Of all parts that the bracket meets; t: the instant, if there is just one.
+local function at_bracket(self, lo, hi, t)
   local values
   for _, part in ipairs(self.parts) do
     local from, to = math.max(lo, part.from), math.min(hi, part.till)
     if from < to then
       local box = part.tube
       if part.run then
-        local list = bracket.values(part.run, from, to, from)
+        local list = bracket.values(part.run, from, to, from, from == lo and to == hi and t or nil)
         if not list then check.fail('at: solver `%s` says nothing between its steps', self.solver) end
         box = {}
         for k, name in ipairs(part.run.states) do box[name] = list[k] end
@@ -135,13 +135,15 @@ end
 
 -- The enclosure at a time: of what is in the one mode or the other while solutions switch.
 function methods:at(t)
-  local given, start = instant.read(t, "at: t"), self.times.start
+  local given, start = instant.read(t, "at: t", true), self.times.start
   if start and instant.is_same(given, start) then return self.initial end
-  local own, values = instant.on_clock(given, self.times.shift), nil
-  if own.lo == own.hi then
-    values = at_double(self, own.lo)
-  elseif own.lo >= self.times[1] and own.hi <= self.t_reached then
-    values = at_bracket(self, own.lo, own.hi)
+  local own, values = instant.on_clock(given, self.times), nil
+  local lo, hi = own.lo, own.hi
+  if own.set then lo, hi = math.max(lo, self.times[1]), math.min(hi, self.t_reached) end -- its times within the run
+  if lo == hi then
+    values = at_double(self, lo)
+  elseif lo >= self.times[1] and hi <= self.t_reached and lo < hi then
+    values = at_bracket(self, lo, hi, not own.set and own or nil)
   end
   return values or not_within(self, given)
 end
@@ -150,13 +152,15 @@ end
 local function end_in_bracket(result)
   local last, far = result.times.last, result.times[#result.times]
   if last and result.status == "complete" and result.t_reached == far then
-    result.x = at_bracket(result, last, far) or result.x
+    result.x = at_bracket(result, last, far, result.times.final) or result.x
   end
 end
 
 function switch_run.finish(result, q)
   result.cpu_seconds, result.step_count, result.rigorous = q.cpu_seconds, #result.list, q.rigorous
-  for _, e in ipairs(result.events) do e.certain = e.certain and q.rigorous end
+  for _, e in ipairs(result.events) do
+    e.certain = e.certain and q.rigorous and not instant.is_behind(q.times, e.clock)
+  end
   end_in_bracket(result)
 end
 

@@ -51,7 +51,11 @@ describe("instants as text: simulate", function()
 
   it("encloses the states of a run whose start is no double, with and without time in the equations", function()
     for _, solver in ipairs(solvers) do
-      holds(run(one, { "1000000.1", "1000000.2" }, { solver = solver }).x.x, "0.1", 8, 1e6)
+      holds(run(one, { "1000000.1", "1000000.2" }, { solver = solver }).x.x, "0.1")
+      holds(run(decay, { "1000000.1", "1000000.3" }, { solver = solver, initial = { x = 1 } }).x.x,
+        "0.8187307530779818586699355086036787", 4096)
+      holds(run(one, { 1e6, "1000000.1", "1000000.25" }, { solver = solver }):at("1000000.1").x, "0.1")
+      holds(run(one, { 1e6, "999999.9" }, { solver = solver }).x.x, "-0.1")
       holds(run(ramp, { "1/3", "2/3" }, { solver = solver }).x.x, "1/3")
       holds(run(ramp, { "1/3", "-2/3" }, { solver = solver }).x.x, "1/3", 128)
       holds(run(ramp, { "1/3", 1 }, { solver = solver }).x.x, "8/9")
@@ -111,11 +115,58 @@ describe("instants as text: simulate", function()
     assert.is_true(found({ "1/3", 1 }, function(s) return s.x - "1/3" end, ramp):contains "0.6666666666666666666666667")
   end)
 
+  it("leaves open whether what happens within the last bracket happens before the end", function()
+    local fast = ambit.ode { states = { "x" }, equations = function() return { x = 1e12 } end }
+    local function found(t, sign, behind, stop)
+      local way = t[1] == "0.333333" and "1000000/3" or "-2000000/3"
+      if t[1] == "0.333334" then behind = -behind end
+      local r = run(fast, t, { events = { { g = function(s) return s.x - way - sign * behind end, name = "pass",
+        stop = stop } } })
+      assert.equal(1, #r.events)
+      return r.events[1], r.status
+    end
+    for _, start in ipairs { "0.333333", "0.333334" } do
+      assert.is_true(found({ start, "1/3" }, -1, 1e-3).certain)
+      local pass = found({ start, "1/3" }, 1, 1e-5) -- 1e-17 s behind the end
+      assert.is_false(pass.certain)
+      assert.is_truthy(pass.reason:find("behind the end", 1, true), pass.reason)
+      local _, status = found({ start, "1/3" }, 1, 1e-5, true)
+      assert.equal("unable", status)
+    end
+  end)
+
+  it("may end within the spacing of doubles", function()
+    for _, solver in ipairs(solvers) do
+      holds(run(one, { "0.1", "0.10000000000000000001" }, { solver = solver }).x.x, "1e-20", 64, 1e-12)
+      holds(run(one, { "1000000.1", "1000000.10000000001" }, { solver = solver }).x.x, "1e-11", 64, 1e-8)
+      holds(run(one, { "1000000.10000000001", "1000000.1" }, { solver = solver }).x.x, "-1e-11", 64, 1e-8)
+    end
+    refused("horizon is zero", run, one, { "0.1", "1/10" })
+    refused("one way", run, one, { 0, "0.10000000000000000002", "0.10000000000000000001" })
+  end)
+
+  it("takes the times of its own steps, and other enclosures", function()
+    for _, solver in ipairs(solvers) do
+      for _, t in ipairs { { "1/3", 1 }, { "1000000.1", "1000000.2" }, { 1, "1/3" } } do
+        local r = run(one, t, { solver = solver, dense = true })
+        for step in r:steps() do
+          local x = r:at(step.t).x
+          assert.is_false(x:intersect(step.x.x):is_empty())
+          assert.is_true(x:width() <= 2e-9)
+        end
+      end
+    end
+    local r = run(one, { 0, 1 }, { dense = true })
+    local x = r:at(ambit.interval("0.25", "0.5")).x
+    assert.is_true(x:contains "0.25" and x:contains "0.5" and x:width() < 0.3)
+    assert.is_true(r:at(ambit.interval("0.5", 3)).x:contains(1))
+    refused("not within the run", r.at, r, ambit.interval(2, 3))
+  end)
+
   it("refuses what is no instant, or no horizon", function()
     refused("cannot be uncertain", run, one, { 0, "[1, 2]" })
     refused("finite", run, one, { 0, "1e400" })
     refused("horizon is zero", run, one, { "1/3", "1/3" })
-    refused("horizon is zero", run, one, { "0.1", "0.10000000000000000001" })
     refused("one way", run, one, { 0, "1/3", "1/3", 1 })
     refused("one way", run, one, { 0, 0.1, "0.1" }) -- the double 0.1 is later
     refused("not within the run", run(one, { 0, 0.3 }).at, run(one, { 0, 0.3 }), "0.3") -- the double 0.3 is earlier
