@@ -281,10 +281,10 @@ static ambit_status seal_jacobian(
     for (size_t j = 0; j < nx; j++) {
       ambit_failure why = { 0 };
       entry[i * nx + j] = ambit_graph_derivative(b->graph, e[i], b->input[j], &why);
-      if (entry[i * nx + j] == AMBIT_NO_EXPR)
-        return ambit_fail(b->f, why.status == AMBIT_OK ? AMBIT_NOMEM : why.status,
-            "the solver needs the Jacobian, but the %s `%s` has no derivative: %s", what, whose[i],
-            why.message[0] ? why.message : "out of memory");
+      if (entry[i * nx + j] != AMBIT_NO_EXPR) continue;
+      if (why.status == AMBIT_OK || why.status == AMBIT_NOMEM) return no_memory(b);
+      return ambit_fail_code(b->f, AMBIT_UNABLE, AMBIT_CODE_UNABLE_KINK,
+          "the solver needs the Jacobian, but the %s `%s` has no derivative: %s", what, whose[i], why.message);
     }
   return ambit_tape_seal(b->graph, b->arena, n * nx, entry, count_inputs(b), b->input, nx, b->q->seal, tape, b->f);
 }

@@ -236,6 +236,21 @@ static void fill_report(const job *j, const ambit_simulate_result *result, ambit
   ambit_tally_report(&j->tally, j->arena, j->lease, j->ncontext, j->context, report);
 }
 
+/* A solver that cannot work with these equations: a run without a step. */
+static ambit_status end_at_start(const job *j, ambit_simulate_result *result, ambit_report *report, ambit_failure *f) {
+  result->t_reached = j->q->time[0];
+  result->rigorous = j->solver->needs_rigorous != 0;
+  result->threads = result->pieces = 1;
+  tell(j, f, result);
+  if (report) {
+    *report = (ambit_report) { .expressions = (uint32_t)j->q->system->nx, .states = (uint32_t)j->q->system->nx };
+    snprintf(report->arithmetic, sizeof report->arithmetic, "%.31s", j->arithmetic);
+    snprintf(report->solver, sizeof report->solver, "%.31s", j->q->solver);
+  }
+  ambit_failure_clear(f);
+  return AMBIT_OK;
+}
+
 ambit_status ambit_simulate(
     const ambit_simulate_request *q, ambit_simulate_result *result, ambit_report *report, ambit_failure *f) {
   job j = { .q = q, .arena = ambit_arena_open() };
@@ -244,8 +259,12 @@ ambit_status ambit_simulate(
   j.tally = ambit_tally_begin(q->system->graph);
   ambit_status status = prepare(&j, f);
   ambit_tally_built(&j.tally);
-  if (status == AMBIT_OK) status = run(&j, result, f);
-  if (status == AMBIT_OK && report) fill_report(&j, result, report);
+  if (status == AMBIT_UNABLE) {
+    status = end_at_start(&j, result, report, f);
+  } else {
+    if (status == AMBIT_OK) status = run(&j, result, f);
+    if (status == AMBIT_OK && report) fill_report(&j, result, report);
+  }
   for (uint32_t i = 0; i < j.ncontext; i++) ambit_context_close(&j.context[i]);
   ambit_lease_close(j.lease);
   ambit_arena_close(j.arena);

@@ -10,6 +10,7 @@
 #include <ambit/code.h>
 #include <string.h>
 
+#define SHORT 0x1p-10          /* of the time span: the least first guess of a step */
 #define THIN 0x1p-40           /* relative radius up to which an initial box is a matter of rounding */
 #define LEAST_TOLERANCE 1e-22  /* far below the rounding errors of a step */
 #define RESOLUTION 0x1p-40     /* automatic step_min over the time span */
@@ -277,7 +278,9 @@ enum why lohner_start(lohner *s) {
   s->lenient = LENIENT_NOT;
   s->longest = INFINITY;
   s->next_slope_order = s->options.slope_order;
-  s->guess = smaller(fabs(p->time[1] - p->time[0]), s->options.step_max);
+  /* an instant that is asked for close to the start says nothing about steps */
+  double first = fabs(p->time[1] - p->time[0]), span = fabs(p->time[p->ntime - 1] - p->time[0]);
+  s->guess = smaller(larger(first, SHORT * span), s->options.step_max);
   if (s->options.step_min == 0) s->options.step_min = RESOLUTION * fabs(p->time[p->ntime - 1] - p->time[0]);
   return WHY_NOTHING;
 }

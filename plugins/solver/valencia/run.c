@@ -103,17 +103,18 @@ static void note_magnitudes(valencia *s, double forget) {
 
 /* -- steps */
 
-/* the interval of time [t, t + h], or up to the next instant; 0: the clock does not move */
-static int set_times(valencia *s, double h) {
+/* the interval of time [t, t + h], or up to the next instant; a step that is too short for the clock is its least one */
+static void set_times(valencia *s, double h) {
   double end = s->problem.time[s->next], left = end - s->t, sign = left < 0 ? -1 : 1;
   h = smaller(smaller(h, s->options.step_max), fabs(left));
   if (h < fabs(left) && 2 * h > fabs(left)) h = 0.5 * fabs(left);
-  s->at_instant = h >= fabs(left);
-  s->t_next = s->at_instant ? end : s->t + sign * h;
+  s->t_next = s->t + sign * h;
+  if (s->t_next == s->t) s->t_next = nextafter(s->t, end);
+  s->at_instant = h >= fabs(left) || (left < 0 ? s->t_next <= end : s->t_next >= end);
+  if (s->at_instant) s->t_next = end;
   interval from = point(s->t), to = point(s->t_next);
   s->h = fabs(s->t_next - s->t);
   s->half = scaled(minus(to, from), 0.5), s->time = scaled(plus(from, to), 0.5);
-  return s->t_next != s->t;
 }
 
 static double size_of(const valencia *s, uint32_t i) {
@@ -160,9 +161,10 @@ static double factor_for(const valencia *s, double excess) {
   return smaller(larger(f, 0.3), GROW_MAX);
 }
 
-/* no step of h: the clock does not move, it moves no less than by the last one, or less than it may */
+/* no step of h: the clock moves no less than by the last one, or less than it may */
 static int is_too_short(valencia *s, double h, double last) {
-  if (!set_times(s, h) || !(s->h < last)) return 1;
+  set_times(s, h);
+  if (!(s->h < last)) return 1;
   /* an instant may be closer than the least step */
   return s->h < s->options.step_min && (!s->at_instant || h < s->options.step_min);
 }
@@ -173,13 +175,15 @@ static enum why settle(valencia *s, double h, enum why why) {
   return why;
 }
 
-static enum why find_step(valencia *s) {
-  double h = s->guess, tried = h, last = INFINITY, over_before = INFINITY, rate_before = INFINITY;
+static enum why try_steps(valencia *s) {
+  double h = larger(s->guess, s->options.step_min), tried = h, last = INFINITY, over_before = INFINITY,
+         rate_before = INFINITY;
   enum why why = WHY_NO_CONTAIN;
   for (;;) {
     if (is_too_short(s, h, last)) return settle(s, tried, why);
     tried = h;
     ambit_work_try(s->counted);
+    s->cut = last == INFINITY && s->at_instant;
     h = last = s->h, s->kink_name = NULL;
     why = valencia_curve(s) ? valencia_verify(s) : WHY_CURVE;
     if (why != WHY_NOTHING) {
@@ -207,6 +211,15 @@ static enum why find_step(valencia *s) {
     over_before = over, rate_before = rate;
     h *= smaller(factor_for(s, over), 0.5);
   }
+}
+
+/* A step that was cut at an instant says nothing against the length that was wished for. */
+static enum why find_step(valencia *s) {
+  double wish = s->guess;
+  s->cut = 0;
+  enum why why = try_steps(s);
+  if (why == WHY_NOTHING && s->cut) s->guess = larger(s->guess, wish);
+  return why;
 }
 
 static int is_good(const valencia *s, uint32_t i) {

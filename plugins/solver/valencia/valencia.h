@@ -127,7 +127,7 @@ typedef struct valencia {
   double *scratch;
   double t, t_next, h;
   uint32_t next;
-  int at_instant;
+  int at_instant, cut; /* does the step end at an instant that was asked for? is it shorter than was wished? */
   double guess, rate_known, *magnitude, *limit;
   uint32_t culprit;
   int kink, has_faces;       /* the tube reaches one; the box of the faces goes on from the step before */
