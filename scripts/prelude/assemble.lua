@@ -5,6 +5,7 @@
 -- searched in their `box`, or within a radius of where a plain Newton iteration ends that starts at the guess.
 local check = require "ambit.check"
 local core = require "ambit.core"
+local data = require "ambit.assemble_data"
 local loops = require "ambit.loops"
 local roots = require "ambit.roots"
 
@@ -238,6 +239,40 @@ local function describe(self, q, rows, given, found, start)
   return setmetatable(result, Assembly)
 end
 
+-- -- how it depends on the data
+
+-- The configuration as expressions of the data, worked out once.
+local function dependence(q, given, configuration)
+  local found, known
+  return function()
+    if known then return found end
+    known = true
+    local box = {}
+    for i, name in ipairs(q.names) do box[i] = configuration[name] end
+    local list = data.expressions(core.substitute(q.expressions, q.leaves, q.values), q.symbols, q.names, box)
+    if not list then return nil end
+    found = {}
+    for name, value in pairs(given) do found[name] = value end
+    for i, name in ipairs(q.names) do found[name] = list[i] end
+    return found
+  end
+end
+
+-- { name = expression of the data } that holds the configuration for every value of theirs; nil where the data are
+-- exact, or too wide for it.
+function Assembly:of_data()
+  local of = rawget(self, "dependence")
+  return of and of() or nil
+end
+
+-- The only configuration in its box: runs that start from it start correlated.
+local function hand_out(self, q, given, result, time)
+  if result.status ~= "unique" then return end
+  result.dependence = dependence(q, given, result.configuration)
+  local at = time ~= nil and core.interval(core.expression(time, "s", "assemble: t")) or nil
+  data.hand_out({ mechanism = self, time = at, of = result.dependence }, result.configuration)
+end
+
 -- -- the method
 
 local function read_request(self, t)
@@ -281,6 +316,7 @@ function methods:assemble(t)
   local found = roots.finish(q, "assemble", roots.run(q))
   local result = describe(self, q, rows, given, found, start)
   if result.configuration then loops.adopt(self, result.configuration, t.t) end
+  hand_out(self, q, given, result, symbols.t and t.t)
   return result
 end
 

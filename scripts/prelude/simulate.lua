@@ -1,5 +1,6 @@
 -- simulate.lua -- ambit.simulate { ode, initial = { x = 1 }, t = { 0, 1 }, solver = "lohner", <options of the solver>
 -- }.
+local assemble_data = require "ambit.assemble_data"
 local check = require "ambit.check"
 local core = require "ambit.core"
 local event = require "ambit.event"
@@ -93,6 +94,7 @@ function verb.request(t, what, default_solver, own_keys)
     fitting = suggest.candidates(other_keys(t, known), known, q.arithmetic, what)
   end
   q.initial, q.times = verb.initial(t.initial, q.system, what), instant.list(t.t, what .. ": t")
+  q.initial = assemble_data.correlate(q.initial, t.initial, q.system, q.times)
   q.system = verb.on_clock(q.system, q.times.shift)
   if fitting then
     q.suggestion = suggest.solver(q, fitting)

@@ -282,6 +282,11 @@ function mechanism:rank(t) end
 ---@field status "unique"|"none"|"several"|"undecided"
 ---@field reason string?
 ---@field configuration table<string, ambit.enclosure>? for `initial` and `at`
+local assembly = {}
+---The configuration as functions of the uncertain data; nil where they are exact or too wide for it.
+---@return table<string, ambit.expression>?
+function assembly:of_data() end
+
 ---Coordinates by name are given; the others are sought in `box`, or `within` a radius of `guess`.
 ---@param t { guess: table<string, ambit.datum>?, box: table<string, any>?, within: any, [string]: ambit.datum }
 ---@return ambit.assembly

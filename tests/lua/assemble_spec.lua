@@ -237,3 +237,110 @@ describe("assemble", function()
     refused("no closed loops", ambit.mechanism "open", {})
   end)
 end)
+
+-- -- how a configuration depends on the data
+
+local core = require "ambit.core"
+
+-- Data within `tolerance`; a load on the slider.
+local function tolerated(tolerance)
+  local m = ambit.mechanism { "slider-crank", gravity = { 0, "-9.81", 0 } }
+  local crank, rod = ambit.around(1, tolerance), ambit.around(3, tolerance)
+  local pin = link(m, hinge(m, m.world, "phi"), crank, 0)
+  local tip = link(m, hinge(m, pin, "psi"), rod, 0)
+  local slider = m:prismatic { from = m.world, axis = "x", name = "s" }
+  m:point_mass { at = pin, mass = ambit.around(1, tolerance) }
+  m:point_mass { at = slider, mass = 2 }
+  m:close_pin { a = tip, b = slider, name = "loop" }
+  m:independent { "phi" }
+  local found = m:assemble { phi = "0.7", guess = { psi = "-0.9", s = "3.6" }, within = "0.5" }
+  return m, found, crank, rod
+end
+
+-- Closed forms for given lengths, as doubles.
+local function true_position(crank, rod)
+  local y = crank * math.sin(0.7)
+  return { s = crank * math.cos(0.7) + math.sqrt(rod ^ 2 - y ^ 2), psi = -math.asin(y / rod) - 0.7, phi = 0.7 }
+end
+
+local function from_rest(configuration)
+  local start = { ["phi'"] = 0 }
+  for name, x in pairs(configuration) do start[name] = x end
+  return start
+end
+
+describe("a configuration of uncertain data", function()
+  it("is known as a function of them, up to terms of the third degree", function()
+    local widths = {}
+    for i, tolerance in ipairs { "0.1%", "1%" } do
+      local _, found, crank, rod = tolerated(tolerance)
+      local of, radius = found:of_data(), i == 1 and 1e-3 or 1e-2
+      for _, corner in ipairs { { 1, 1 }, { 1, -1 }, { -1, 1 }, { -1, -1 }, { 0, 0 }, { 0.25, -0.75 } } do
+        local a, b = 1 + radius * corner[1], 3 * (1 + radius * corner[2])
+        for name, x in pairs(true_position(a, b)) do
+          local at = core.substitute({ of[name] }, { crank, rod }, { core.expression(a), core.expression(b) })[1]
+          local e = ambit.evaluate { at }
+          assert.is_true(e.lo <= x + 1e-14 and e.hi >= x - 1e-14, name)
+          widths[i] = math.max(widths[i] or 0, e:width())
+        end
+      end
+    end
+    assert.is_true(widths[1] < 1e-7 and widths[2] < 1e-4 and widths[2] > 100 * widths[1])
+  end)
+
+  it("starts a run correlated", function()
+    local m, found = tolerated "1%"
+    local run = ambit.simulate { m:dynamics(), initial = from_rest(found.configuration), t = { 0, "0.1" } }
+    assert.equal("complete", run.status)
+    assert.equal(5, run.report.unknowns) -- two lengths, a mass, and what is left of psi and s
+    local again = m:assemble { phi = "0.7", guess = { psi = "-0.9", s = "3.6" }, within = "0.5" }
+    local boxes = from_rest(again.configuration)
+    for _, name in ipairs { "phi", "psi", "s" } do boxes[name] = core.interval(boxes[name].lo, boxes[name].hi) end
+    local apart = ambit.simulate { m:dynamics(), initial = boxes, t = { 0, "0.1" } }
+    assert.equal(6, apart.report.unknowns) -- 0.7 is no double
+    for _, name in ipairs { "phi", "psi", "s" } do
+      assert.is_true(run.x[name]:width() <= apart.x[name]:width() * (1 + 1e-6), name)
+    end
+  end)
+
+  it("is a box where anything else was changed", function()
+    local m, found = tolerated "1%"
+    local data = require "ambit.assemble_data"
+    local system, plain = m:dynamics(), {}
+    for i in ipairs(system.states) do plain[i] = core.expression(i) end
+    local function taken(start) return data.correlate(plain, start, system, { 0, 1 }) ~= plain end
+    assert.is_true(taken(from_rest(found.configuration)))
+    local other = from_rest(found.configuration)
+    other.phi = "0.7"
+    assert.is_false(taken(other)) -- another value of what was given
+    other = from_rest(found.configuration)
+    other.s, other.psi = other.psi, other.s
+    assert.is_false(taken(other))
+    local second = m:assemble { phi = "0.7", guess = { psi = "-0.9", s = "3.6" }, within = "0.5" }
+    other = from_rest(found.configuration)
+    other.s = second.configuration.s
+    assert.is_false(taken(other)) -- of two assemblies
+    local foreign = tolerated "1%"
+    assert.is_true(data.correlate(plain, from_rest(found.configuration), foreign:dynamics(), { 0, 1 }) == plain)
+  end)
+
+  it("is a box where the data are exact or far too wide", function()
+    assert.is_nil((select(2, tolerated(0))):of_data())
+    local m = slider_crank()
+    local two = m:assemble { phi = "0.7", box = { psi = { -4, 1 }, s = { -5, 5 } } }
+    assert.is_nil(two:of_data()) -- exact, and one of several
+  end)
+
+  it("knows when the loops depend on time", function()
+    local m = ambit.mechanism "driven"
+    local rod = ambit.around(3, "1%")
+    local pin = link(m, m:revolute { from = m.world, axis = "z", name = "phi", angle = ambit.time / 2 }, 1, 0)
+    m:close_pin { a = link(m, hinge(m, pin, "psi"), rod, 0), b = m:prismatic { from = m.world, axis = "x", name = "s" } }
+    local found = m:assemble { t = 1, guess = { psi = "-0.6", s = "3.8" }, within = "0.5" }
+    assert.equal("unique", found.status)
+    local data, system = require "ambit.assemble_data", m:dynamics()
+    local plain = { core.expression(0), core.expression(0) }
+    assert.is_true(data.correlate(plain, found.configuration, system, { 1, 2 }) ~= plain)
+    assert.is_true(data.correlate(plain, found.configuration, system, { 0, 2 }) == plain)
+  end)
+end)
