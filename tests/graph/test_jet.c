@@ -496,6 +496,29 @@ static bool is_known(ambit_jet *jet, uint32_t K) {
 }
 
 /* An order needs those below it, and of slopes the centre's. */
+/* mid +- rad as it is put, though neither end is a double (all sums here are exact in long double) */
+static void coefficients_are_held_as_they_are_put(void **unused) {
+  (void)unused;
+  fixture_host host;
+  fixture_host_open(&host);
+  ambit_arithmetic full = fixture_arithmetic();
+  fixture_tape *x = fixture_tape_open(&host);
+  uint32_t one = fixture_constant(x, 1, 1), in = fixture_input(x, AMBIT_DEGREE_ANY);
+  fixture_op(x, AMBIT_OP_ADD, in, one);
+  ambit_jet *jet = open_jet(&host, &x->tape, &full, 0, 1, NULL);
+  for (int k = 1; k < 200; k++) {
+    double mid = (k % 2 ? 1 : -1) * (1 + k * 0x1p-52), rad = k * 0x1p-60, found, width, slope, margin;
+    service->put(jet, 0, 0, mid, rad, &mid, &rad);
+    assert_int_equal(service->advance(jet, 0), 0);
+    service->get(jet, in, 0, &found, &width, &slope, &margin);
+    assert_true((long double)mid + rad <= (long double)found + width);
+    assert_true((long double)mid - rad >= (long double)found - width);
+    assert_true((long double)mid + rad <= (long double)slope + margin);
+    assert_true((long double)mid - rad >= (long double)slope - margin);
+  }
+  fixture_host_close(&host);
+}
+
 static void orders_ascend(void **unused) {
   (void)unused;
   fixture_host host;
@@ -590,6 +613,7 @@ int main(void) {
     cmocka_unit_test(refusals),
     cmocka_unit_test(bad_coefficients_prove_nothing),
     cmocka_unit_test(infinite_coefficients_prove_nothing),
+    cmocka_unit_test(coefficients_are_held_as_they_are_put),
     cmocka_unit_test(orders_ascend),
     cmocka_unit_test(a_centre_outside_the_domain_proves_nothing),
     cmocka_unit_test(crossed_bounds_leave_slopes),
