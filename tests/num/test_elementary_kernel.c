@@ -151,6 +151,13 @@ static void neighbours_of_pi_are_fast(void **state) {
   (void)state;
   for (int k = 1; k < 1000; k++) assert_false(angle_reduce(k * (PI_DOWN / 2)).declined);
   assert_true(angle_reduce(0x1.1p39).declined);
+  /* the doubles nearest to multiples n of pi/128 by continued fractions: |x - n pi/128| is 2^-58.9, 2^-57.6, 2^-56.2,
+  ** n 2^-92 is 2^-50.6, 2^-49.4, 2^-47.9 */
+  static const double near[] = { 0x1.065c829d68730p+36, 0x1.47f3a344c28fcp+37, 0x1.aa56543fc9baep+38 };
+  for (size_t k = 0; k < sizeof near / sizeof *near; k++) {
+    assert_true(angle_reduce(near[k]).declined && angle_reduce(-near[k]).declined);
+    assert_false(angle_reduce(nextafter(near[k], 0)).declined);
+  }
   assert_true(pair_gap(sin_kernel(angle_reduce(PI_DOWN), 0),
                   (pair) { 0x1.1a62633145c07p-53, -0x1.f1976b7ed8fbcp-109 }) < 0x1p-115);
 }
