@@ -40,24 +40,40 @@ local function output_of(command)
   return text
 end
 
--- Makes `place` a built copy of the committed tree, or brings the one that is there up to date. Tests are not linked
--- anew when only the library changes. A mutation that an interrupted run left behind is taken back.
+-- Makes `place` a copy of the committed tree, or brings the one that is there up to date. Tests are not linked anew when
+-- only the library changes. A mutation that an interrupted run left behind is taken back.
 function trial.prepare(place)
   local make = ([[set -e; [ -d %s/.git ] || git clone -q --shared --no-checkout . %s
     head=$(git rev-parse HEAD); cd %s; git fetch -q origin $head; git checkout -q --force --detach $head
-    [ -d build ] || cmake -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DAMBIT_TESTS=ON -DCMAKE_LINK_DEPENDS_NO_SHARED=ON
-    cmake --build build]]):gsub("%%s", place)
-  assert(shell(make, place .. ".log"), "the tree does not build: " .. place .. ".log")
+    [ -d build ] || cmake -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DAMBIT_TESTS=ON -DCMAKE_LINK_DEPENDS_NO_SHARED=ON]]):gsub("%%s", place)
+  assert(shell(make, place .. ".log"), "no copy of the tree: see " .. place .. ".log")
 end
 
 local function build(place, target, log) return shell(("ninja -C %s/build %s"):format(place, target), log) end
+
+-- What tests load at run time: all plugins, those of the specs, the command.
+local function build_loaded(place, log)
+  local list = {}
+  for target in output_of(("ninja -C %s/build -t targets all"):format(place)):gmatch "([%w_]+): phony" do
+    local kind = target:match "^(%l+)_"
+    if target == "ambit" or target == "ambit_module" or kind == "arithmetic" or kind == "element" or kind == "service"
+      or kind == "solver" or kind == "test" then list[#list + 1] = target end
+  end
+  assert(build(place, table.concat(list, " "), log), "the tree does not build: see " .. log)
+end
+
+-- The program of a test, as cmake/tests.cmake names it.
+local function source_of(name)
+  local layer, rest = name:match "^(%w+)%.(.*)$"
+  return ("tests/%s/test_%s.c"):format(layer, rest)
+end
 
 -- The tests of an area: { name, command, target or nil, seconds }.
 local function tests_of(area, place)
   local list = {}
   for name in output_of(("ctest --test-dir %s/build -N"):format(place)):gmatch "#%d+: (%S+)" do
     for _, pattern in ipairs(area.tests) do
-      if name:find(pattern) and exists(("%s/build/tests/test.%s"):format(place, name)) then
+      if name:find(pattern) and exists(("%s/%s"):format(place, source_of(name))) then
         list[#list + 1] = { name = name, target = "test." .. name,
           command = ("ctest --test-dir %s/build -R '^%s$'"):format(place, name:gsub("%.", "\\.")) }
         break
@@ -88,8 +104,10 @@ function trial.tests(area, place, log)
     for name, seconds in read(path):gmatch(commit .. " (%S+) (%S+)\n") do passed[name] = tonumber(seconds) end
   end
   local list = tests_of(area, place)
+  build_loaded(place, log)
   for _, test in ipairs(list) do
     if not passed[test.name] then
+      if test.target then assert(build(place, test.target, log), "the tree does not build: see " .. log) end
       local ok = shell(test.command .. " && times", log)
       if not ok then error(("the tests of `%s` fail without a mutation: %s"):format(area.name, test.name), 0) end
       passed[test.name] = seconds_of(log)
