@@ -54,7 +54,7 @@ local function build(place, target, log) return shell(("ninja -C %s/build %s"):f
 -- What tests load at run time: all plugins, those of the specs, the command.
 local function build_loaded(place, log)
   local list = {}
-  for target in output_of(("ninja -C %s/build -t targets all"):format(place)):gmatch "([%w_]+): phony" do
+  for target in output_of(("ninja -C %s/build -t targets all"):format(place)):gmatch "%f[^\n\0]([%w_]+): phony" do
     local kind = target:match "^(%l+)_"
     if target == "ambit" or target == "ambit_module" or kind == "arithmetic" or kind == "element" or kind == "service"
       or kind == "solver" or kind == "test" then list[#list + 1] = target end
