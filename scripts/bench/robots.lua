@@ -1,11 +1,12 @@
 -- robots.lua: whole mechanisms with every tolerance: how far, how near to the truth, at what cost?
--- ambit run scripts/bench/robots.lua [--row NAME] [--solver NAME] [--draws N] [--seconds S]
+-- ambit run scripts/bench/robots.lua [--row NAME] [--solver NAME] [--draws N] [--seconds S] [--marks yes]
 --
 -- Prints a table: of each scene of scripts/bench/robots how far it is proved, with nothing chosen by the scene, the
 -- largest width of the enclosures by that of the hull of samples, CPU time and memory, on one core. Samples are ordinary
 -- runs of the same scene with drawn data: at random, half of them corners, and the corners at which each state is least
 -- and greatest to first order, at each listed time. The factor counts states whose hull is wider than the row's bound.
--- --row: only rows whose name has this in it; --seconds: CPU time for each run, without it as much as it takes.
+-- --row: only rows whose name has this in it; --seconds: CPU time for each run, without it as much as it takes; --marks:
+-- a line for each listed time, too.
 -- Exit 1 if a row is missed, or a sample or a reference is not in its enclosure: then the table says OUTSIDE.
 package.path = (arg[0]:match ".*/" or "./") .. "?.lua;" .. package.path
 local ambit = require "ambit"
@@ -19,7 +20,7 @@ do
   local i = 1
   while arg[i] do
     local key, value = arg[i]:match "^%-%-(%a+)$", arg[i + 1]
-    if not value or not (key == "row" or key == "solver" or key == "draws" or key == "seconds") then
+    if not value or not (key == "row" or key == "solver" or key == "draws" or key == "seconds" or key == "marks") then
       io.stderr:write(("robots.lua: unknown or incomplete option `%s`\n"):format(arg[i]))
       os.exit(2)
     end
@@ -108,17 +109,23 @@ local function hull_of(row, proof, times)
   return hull, count, outside
 end
 
--- The largest factor, where it is, and the widest hull.
-local function factor_of(row, proof, hull, times)
+-- The largest factor, where it is, and the widest hull; per listed time, if `each` is given.
+local function factor_of(row, proof, hull, times, each)
   local most, where, widest = 0, "", 0
   for i, t in ipairs(times) do
+    local here, which, wide = 0, "no hull is as wide as " .. row.over, 0
     for _, name in ipairs(proof.run.states) do
-      local h = hull[i][name]
+      local h, set = hull[i][name], proof.at[i][name]
       local width = h[2] - h[1]
-      widest = math.max(widest, width)
-      local factor = proof.at[i][name]:width() / width
-      if width > row.over and factor > most then most, where = factor, ("%s at %.3g s"):format(name, t) end
+      wide = math.max(wide, width)
+      if width > row.over and set:width() / width > here then
+        here = set:width() / width
+        which = ("%s %.4g over %.4g"):format(name, set:width(), width)
+      end
     end
+    if each then each(t, here, which) end
+    if here > most then most, where = here, ("%s at %.3g s"):format(which:match "%S+", t) end
+    widest = math.max(widest, wide)
   end
   return most, where, widest
 end
@@ -166,7 +173,9 @@ function kinds.tolerances(row, proof)
   local text, good = "-", false
   if #times > 0 then
     local hull, count, outside = hull_of(row, proof, times)
-    local factor, where, widest = factor_of(row, proof, hull, times)
+    local factor, where, widest = factor_of(row, proof, hull, times, asked.marks and function(t, here, which)
+      io.stderr:write(("%s: at %.4g s %.4g: %s\n"):format(row.name, t, here, which))
+    end)
     good = not outside and factor <= row.factor
     text = factor > 0 and ("%.3g (%s)"):format(factor, where) or ("hull at most %.1g"):format(widest)
     text = text .. (", %d samples"):format(count)
@@ -204,16 +213,26 @@ function kinds.verify(row, proof)
 end
 
 bench.head("scene", "required", "reached", "largest factor over the hull", "solver, steps", "CPU, memory", "")
+-- Is the row asked for? A name that is one row's is no part of others' names.
+local function wanted(row)
+  for _, other in ipairs(rows) do
+    if other.name == asked.row then return row == other end
+  end
+  return not asked.row or row.name:find(asked.row, 1, true)
+end
+
+local contradictions = 0
 for _, row in ipairs(rows) do
-  if not asked.row or row.name:find(asked.row, 1, true) then
+  if wanted(row) then
     local proof = prove(row)
     local done, text, good = kinds[row.kind](row, proof)
     if not good then bench.missed = bench.missed + 1 end
+    if text:find "OUTSIDE" then contradictions = contradictions + 1 end
     local run = proof.run
     bench.line(("%s (`%s`)"):format(row.what, row.name), required(row), done, text,
       run and ("`%s`, %d"):format(run.solver, run.step_count) or "-", cost(proof), good and "reached" or "**missed**")
     io.stdout:flush()
   end
 end
-core.deadline(nil)
+if contradictions > 0 then error(("%d rows are contradicted by a sample or a reference"):format(contradictions), 0) end
 bench.leave()
