@@ -97,11 +97,9 @@ function(ambit_random_mechanisms name expected)
   set_tests_properties(lua.random_mechanisms.${name} PROPERTIES TIMEOUT 600 ENVIRONMENT "${lua_environment}"
     PASS_REGULAR_EXPRESSION "${expected}")
 endfunction()
-ambit_random_mechanisms(lohner "12 mechanisms, 12 complete, [^\n]* 0 outside\n" --mechanisms 12 --solver lohner)
-ambit_random_mechanisms(taylor_model "4 mechanisms, 4 complete, [^\n]* 0 outside\n" --mechanisms 4 --solver taylor_model)
-ambit_random_mechanisms(suited "12 mechanisms, 12 complete, [^\n]* 0 outside\n" --mechanisms 12)
-ambit_random_mechanisms(beyond "motions, [0-9]+ values: [1-9][0-9]* outside\n" --mechanisms 12 --solver lohner --beyond 2)
-
-# Does any solution of random equations leave what was proved? At length: --systems 2000 --draws 50
-add_test(NAME lua.random_equations COMMAND ambit run ${CMAKE_CURRENT_LIST_DIR}/random_equations.lua --systems 80 --draws 8)
-set_tests_properties(lua.random_equations PROPERTIES TIMEOUT 300 ENVIRONMENT "${lua_environment}")
+ambit_random_mechanisms(zonotope "24 mechanisms, 24 complete, [^\n]* 0 outside\n" --mechanisms 24 --solver zonotope)
+ambit_random_mechanisms(lohner "6 mechanisms, [1-9][0-9]* complete, [^\n]* 0 outside\n" --mechanisms 6 --solver lohner)
+ambit_random_mechanisms(taylor_model "2 mechanisms, 2 complete, [^\n]* 0 outside\n" --mechanisms 2 --data 5
+  --joints 3 --solver taylor_model)
+ambit_random_mechanisms(suited "6 mechanisms, [1-9][0-9]* complete, [^\n]* 0 outside\n" --mechanisms 6)
+ambit_random_mechanisms(beyond "motions, [0-9]+ values: [1-9][0-9]* outside\n" --mechanisms 6 --solver lohner --beyond 2)

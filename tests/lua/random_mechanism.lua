@@ -12,7 +12,7 @@ local AXES = { x = { 1, 0, 0 }, y = { 0, 1, 0 }, z = { 0, 0, 1 } }
 
 -- Random numbers that are the same on every machine.
 function random_mechanism.source(seed)
-  local state = seed
+  local state = (seed * -7046029254386353131) ~ (seed * 2862933555777941757 >> 29) -- neighbours have nothing in common
   local r = {}
   function r.integer(n) -- 1 .. n
     state = state * 6364136223846793005 + 1442695040888963407

@@ -68,7 +68,7 @@ end
 
 -- The oracle against itself: with steps of another length.
 local function slack_of(mechanism, times)
-  local fine, coarse = mechanism.motion({}, times, 1e-18), mechanism.motion({}, times, 1e-15)
+  local fine, coarse = mechanism.motion({}, times, 1e-16), mechanism.motion({}, times, 1e-14)
   if not fine or not coarse then return nil end
   local apart = 0
   for k in ipairs(times) do
@@ -108,7 +108,7 @@ local function check(mechanism, run, r)
   end
   local outside = 0
   for draw = 1, o.draws do
-    local motion = mechanism.motion(r.draw(mechanism.data, draw, o.beyond), times, 1e-17)
+    local motion = mechanism.motion(r.draw(mechanism.data, draw, o.beyond), times, 1e-16)
     total.motions = total.motions + 1
     local off, where = math.huge, "the oracle found no motion"
     if motion then off, where = compare(enclosures, motion, mechanism) end

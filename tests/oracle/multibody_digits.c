@@ -27,7 +27,7 @@ int main(int argc, char **argv) {
     static multibody m;
     chain(&m, n, strtoflt128(argv[3], NULL));
     multibody_real q[MULTIBODY_MOST] = { 0 }, v[MULTIBODY_MOST] = { 0 };
-    if (!multibody_integrate(&m, 0, strtoflt128(argv[2], NULL), fine ? 1e-25Q : 1e-22Q, q, v)) return puts("no"), 1;
+    if (!multibody_integrate(&m, 0, strtoflt128(argv[2], NULL), fine ? 1e-21Q : 1e-18Q, q, v)) return puts("no"), 1;
     for (int i = 0, stride = n > 4 ? n / 4 : 1; i < n; i += stride) {
       char a[64], b[64];
       quadmath_snprintf(a, sizeof a, "%.20Qg", q[i]);
