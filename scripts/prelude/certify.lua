@@ -3,6 +3,7 @@
 local certificate = require "ambit.reduce.report_certificate"
 local certify_bound = require "ambit.certify.bound"
 local check = require "ambit.check"
+local code = require "ambit.code"
 local model = require "ambit.certify.model"
 local number = require "ambit.reduce.report_number"
 local proof = require "ambit.certify.proof"
@@ -97,6 +98,11 @@ local function fields(names, values)
   return list
 end
 
+local function prove(detailed, reduced, scenarios, how)
+  proof.detailed(detailed, scenarios, how, "certify")
+  return proof.prove(detailed, reduced, scenarios, how)
+end
+
 function verb.certify(t)
   check.table(t, "certify")
   if t[1] == nil or t[2] == nil then
@@ -110,10 +116,10 @@ function verb.certify(t)
   local scenarios = scenario.list(t, detailed, "certify", reduced)
   settings.choose(how, t, detailed, scenarios)
   how.report = {} -- of all runs together
-  proof.detailed(detailed, scenarios, how, "certify")
   how.all, how.goal = true, bounds
   if t.refine == nil then how.refine, how.gain = REFINE, GAIN end
-  local result = proof.prove(detailed, reduced, scenarios, how)
+  local broken, result = code.until_broken(prove, detailed, reduced, scenarios, how)
+  result = result or proof.broken(broken)
   result.error_status = result.status
   result.status, result.code, result.reason = verdict(result, names, bounds)
   result.outputs, result.bounds, result.criterion, result.settings = names, bounds, how.criterion, how

@@ -34,11 +34,26 @@ function code.is_worse(a, b) return severity[code.family(a)] > severity[code.fam
 -- The exit code of the command: 0 done, 4 proved that there is no answer, 3 could not prove, 1 broken or an error.
 function code.exit(name) return exits[severity[code.family(name)]] end
 
--- A verb made of many runs says nothing at all after one of them broke its contract.
+-- A verb made of many runs says nothing at all after one of them broke its contract: refuse_broken ends it from within,
+-- until_broken takes that for its outcome.
+local Broken = { __name = "broken run", __tostring = function(self) return self.reason end }
+
 function code.refuse_broken(outcome)
   if outcome.status ~= "broken" then return end
   require("ambit.session").worst = outcome.code
-  check.fail("%s", outcome.reason)
+  error(setmetatable({ status = "broken", code = outcome.code, reason = outcome.reason, t_reached = outcome.t_reached },
+    Broken), 0)
+end
+
+-- Is this error a run that broke its contract?
+function code.is_broken(problem) return getmetatable(problem) == Broken end
+
+-- f(...) -> nil and what it returns; or the outcome { status, code, reason, t_reached } of the run that ended it
+function code.until_broken(f, ...)
+  local results = table.pack(pcall(f, ...))
+  if results[1] then return nil, table.unpack(results, 2, results.n) end
+  if code.is_broken(results[2]) then return results[2] end
+  error(results[2], 0)
 end
 
 return code

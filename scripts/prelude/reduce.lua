@@ -12,6 +12,7 @@ local certify_model = require "ambit.certify.model"
 local certify_scenario = require "ambit.certify.scenario"
 local certify_settings = require "ambit.certify.settings"
 local check = require "ambit.check"
+local code = require "ambit.code"
 local core = require "ambit.core"
 local mechanism = require "ambit.reduce.mechanism"
 local datum = require "ambit.reduce.datum"
@@ -273,7 +274,9 @@ end
 
 local function finish(job, result)
   local errors, times = {}, job.scenarios[1].times
-  for _, name in ipairs(result.outputs) do errors[#errors + 1], errors[#errors + 2] = name, result.error[name] end
+  for _, name in ipairs(result.outputs) do
+    if result.error[name] then errors[#errors + 1], errors[#errors + 2] = name, result.error[name] end
+  end
   session.finish("reduce", { status = result.status, code = result.code, reason = result.reason, cpu_seconds = result.cpu_seconds,
     t_reached = times[#times] }, job.settings.report,
     { "criterion", result.criterion, "solver", result.settings.solver, "options", result.settings.options, "ranking",
@@ -289,6 +292,22 @@ local function look_at_detailed(job)
   if status == "stopped" then return "stopped", "stopped on request" end
   job.references = reference.list(job.detailed, job.scenarios, job.apply)
   return "complete", ""
+end
+
+local function work(job)
+  local status, reason = until_interrupted(job, look_at_detailed)
+  if status == "complete" then status, reason = until_interrupted(job, search) end
+  if status == "complete" then certify(job) end
+  return status, reason
+end
+
+-- How to forget all that was cut, because a run broke its contract: the model is the detailed one, and nothing is proved.
+local function fallback(job)
+  local detailed, model_before, first = job.detailed, job.model, job.history[1]
+  return function(outcome)
+    job.plain, job.detailed, job.model, job.proof = job.given, detailed, model_before, proof.broken(outcome)
+    job.terms, job.log, job.history, job.ranked = {}, {}, { { terms = first.terms, error = {} } }, {}
+  end
 end
 
 function verb.reduce(t)
@@ -307,10 +326,11 @@ function verb.reduce(t)
   request.keep_terms(job.stays, terms, job.model, job.keep)
   job.model.starts = model.starts(job.model, job.scenarios, job.stays)
   job.history[1] = { terms = candidate.count(job.model), error = job.proof.error }
-  local status, reason = until_interrupted(job, look_at_detailed)
-  if status == "complete" then status, reason = until_interrupted(job, search) end
-  if status == "complete" then certify(job) end
-  local result = result_of(job, before, status, reason)
+  local back = fallback(job)
+  local broken, status, reason = code.until_broken(work, job)
+  if broken then back(broken) end
+  local result = result_of(job, before, broken and broken.status or status, broken and broken.reason or reason)
+  result.code = broken and broken.code or nil
   finish(job, result)
   return result
 end

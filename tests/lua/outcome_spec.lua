@@ -80,11 +80,65 @@ describe("an outcome", function()
     end
   end)
 
-  it("of a verb that consists of many runs is an error if one of them is broken", function()
-    local code, _, problems = scene [[
-      ambit.verify { drift, initial = { 0 }, t = { 0, 1 }, solver = "faulty", fault = "nan", safe = function(s) return s.x - 3 end }]]
-    assert.equal(1, code)
-    has(problems, "solver `faulty` is broken")
+  it("of a verb that consists of many runs is broken if one of them is, and the scene goes on", function()
+    local many = [[
+      local q = { initial = { x = ambit.around(0, "0.1") }, t = { 0, 1 }, solver = "faulty", fault = "nan" }
+      local function ask(verb, ...)
+        local t = { ... }
+        for key, value in pairs(q) do t[key] = value end
+        return verb, t
+      end
+      local function safe(s) return s.x - 3 end
+      local verb, t = ask(ambit.verify, drift)
+      t.safe = safe
+      local v = verb(t)
+      assert(v.status == "broken" and v.code == "broken.bounds" and v.conditions.safe.code == "broken.bounds")
+      assert(v.conditions.safe.bound.hi == math.huge and v.counterexample == nil)
+      print(v)
+      for _, criterion in ipairs { "difference", "bounds" } do
+        verb, t = ask(ambit.certify, drift, drift)
+        t.outputs, t.error, t.criterion = { "x" }, { x = 1 }, criterion
+        local c = verb(t)
+        assert(c.status == "broken" and c.code == "broken.bounds" and not next(c.error))
+        print(c)
+      end
+      local two = ambit.ode { states = { "x" }, equations = function(s) return { x = -s.x - 0.001 * s.x ^ 3 } end }
+      verb, t = ask(ambit.reduce, two)
+      t.outputs, t.error = { "x" }, { x = 1 }
+      local r = verb(t)
+      assert(r.status == "broken" and r.code == "broken.bounds" and not next(r.error))
+      assert(#r.terms == 0 and r.terms_after == r.terms_before)
+      print(r)
+      faulty "fine" ]]
+    local code, out, problems, records = scene(many)
+    assert.equal(1, code, problems)
+    local _, count = out:gsub("solver `faulty` is broken", "")
+    assert.is_true(count >= 4, out)
+    has(records, '"verb":"verify","status":"broken","code":"broken.bounds"', '"verb":"certify","status":"broken"',
+      '"verb":"reduce","status":"broken"', '"verb":"simulate","status":"complete","code":"ok"')
+  end)
+
+  it("of a verification that no solution is meant by is that there is none", function()
+    local code, out, problems, records = scene [[
+      local v = ambit.verify { drift, initial = { ambit.around(0, 1) }, t = { 0, 1 }, solver = "faulty", fault = "nothing",
+        safe = { low = function(s) return s.x - 3 end, high = function(s) return s.x + 3 end } }
+      assert(v.status == "impossible" and v.code == "domain.constraint" and v.reason:find("there is no solution", 1, true))
+      assert(v.conditions.low.status == "impossible" and v.conditions.high.code == "domain.constraint")
+      assert(v.conditions.low.bound:is_empty() and not v.counterexample)
+      print(v)]]
+    assert.equal(4, code, problems)
+    has(out, "impossible", "low: impossible")
+    has(records, '"status":"impossible","code":"domain.constraint"')
+  end)
+
+  it("of a single condition has a code", function()
+    local v = ambit.verify { drift, initial = { ambit.around(0, 1) }, t = { 0, 1 }, budget = 3,
+      safe = { proved = function(s) return s.x - 3 end, refuted = function(s) return s.x end,
+        open = function(s) return ambit.abs(s.x - 2) * ambit.sin(1e9 * s.x) - 1 - ambit.sin(s.x) end } }
+    session.worst = "ok"
+    assert.equal("ok", v.conditions.proved.code)
+    assert.equal("ok.refuted", v.conditions.refuted.code)
+    assert.truthy(v.conditions.open.status == "refuted" or v.conditions.open.code:match "^unable%.")
   end)
 
   it("is broken for a whole split if one piece is", function()

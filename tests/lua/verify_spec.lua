@@ -230,15 +230,16 @@ describe("verify", function()
       safe = { high = limit(1.2), low = limit(1.05) } }
     assert.equal("proved", r.conditions.high.status)
     assert.equal("undecided", r.conditions.low.status)
-    initial["q.1"] = 2 -- and none: nothing is said about a set that is empty
+    initial["q.1"] = 2 -- and none: that is what is proved
     r = verify { m:dynamics(), initial = initial, t = { 0, 1 }, safe = limit(1.2) }
-    assert.equal("undecided", r.status)
+    assert.equal("impossible", r.status)
+    assert.equal("domain.constraint", r.code)
     assert.truthy(r.reason:find("constraint", 1, true) or r.reason:find("quaternion", 1, true))
     local a, b = ambit.between("0.72", "1.4"), ambit.between("-0.7", "0.7") -- none, as cutting shows: 2 a^2 + 2 b^2 > 1
     initial["q.1"], initial["q.2"], initial[speed] = a - b, a + b, 1
     r = verify { m:dynamics(), initial = initial, t = { 0, "0.2" },
       safe = ambit.log(-1 - m:coordinates()[speed] ^ 2) } -- never defined
-    assert.equal("undecided", r.status)
+    assert.equal("impossible", r.status)
     assert.truthy(r.reason:find("constraint", 1, true))
   end)
 

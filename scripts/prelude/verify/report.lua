@@ -2,6 +2,7 @@
 -- reasons.
 local box = require "ambit.verify.box"
 local check = require "ambit.check"
+local code = require "ambit.code"
 local core = require "ambit.core"
 local instant = require "ambit.instant"
 
@@ -103,6 +104,8 @@ function Verdict.__tostring(self)
 end
 
 local function reason_of(job, condition, k)
+  if condition.status == "broken" then return job.broken.reason end
+  if condition.status == "impossible" then return job.nowhere.reason end
   if condition.status ~= "undecided" then return "" end
   local worst = condition.worst
   local why = { job.stopped and "stopped on request" or job.spent and "the budget is spent"
@@ -131,9 +134,19 @@ local function bound_of(condition)
   return core.interval(condition.lo, math.max(condition.hi, condition.lo))
 end
 
+local function code_of(job, condition, k)
+  if condition.status == "broken" then return job.broken.code end
+  if condition.status == "impossible" then return job.nowhere.code end
+  if condition.status ~= "undecided" then return code.of(condition.status) end
+  local worst = condition.worst
+  return job.stopped and "stopped.request" or job.spent and "unable.budget"
+    or worst.outcome.status ~= "complete" and worst.outcome.code or worst[k].undefined and "unable.partial"
+    or "unable.undecided"
+end
+
 local function verdict(job, condition, k)
   return setmetatable({ name = condition.name, kind = condition.kind, status = condition.status,
-    bound = bound_of(condition), reason = reason_of(job, condition, k),
+    code = code_of(job, condition, k), bound = bound_of(condition), reason = reason_of(job, condition, k),
     counterexample = condition.status == "refuted" and counterexample(job, condition) or nil }, Verdict)
 end
 
@@ -148,28 +161,16 @@ function Report.__tostring(self)
   return table.concat(lines, "\n")
 end
 
--- Refuted if one condition is, proved if all are.
-local function overall(list)
-  local status = "proved"
-  for _, c in ipairs(list) do
-    if c.status == "refuted" then return "refuted" end
-    if c.status == "undecided" then status = "undecided" end
-  end
-  return status
-end
+-- What decides the whole: refuted if one condition is, proved if all are. The others hold of all conditions or of none.
+local ranks = { "refuted", "broken", "impossible", "undecided" }
 
-local function code_of(job, list)
-  local code
-  for k, c in ipairs(list) do
-    if c.status == "refuted" then return "ok.refuted" end
-    if c.status == "undecided" and not code then
-      local worst = job.conditions[k].worst
-      code = job.stopped and "stopped.request" or job.spent and "unable.budget"
-        or worst.outcome.status ~= "complete" and worst.outcome.code or worst[k].undefined and "unable.partial"
-        or "unable.undecided"
+local function overall(list)
+  for _, status in ipairs(ranks) do
+    for _, c in ipairs(list) do
+      if c.status == status then return status, c.code end
     end
   end
-  return code or "ok"
+  return "proved", "ok"
 end
 
 local function reasons(list)
@@ -187,7 +188,8 @@ function report.of(job)
     list[k] = verdict(job, condition, k)
     by_name[condition.name] = list[k]
   end
-  local self = setmetatable({ list = list, conditions = by_name, status = overall(list), code = code_of(job, list), reason = reasons(list),
+  local status, whole_code = overall(list)
+  local self = setmetatable({ list = list, conditions = by_name, status = status, code = whole_code, reason = reasons(list),
     refinements = job.runs - 1, cpu_seconds = core.cpu() - job.start, report = job.report }, Report)
   for _, c in ipairs(list) do
     if c.status == self.status and not self.bound then self.bound, self.counterexample = c.bound, c.counterexample end
@@ -199,7 +201,7 @@ end
 function report.fields(self)
   local fields = {}
   for _, c in ipairs(self.list) do
-    fields[#fields + 1], fields[#fields + 2] = c.name, { "status", c.status, "bound", c.bound }
+    fields[#fields + 1], fields[#fields + 2] = c.name, { "status", c.status, "bound", c.bound, "code", c.code }
   end
   return fields
 end

@@ -5,6 +5,7 @@
 -- proved when all boxes are, and the boxes cover the data.
 local box = require "ambit.verify.box"
 local carry = require "ambit.verify.carry"
+local code = require "ambit.code"
 local core = require "ambit.core"
 
 local search = {}
@@ -183,6 +184,7 @@ local function carry_conditions(job, root)
   job.request, job.outputs = carry.of(before, job.conditions)
   local good, better = pcall(again, job, root, undo)
   if good then return better end
+  if code.is_broken(better) then error(better, 0) end
   undo() -- the solver refuses the rate of a condition, which is no reason to refuse the condition
   return root
 end
@@ -212,15 +214,17 @@ end
 
 local function conclude(job, boxes)
   table.move(job.done, 1, #job.done, #boxes + 1, boxes)
+  job.nowhere = boxes[1].outcome -- the boxes cover the data: there is no solution if there is none in any
+  for _, b in ipairs(boxes) do job.nowhere = b.outcome.impossible and job.nowhere end
   for k, condition in ipairs(job.conditions) do
     local all, worst = true, nil
     for _, b in ipairs(boxes) do
       all = all and b[k].holds
       if not worst or b[k].hi > worst[k].hi then worst = b end
     end
-    condition.hi, condition.worst = worst[k].hi, worst
+    condition.hi, condition.worst = job.nowhere and -math.huge or worst[k].hi, worst
     all = all and condition.hi > -math.huge -- some part may hold a start: nothing is said about an empty set
-    condition.status = condition.status or (all and "proved" or "undecided")
+    condition.status = condition.status or job.nowhere and "impossible" or all and "proved" or "undecided"
   end
 end
 
@@ -238,7 +242,15 @@ local function refine(job, root)
   return cut(job, root)
 end
 
-function search.run(job)
+-- A run broke its contract: nothing that was found is believed.
+local function forget(job, outcome)
+  job.broken = outcome
+  for _, condition in ipairs(job.conditions) do
+    condition.status, condition.lo, condition.hi = "broken", -math.huge, math.huge
+  end
+end
+
+local function decide(job)
   job.runs, job.done, job.start, job.times, job.outputs = 0, {}, core.cpu(), job.request.times, {}
   for _, condition in ipairs(job.conditions) do condition.lo = -math.huge end
   local root = box.run(job, { lo = job.lo, hi = job.hi })
@@ -246,6 +258,11 @@ function search.run(job)
   local boxes = refine(job, root)
   job.spent = box.is_spent(job)
   conclude(job, boxes)
+end
+
+function search.run(job)
+  local broken = code.until_broken(decide, job)
+  if broken then forget(job, broken) end
 end
 
 return search
