@@ -28,7 +28,8 @@ end
 -- A path is taken from where the command runs, else from where the scene is.
 local function read_file(path)
   local text, problem = open(path)
-  local beside = type(arg) == "table" and type(arg[0]) == "string" and arg[0]:match "^(.*/)[^/]*$"
+  local words = _G.arg -- the scene's own
+  local beside = type(words) == "table" and type(words[0]) == "string" and words[0]:match "^(.*/)[^/]*$"
   if not text and beside and path:sub(1, 1) ~= "/" then text = open(beside .. path) end
   if not text then check.fail("load: cannot read the file: %s", problem) end
   return text
