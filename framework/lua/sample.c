@@ -88,6 +88,14 @@ static void push_facts(lua_State *L, const ambit_sample_result *r, size_t n, con
   lua_setfield(L, -2, "errors");
 }
 
+/* Entry i of the sampled ranges on top: some draws have no value. */
+static void mark_partial(lua_State *L, lua_Integer i) {
+  lua_rawgeti(L, -1, i);
+  ambit_lua_sampled *x = luaL_checkudata(L, -1, AMBIT_TYPE_ENCLOSURE);
+  x->own.flags |= AMBIT_F_PARTIAL;
+  lua_pop(L, 1);
+}
+
 /* sample_expressions(arithmetic, options, {expression}, {leaf}, {value}, draws, seed, plan or nil) -> {sampled},
 ** {defined draws}, report, facts */
 static int sample_expressions(lua_State *L) {
@@ -105,6 +113,8 @@ static int sample_expressions(lua_State *L) {
   ambit_receiver_end(&to);
   if (status != AMBIT_OK) ambit_lua_raise(L, &f);
   ambit_lua_push_sampled(L, q.nexpr, hull, error);
+  for (size_t i = 0; i < q.nexpr; i++)
+    if (defined[i] < result.draws) mark_partial(L, (lua_Integer)i + 1);
   lua_createtable(L, (int)q.nexpr, 0);
   for (size_t i = 0; i < q.nexpr; i++) {
     lua_pushinteger(L, (lua_Integer)defined[i]);

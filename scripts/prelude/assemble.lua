@@ -196,8 +196,9 @@ local function prove_near(q, centre)
 end
 
 local function classify(found)
+  if found.status == "broken" or found.status == "stopped" then return found.status end
   if found.status ~= "complete" then return "undecided" end
-  if #found.partly > 0 then return "undecided" end -- a part of the data has a configuration
+  if #found.partly > 0 then return "complete" end -- a part of the data has a configuration: roots.finish says partial
   if #found.proved == 0 then return "none" end
   return #found.proved == 1 and "unique" or "several"
 end
@@ -216,7 +217,10 @@ end
 local function describe(self, q, rows, given, found, start)
   local result = { status = classify(found), reason = explain_edge(found), boxes = found.boxes,
     cpu_seconds = found.cpu_seconds, box = {}, configurations = {}, undecided = {}, report = found.report }
+  if result.status == found.status or result.status == "undecided" then result.code = found.code end
+  result.partly = {}
   for i, name in ipairs(q.names) do result.box[name] = q.ranges[i] end
+  for i, point in ipairs(found.partly) do result.partly[i] = complete(point, given) end
   for i, point in ipairs(found.proved) do result.configurations[i] = complete(point, given) end
   for i, point in ipairs(found.undecided) do result.undecided[i] = complete(point, given) end
   result.configuration = result.configurations[1]
@@ -313,8 +317,9 @@ function methods:assemble(t)
   local start = approach(q, first)
   q.ranges = fill_ranges(t, sought, ranges, start.centre)
   q.centre = start.converged and start.centre or first
-  local found = roots.finish(q, "assemble", roots.run(q))
+  local found = roots.run(q)
   local result = describe(self, q, rows, given, found, start)
+  roots.finish(q, "assemble", found, result)
   if result.configuration then loops.adopt(self, result.configuration, t.t) end
   hand_out(self, q, given, result, symbols.t and t.t)
   return result

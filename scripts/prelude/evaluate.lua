@@ -4,6 +4,7 @@ local binding = require "ambit.binding"
 local check = require "ambit.check"
 local core = require "ambit.core"
 local option = require "ambit.option"
+local partial = require "ambit.partial"
 local session = require "ambit.session"
 local shape = require "ambit.shape"
 
@@ -30,13 +31,6 @@ function verb.with_status(value, facts)
     return found
   end
   return setmetatable(value, meta)
-end
-
--- partial = true: the scene knows that a part of the data may have no answer.
-function verb.check_partial(t, what)
-  if t.partial ~= nil and type(t.partial) ~= "boolean" then
-    check.fail("%s: partial: expected true or false, got %s", what, check.kind(t.partial))
-  end
 end
 
 local function write_values(paths, results)
@@ -69,25 +63,22 @@ local function judge(paths, results, blame, rigorous, allowed)
     facts.reason = ("%s%s is defined for none of the data"):format(nowhere, what)
   end
   local partly = subject_of(paths, results, function(x) return x.partial end)
-  facts.partial = partly ~= nil
-  if not partly or nowhere then return facts end
-  facts.status, facts.code = "partial", allowed and "ok.partial" or "unable.partial"
-  facts.reason = ("%s%s is undefined for part of the data, and the enclosure holds for the rest; narrow the data, or "
-    .. "say `partial = true`"):format(partly, what)
-  return facts
+  local why = partly and ("%s%s is undefined for part of the data, and the enclosure holds for the rest"):format(partly,
+    what)
+  return partial.judge(facts, why, allowed)
 end
 
 function verb.evaluate(t)
   check.table(t, "evaluate")
   check.keys(t, { "at", "arithmetic", "partial" }, "evaluate", #t)
-  verb.check_partial(t, "evaluate")
+  local allowed = partial.read(t, "evaluate")
   local expressions, paths, rebuild = shape.flatten(verb.subject(t, "evaluate"), "evaluate")
   local leaves, values = binding.resolve(t.at, expressions, "evaluate")
   local name, options = option.arithmetic(t.arithmetic == nil and "interval" or t.arithmetic, "evaluate: arithmetic")
   session.ask { expressions = expressions, paths = paths, leaves = leaves, values = values, arithmetic = name }
   local results, report, blame, rigorous = core.evaluate(name, options, expressions, leaves, values)
   write_values(paths, results)
-  local facts = judge(paths, results, blame, rigorous, t.partial)
+  local facts = judge(paths, results, blame, rigorous, allowed)
   facts.arithmetic, facts.cpu_seconds, facts.report = name, report.seconds_run, report
   session.finish("evaluate", facts, report, { "arithmetic", name, "options", options })
   return verb.with_status(rebuild(results), facts)

@@ -5,6 +5,7 @@ local core = require "ambit.core"
 local formula = require "ambit.formula"
 local instant = require "ambit.instant"
 local ode = require "ambit.ode"
+local partial = require "ambit.partial"
 
 local event = {}
 
@@ -103,6 +104,13 @@ end
 
 function event.explain(e) return ("event `%s` in t = %s: %s"):format(e.name, tostring(e.t), e.reason) end
 
+-- What is said of the first event that may be one for a part of the data only; nil: there is none.
+local function first_uncertain(results)
+  for _, e in ipairs(results) do
+    if not e.certain then return event.explain(e) end
+  end
+end
+
 -- The key `events` of a simulation: to its request and, when it is over, to the facts of its run.
 function event.request(t, q)
   if t == nil then return end
@@ -111,6 +119,7 @@ function event.request(t, q)
 end
 
 function event.finish(q, facts)
+  facts.partial = false
   if not q.events then return end
   local results, last, most = event.read(q.watch, q.events, q.system.states, q.times)
   facts.events = results
@@ -121,6 +130,7 @@ function event.finish(q, facts)
   elseif last then
     facts.status, facts.code, facts.reason = "unable", "unable.event", event.explain(last)
   end
+  partial.judge(facts, facts.rigorous and first_uncertain(results) or nil, q.partial)
 end
 
 return event

@@ -6,6 +6,7 @@ local core = require "ambit.core"
 local formula = require "ambit.formula"
 local evaluate = require "ambit.evaluate"
 local option = require "ambit.option"
+local partial = require "ambit.partial"
 local session = require "ambit.session"
 local slope = require "ambit.roots_slope"
 local shape = require "ambit.shape"
@@ -158,9 +159,10 @@ end
 
 -- The solver's name, its options and those of the arithmetic; every other key of t must be among own_keys.
 function verb.settings(t, what, own_keys, positional)
-  local q = { solver = t.solver == nil and "krawczyk" or check.text(t.solver, what .. ": solver") }
+  local q = { solver = t.solver == nil and "krawczyk" or check.text(t.solver, what .. ": solver"),
+    partial = partial.read(t, what) }
   local declaration = option.declaration("solver", q.solver)
-  local known = { "solver", "arithmetic" }
+  local known = { "solver", "arithmetic", "partial" }
   table.move(own_keys, 1, #own_keys, #known + 1, known)
   local names = option.names(declaration)
   table.move(names, 1, #names, #known + 1, known)
@@ -182,11 +184,14 @@ function verb.run(q)
   return setmetatable(facts, Roots)
 end
 
--- The end of the verb `what`.
-function verb.finish(q, what, facts)
-  session.finish(what, facts, facts.report,
+-- The end of the verb `what`; outcome: what it made of the facts of the search, or nil.
+function verb.finish(q, what, facts, outcome)
+  local result, n = outcome or facts, #facts.partly
+  local exist = n == 1 and "1 root exists" or ("%d roots exist"):format(n)
+  partial.judge(result, n > 0 and exist .. " only for a part of the data" or nil, q.partial)
+  session.finish(what, result, facts.report,
     { "solver", q.solver, "arithmetic", facts.arithmetic, "options", q.option_list, "boxes", facts.boxes })
-  return facts
+  return result
 end
 
 -- The unknowns' symbols.

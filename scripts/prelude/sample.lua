@@ -9,13 +9,14 @@ local evaluate = require "ambit.evaluate"
 local mechanism = require "ambit.mechanism"
 local ode = require "ambit.ode"
 local option = require "ambit.option"
+local partial = require "ambit.partial"
 local session = require "ambit.session"
 local shape = require "ambit.shape"
 local simulate = require "ambit.simulate"
 
 local verb = {}
 
-local own_keys = { "n", "seed", "threads", "points", "corners", "polish" }
+local own_keys = { "n", "seed", "threads", "points", "corners", "polish", "partial" }
 local sequences = { "sobol", "niederreiter", "halton", "reverse_halton", "random" }
 
 -- -- what is asked
@@ -55,6 +56,15 @@ local function tolerance(t, key)
   return number
 end
 
+-- failed: of how many draws there is no value, and why
+local function judge(facts, failed, why, allowed)
+  local what = ("%d of %d draws %s"):format(failed, facts.draws, why)
+  if facts.status == "complete" and failed >= facts.draws then
+    facts.status, facts.code, facts.reason = "unable", "unable", what
+  end
+  return partial.judge(facts, failed > 0 and what or nil, allowed)
+end
+
 local function settings_of(draws, seed, facts, ...)
   local list = { "draws", draws, "seed", seed, "points", facts.points, "failed", facts.failed, "polished",
     facts.polished, "threads", facts.threads, ... }
@@ -75,6 +85,7 @@ end
 local function of_expressions(t)
   check.keys(t, { "at", "arithmetic", table.unpack(own_keys) }, "sample", #t)
   local draws, seed = draws_and_seed(t)
+  local allowed = partial.read(t, "sample")
   local expressions, paths, rebuild = shape.flatten(evaluate.subject(t, "sample"), "sample")
   local leaves, values = binding.resolve(t.at, expressions, "sample")
   local name, options = option.arithmetic(t.arithmetic == nil and "real" or t.arithmetic, "sample: arithmetic")
@@ -82,6 +93,9 @@ local function of_expressions(t)
     seed, plan_of(t))
   facts.defined, facts.report, facts.sample_error = defined, report, facts.errors
   facts.error = rebuild(facts.errors)
+  local undefined = 0
+  for i in ipairs(results) do undefined = math.max(undefined, facts.draws - defined[i]) end
+  judge(facts, undefined, "have no value", allowed)
   write_values(paths, results, facts.errors)
   session.finish("sample", facts, report, settings_of(draws, seed, facts, "arithmetic", name))
   return evaluate.with_status(rebuild(results), facts)
@@ -117,7 +131,7 @@ check.methods(Sample, Sample)
 
 function Sample.__tostring(self)
   local text = ("%s: %d draws"):format(self.status, self.draws)
-  if self.failed > 0 then text = text .. (", %d of them did not reach the end: %s"):format(self.failed, self.reason) end
+  if self.failed > 0 then text = text .. ": " .. self.reason end
   return text
 end
 
@@ -142,6 +156,7 @@ end
 
 local function of_system(t)
   local draws, seed = draws_and_seed(t)
+  local allowed = partial.read(t, "sample")
   local q, in_lanes = request_of(t)
   local plan = plan_of(t)
   if in_lanes then plan.relative, plan.absolute = tolerance(t, "relative"), tolerance(t, "absolute") end
@@ -156,6 +171,7 @@ local function of_system(t)
   local k = #q.times
   result.x, result.error = named(result, k, result.values), named(result, k, result.errors)
   local last = (k - 1) * #result.states
+  judge(result, result.failed, "did not reach the end" .. (result.reason and ": " .. result.reason or ""), allowed)
   write_values(result.states, table.move(result.values, last + 1, last + #result.states, 1, {}),
     table.move(result.errors, last + 1, last + #result.states, 1, {}))
   session.finish("sample", result, report, settings_of(draws, seed, result, "solver", report.solver))

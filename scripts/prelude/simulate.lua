@@ -9,6 +9,7 @@ local loops = require "ambit.loops"
 local mechanism = require "ambit.mechanism"
 local ode = require "ambit.ode"
 local option = require "ambit.option"
+local partial = require "ambit.partial"
 local run = require "ambit.run"
 local session = require "ambit.session"
 local split = require "ambit.split"
@@ -174,8 +175,9 @@ function verb.solve(q)
 end
 
 function verb.simulate(t)
-  local keys = table.move(verb.run_keys, 1, #verb.run_keys, 2, { "events" })
+  local keys = table.move(verb.run_keys, 1, #verb.run_keys, 3, { "events", "partial" })
   local q = verb.request(t, "simulate", nil, keys)
+  q.partial = partial.read(t, "simulate")
   q.run_options = verb.run_options(t, q)
   event.request(t.events, q)
   session.ask_simulation(q)

@@ -6,7 +6,9 @@
 local check = require "ambit.check"
 local core = require "ambit.core"
 local evaluate = require "ambit.evaluate"
+local partial = require "ambit.partial"
 local roots = require "ambit.roots"
+local session = require "ambit.session"
 local shape = require "ambit.shape"
 
 local NEAR = 1e-6 -- how far around rest, in coordinates and speeds, the power is looked at
@@ -231,23 +233,47 @@ function stability.new(self)
   end
 end
 
+-- An entry that has no value for any of the data: there is no matrix.
+local function refuse_empty(facts, matrix, blame)
+  for _, x in ipairs(matrix) do
+    if x:is_empty() then
+      facts.status, facts.code = "impossible", "domain.undefined"
+      facts.reason = ("%s is defined for none of the data"):format(blame == "" and "an entry" or ("`%s`"):format(blame))
+    end
+  end
+end
+
+local function why_partial(matrix, blame)
+  for _, x in ipairs(matrix) do
+    if x.partial then
+      return ("%s is undefined for part of the data, and the eigenvalues hold for the rest"):format(
+        blame == "" and "an entry" or ("`%s`"):format(blame))
+    end
+  end
+end
+
 -- ambit.eigenvalues { { a, b }, { c, d } }: n enclosures { re, im, count } of the eigenvalues of every matrix of the
 -- set
 function stability.eigenvalues(t)
   check.table(t, "eigenvalues")
-  local n = #t
+  local allowed, n = partial.read(t, "eigenvalues"), #t
+  check.keys(t, { "partial" }, "eigenvalues", n)
   if n == 0 then check.fail "eigenvalues: expected the rows of a matrix: { { a, b }, { c, d } }" end
   for i, row in ipairs(t) do
     if type(row) ~= "table" or #row ~= n then check.fail("eigenvalues: row %d: expected %d entries", i, n) end
   end
-  local entries = shape.flatten(t, "eigenvalues")
+  local entries = shape.flatten(table.move(t, 1, n, 1, {}), "eigenvalues")
   if #entries ~= n * n then check.fail("eigenvalues: expected %d rows of %d entries and nothing else", n, n) end
-  local matrix = core.evaluate("interval", {}, entries, {}, {})
+  local start = core.cpu()
+  local matrix, _, blame = core.evaluate("interval", {}, entries, {}, {})
   local values, verdict, by = core.spectrum(n, matrix)
-  return evaluate.with_status(values or {}, {
-    status = values and "complete" or "unable", code = values and "ok" or "unable.eigenvalues", stability = verdict, stability_by = by,
-    reason = values and "" or "the matrix is not bounded, or its eigenvectors are too dependent for data so wide",
-  })
+  local facts = { status = values and "complete" or "unable", code = values and "ok" or "unable.eigenvalues",
+    stability = verdict, stability_by = by, cpu_seconds = core.cpu() - start,
+    reason = values and "" or "the matrix is not bounded, or its eigenvectors are too dependent for data so wide" }
+  refuse_empty(facts, matrix, blame)
+  partial.judge(facts, why_partial(matrix, blame), allowed)
+  session.finish("eigenvalues", facts, {}, { "rows", n, "stability", verdict })
+  return evaluate.with_status(facts.status == "impossible" and {} or values or {}, facts)
 end
 
 return stability

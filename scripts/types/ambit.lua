@@ -279,7 +279,10 @@ function mechanism:of_states(e) end
 function mechanism:rank(t) end
 
 ---@class ambit.assembly
----@field status "unique"|"none"|"several"|"undecided"
+---@field status "unique"|"none"|"several"|"undecided"|"partial"|"stopped"|"broken"
+---@field code string "ok", "ok.none", "unable.partial", ...: see docs/errors.md
+---@field partial boolean is there a configuration for a part of the data only?
+---@field partly table<string, ambit.enclosure>[] those configurations
 ---@field reason string?
 ---@field configuration table<string, ambit.enclosure>? for `initial` and `at`
 local assembly = {}
@@ -288,7 +291,7 @@ local assembly = {}
 function assembly:of_data() end
 
 ---Coordinates by name are given; the others are sought in `box`, or `within` a radius of `guess`.
----@param t { guess: table<string, ambit.datum>?, box: table<string, any>?, within: any, [string]: ambit.datum }
+---@param t { guess: table<string, ambit.datum>?, box: table<string, any>?, within: any, partial: boolean?, [string]: ambit.datum }
 ---@return ambit.assembly
 function mechanism:assemble(t) end
 
@@ -418,7 +421,8 @@ function ambit.evaluate(t) end
 ---@field reason string? why it is not certain
 
 ---@class ambit.run
----@field status "complete"|"impossible"|"unable"|"stopped"|"broken"
+---@field status "complete"|"partial"|"impossible"|"unable"|"stopped"|"broken" partial: an event is not certain
+---@field partial boolean may an event happen for a part of the data only?
 ---@field code string "ok", "unable.width", ...: see docs/errors.md
 ---@field reason string "" if complete, else why, and which knob to turn
 ---@field t_start number
@@ -489,6 +493,7 @@ function run:overestimation(sample) end
 
 ---@class ambit.simulate.request: ambit.problem
 ---@field events? ambit.event[]
+---@field partial? boolean true: an event may happen for a part of the data only
 ---@field split? integer|table<string|ambit.expression, integer> pieces, or parts by state, parameter or datum
 ---@field threads? integer
 ---@field keep? "all"|"last"
@@ -569,13 +574,15 @@ function counterexample:value(e) end
 
 ---@class ambit.verdict
 ---@field name string
----@field status "proved"|"refuted"|"undecided"
+---@field status "proved"|"refuted"|"undecided"|"impossible"|"broken"
+---@field code string
 ---@field reason string
 ---@field bound ambit.enclosure? of the largest (reach: the least) g over all data
 ---@field counterexample ambit.counterexample?
 
 ---@class ambit.verification
----@field status "proved"|"refuted"|"undecided"
+---@field status "proved"|"refuted"|"undecided"|"impossible"|"broken"
+---@field code string
 ---@field reason string
 ---@field bound ambit.enclosure?
 ---@field counterexample ambit.counterexample?
@@ -715,7 +722,8 @@ function ambit.reduce(t) end
 
 ---What ambit.sample gives back for a system; for expressions, their shape has the same fields but x, t and states.
 ---@class ambit.sample
----@field status "complete"|"stopped" stopped: what was drawn until then counts
+---@field status "complete"|"partial"|"unable"|"stopped" stopped: what was drawn until then counts
+---@field partial boolean have some draws no value?
 ---@field draws integer
 ---@field failed integer of these did not reach the end
 ---@field off integer of these start off a constraint
@@ -856,7 +864,9 @@ function ambit.compare(t) end
 ---@field [string] any
 
 ---@class ambit.roots
----@field status "complete"|"unable"
+---@field status "complete"|"partial"|"unable"|"stopped"|"broken"
+---@field code string
+---@field partial boolean are there roots for a part of the data only?
 ---@field reason string "" if complete
 ---@field proved ambit.root[] each holds exactly one root, for each value of the uncertain data
 ---@field partly ambit.root[] roots for a part of the data's values
@@ -868,6 +878,7 @@ function ambit.compare(t) end
 ---@field cpu_seconds number
 
 ---@class ambit.roots.options
+---@field partial? boolean true: there may be roots for a part of the data only
 ---@field solver? string
 ---@field arithmetic? ambit.arithmetic
 ---@field tolerance? number size of the smallest boxes
@@ -913,7 +924,7 @@ function ambit.roots(t) end
 ---@return ambit.equilibria
 function ambit.equilibria(t) end
 
----@param matrix ambit.datum[][] by rows
+---@param matrix { [integer]: ambit.datum[], partial: boolean? } by rows
 ---@return ambit.eigenvalue[] # also with .stability, .stability_by, .stability_reason
 function ambit.eigenvalues(matrix) end
 

@@ -105,7 +105,8 @@ describe("events", function()
 
   it("say so where a solution only grazes", function()
     local run = swing { { g = x_is(-1), name = "apex" }, { g = x_is(1.000001) } }
-    assert.equal("complete", run.status)
+    assert.equal("partial", run.status)
+    assert.equal("unable.partial", run.code)
     assert.is_true(#run.events >= 1)
     for _, e in ipairs(run.events) do
       assert.equal("apex", e.name)
@@ -134,7 +135,7 @@ describe("events", function()
         assert.equal(1, #run.events)
         assert.is_true(run.events[1].t:contains(1))
         q.events[1].stop = false
-        assert.equal("complete", ambit.simulate(q).status)
+        assert.equal("partial", ambit.simulate(q).status)
         assert.is_false(ambit.simulate(q).events[1].certain)
       end
     end

@@ -193,7 +193,7 @@ local function first_of(number, event, run, found)
         counts.found = counts.found + 1
         counts.certain = counts.certain + 1
         if event.graze then fail(number, event, c, "passed through, but g only touches 0") end
-      elseif found and found.t.hi < c or run.status ~= "complete" and not found then
+      elseif found and found.t.hi < c or run.status ~= "complete" and run.status ~= "partial" and not found then
         counts.unable = counts.unable + 1
       else
         fail(number, event, c, ("%s (%s)"):format(run.status, run.reason))

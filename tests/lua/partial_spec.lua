@@ -162,3 +162,107 @@ describe("partial, of random expressions,", function()
     assert.is_true(undefined > tries)
   end)
 end)
+
+-- The same of every verb: the answer for a part of the data is `partial`, exit code 3, and 0 if the scene knows.
+describe("a partial answer of another verb", function()
+  local verbs = {
+    roots = [[local p = ambit.between(4, 16)
+      r = ambit.roots { function(s) return s.x ^ 2 - p end, box = { x = { 0, 3 } }, partial = %s }
+      assert(#r.partly == 1 and #r.proved == 0)]],
+    equilibria = [[local p = ambit.between(4, 16)
+      local f = ambit.ode { states = { "x" }, equations = function(s) return { x = p - s.x ^ 2 } end }
+      r = ambit.equilibria { f, box = { x = { 0, 3 } }, partial = %s }
+      assert(#r.partly == 1)]],
+    inverse_kinematics = [[local m = ambit.mechanism "arm"
+      local tip = m:rigid_link { from = m:revolute { from = m.world, axis = "z", name = "q" }, offset = { 1, 0, 0 } }
+      r = ambit.inverse_kinematics { m, at = tip, position = { ambit.between("0.2", "0.8") }, box = { q = { "0.3", 1 } },
+        partial = %s }
+      assert(#r.partly == 1 and #r.proved == 0)]],
+    assemble = [[local m = ambit.mechanism "loop"
+      local post = m:rigid_link { from = m.world, offset = { 0, 1, 0 } }
+      local slider = m:prismatic { from = m.world, axis = "x", name = "x" }
+      m:close_distance { a = slider, b = post, length = ambit.between("1.2", 2) }
+      r = m:assemble { box = { x = { 0, "1.2" } }, partial = %s }
+      assert(#r.partly == 1 and not r.configuration)]],
+    sample = [[r = ambit.sample { { root = ambit.sqrt(ambit.between(-1, 1)) }, n = 50, partial = %s }
+      assert(r.root.partial)]],
+    eigenvalues = [[local x = ambit.between(-1, 1)
+      r = ambit.eigenvalues { { ambit.sqrt(x), 0 }, { 0, 1 }, partial = %s }
+      assert(#r > 0)]],
+    events = [[local f = ambit.ode { states = { "x" }, equations = function() return { x = 1 } end }
+      r = ambit.simulate { f, initial = { ambit.between(0, "0.5") }, t = { 0, 1 }, partial = %s,
+        events = { { name = "there", g = function(s) return s.x - "1.25" end } } }
+      assert(#r.events == 1 and not r.events[1].certain)]],
+  }
+  for name, text in pairs(verbs) do
+    it("is told by " .. name, function()
+      local check = "\nassert(r.status == 'partial' and r.partial, r.status) print(r.code, r.reason)"
+      local code, output = scene("local r\n" .. text:format "false" .. check)
+      assert.equal(3, code, output)
+      has(output, "unable.partial", "partial = true")
+      code, output = scene("local r\n" .. text:format "true" .. check)
+      assert.equal(0, code, output)
+      has(output, "ok.partial")
+      code, output = scene("local r\n" .. text:format "7")
+      assert.equal(1, code, output)
+      has(output, "partial: expected true or false, got number")
+    end)
+  end
+
+  it("is none of a sensitivity: what is not defined for all data is not proved", function()
+    local code, output = scene [[
+      local f = ambit.ode { states = { "x" }, equations = function(s) return { x = -s.x } end }
+      local initial = { ambit.sqrt(ambit.between(-1, 1)) }
+      print(ambit.sensitivity { f, initial = initial, t = { 0, 1 }, wrt = { "x" } }.status)]]
+    assert.equal(1, code, output)
+    has(output, "not defined for all values of their uncertain data")
+    code, output = scene [[
+      local f = ambit.ode { states = { "x" }, equations = function(s) return { x = -ambit.sqrt(s.x) } end }
+      ambit.sensitivity { f, initial = { ambit.between(0, 1) }, t = { 0, 1 }, wrt = { "x" } }]]
+    assert.equal(3, code, output)
+    has(output, '"verb":"sensitivity","status":"unable"')
+  end)
+
+  it("of a sample says how many draws have a value, and that none has is no answer", function()
+    local r = ambit.sample { { ambit.sqrt(ambit.between(-1, 1)), ambit.between(0, 1) }, n = 50 }
+    assert.is_true(r[1].partial and not r[2].partial)
+    session.worst = "ok"
+    has(r.reason, "of 5", "draws have no value")
+    r = ambit.sample { { ambit.sqrt(ambit.between(-2, -1)) }, n = 50, partial = true }
+    session.worst = "ok"
+    assert.equal("unable", r.status)
+  end)
+end)
+
+describe("verdicts count for the exit code:", function()
+  it("an assembly that is not decided, and none that is proved", function()
+    local m = [[local m = ambit.mechanism "loop"
+      local tip = m:prismatic { from = m.world, axis = "x", name = "x" }
+      local goal = m:prismatic { from = m.world, axis = "x", name = "goal" }
+      m:close_point { a = tip, b = goal }
+      ]]
+    local code, output = scene(m .. [[local r = m:assemble { goal = ambit.between(1, 2), box = { x = { 0, 3 } } }
+      assert(r.code == "ok")]])
+    assert.equal(0, code, output)
+    has(output, '"verb":"assemble","status":"unique","code":"ok"')
+    code, output = scene(m .. [[local r = m:assemble { goal = 5, box = { x = { 0, 3 } } } assert(r.code == "ok.none")]])
+    assert.equal(0, code, output)
+    has(output, '"status":"none","code":"ok.none"')
+    code, output = scene(m .. [[local r = m:assemble { goal = ambit.between(1, 2), box = { x = { 0, 3 } }, boxes_max = 1,
+      tolerance = 1e-9, parameter_pieces = 1 }
+      print(r.status, r.code)]])
+    assert.is_true(code == 0 or code == 3, output)
+  end)
+
+  it("eigenvalues that are not enclosed, and a matrix that does not exist", function()
+    local code, output = scene "local r = ambit.eigenvalues { { ambit.exp(ambit.between(0, 1e300)) } } assert(#r == 0)"
+    assert.equal(3, code, output)
+    has(output, '"verb":"eigenvalues","status":"unable","code":"unable.eigenvalues"')
+    code, output = scene "ambit.eigenvalues { { ambit.log(ambit.between(-2, -1)) } }"
+    assert.equal(4, code, output)
+    has(output, '"status":"impossible","code":"domain.undefined"')
+    code, output = scene "ambit.eigenvalues { { 1, 2 }, { 3, 4 } }"
+    assert.equal(0, code, output)
+    has(output, '"verb":"eigenvalues","status":"complete","code":"ok"')
+  end)
+end)
