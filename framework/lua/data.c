@@ -89,6 +89,13 @@ static const char *name_of(lua_State *L, int idx, const char *what) {
   return name;
 }
 
+/* A constant expression that no number is the value of: "around: the value". */
+static void refuse_undefined(lua_State *L, ambit_interval x, const char *what) {
+  if (!ambit_interval_is_empty(x)) return;
+  ambit_lua_error(
+      L, "%s is no number: it is not defined, such as the root of a negative number or a quotient by 0", what);
+}
+
 /* around(c, tolerance [, name]) */
 static int around(lua_State *L) {
   ambit_lua *core = AMBIT_LUA(L);
@@ -100,6 +107,7 @@ static int around(lua_State *L) {
   if (t.size.hi > 0) {
     if (ambit_lua_is_constant(L, &c)) {
       ambit_interval x = ambit_tight(core->graph, core->registry, c.e);
+      refuse_undefined(L, x, "around: the value");
       if (!ambit_interval_is_bounded(x)) ambit_lua_error(L, "around: the value is not bounded");
       c.e = around_number(L, x, t, name);
     } else {
@@ -128,6 +136,8 @@ static int between(lua_State *L) {
     ambit_lua_error(L, "between: the ends must be known numbers, not uncertain themselves");
   lo.dimension = ambit_lua_dimension_op(L, AMBIT_OP_ADD, lo.dimension, hi.dimension, "between");
   ambit_interval a = ambit_tight(core->graph, core->registry, lo.e), b = ambit_tight(core->graph, core->registry, hi.e);
+  refuse_undefined(L, a, "between: the lower end");
+  refuse_undefined(L, b, "between: the upper end");
   if (a.lo > b.hi) ambit_lua_error(L, "between: the interval is reversed: %g is greater than %g", a.lo, b.hi);
   ambit_interval range = { a.lo, b.hi };
   if (!ambit_interval_is_bounded(range)) ambit_lua_error(L, "between: the ends must be finite");

@@ -13,6 +13,19 @@ describe("around", function()
     assert.is_true(y:width() < 0.02 + 1e-16)
   end)
 
+  it("says of a value that is not defined that it is no number", function()
+    for _, value in ipairs { ambit.sqrt "-1", ambit.log "-1", ambit.log "0", ambit.number(1) / 0 } do
+      for message, f in pairs { ["around: the value is no number"] = function() return ambit.around(value, 1) end,
+        ["between: the lower end is no number"] = function() return ambit.between(value, 1) end,
+        ["between: the upper end is no number"] = function() return ambit.between(1, value) end } do
+        local good, problem = pcall(f)
+        assert.is_false(good)
+        assert.truthy(problem:find(message, 1, true), problem)
+        assert.truthy(problem:find("data_spec.lua:", 1, true), problem)
+      end
+    end
+  end)
+
   it("takes relative tolerances of either sign", function()
     for _, c in ipairs { 4, -4 } do
       local x = range(ambit.around(c, "25%"))

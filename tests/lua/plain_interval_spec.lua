@@ -78,6 +78,26 @@ describe("a plain interval", function()
     end, "verify: safe")
   end)
 
+  it("is refused as an input of certify and reduce, and is a datum as a parameter", function()
+    local f = ambit.ode { states = { "x", "y" }, parameters = { u = 0, k = 1 },
+      equations = function(s, p) return { x = p.u - p.k * s.x - 0.001 * s.y, y = -s.y } end }
+    local function ask(given, scenarios)
+      return { f, f, t = { 0, "0.1" }, initial = { x = 0, y = 0 }, outputs = { "x" }, error = { x = 1 }, inputs = given,
+        scenarios = scenarios, parameters = { k = interval(1, 2) } }
+    end
+    local function without_second(t)
+      t[2] = nil
+      return t
+    end
+    for _, value in ipairs { interval(-1, 1), "[-1, 1]" } do
+      refused(function() ambit.certify(ask { u = value }) end, "certify: `u`: the plain interval")
+      refused(function() ambit.certify(ask(nil, { { inputs = { u = value } } })) end, "certify: `u`: the plain interval")
+      refused(function() ambit.reduce(without_second(ask { u = value })) end, "reduce: `u`: the plain interval")
+    end
+    refused(function() ambit.certify(ask { u = function(t) return t * interval(0, 1) end }) end, "certify: `u`")
+    assert.equal("proved", ambit.certify(ask { u = ambit.between(-1, 1) }).status)
+  end)
+
   it("is a datum as an initial value, as a parameter and as a value of a variable", function()
     local decay = ambit.ode { states = { "x" }, parameters = { k = interval(1, 2), c = "[0, 1]" },
       equations = function(s, p) return { x = p.c - p.k * s.x } end }

@@ -27,9 +27,9 @@ local function entries(t, what)
   return list
 end
 
--- What an entry or the verb says about parameters and inputs: { [key] = value }, each once.
+-- What an entry or the verb says about parameters and inputs: { [key] = value }, each once; { [key] = true } of inputs.
 local function said(t, what)
-  local values = {}
+  local values, is_input = {}, {}
   for _, field in ipairs { "parameters", "inputs" } do
     local list = t[field] == nil and {} or check.table(t[field], ("%s: %s"):format(what, field))
     for _, key in ipairs(check.sorted(list)) do
@@ -37,10 +37,10 @@ local function said(t, what)
       if type(key) ~= "string" and check.kind(key) ~= "expression" then
         check.fail("%s: %s: expected names, or uncertain data as keys, got %s", what, field, check.kind(key))
       end
-      values[key] = list[key]
+      values[key], is_input[key] = list[key], field == "inputs" or nil
     end
   end
-  return values
+  return values, is_input
 end
 
 -- Equal data are equal keys, even if they are two Lua values.
@@ -75,10 +75,12 @@ function scenario.symbols(t, what)
   return symbols
 end
 
--- unit: that of what the value stands for; nil: not known
-local function value_of(value, unit, what)
+-- unit: that of what the value stands for; nil: not known. An input varies: a plain interval for one says too little, and
+-- for a parameter it is a datum.
+local function value_of(value, unit, is_input, what)
   if type(value) == "function" then value = formula.call(value, what, core.time()) end
   local e = core.expression(value, unit, what)
+  core.refuse_plain({ e }, what, is_input)
   for _, leaf in ipairs(core.leaves { e }) do
     if leaf.kind == "symbol" then check.fail("%s depends on `%s`: expected data and time only", what, leaf.name) end
   end
@@ -134,14 +136,15 @@ local function read(t, entry, number, count, m, what)
     leaves = {}, values = {} }
   check.text(s.name, where .. ": name")
   s.times = instant.list(entry.t == nil and t.t or entry.t, where .. ": t")
-  local own, common = said(entry, where), said(t, what)
+  local own, own_inputs = said(entry, where)
+  local common, common_inputs = said(t, what)
   for _, key in ipairs(check.sorted(m.varied)) do
-    local value = find(own, key)
-    if value == nil then value = find(common, key) end
+    local value, is_input = find(own, key), find(own_inputs, key)
+    if value == nil then value, is_input = find(common, key), find(common_inputs, key) end
     if value == nil then value = default_of(m, key) end
     local n = #s.leaves + 1
     s.leaves[n] = m.varied[key]
-    s.values[n] = value_of(value, core.unit_of(default_of(m, key)), ("%s: `%s`"):format(where, tostring(key)))
+    s.values[n] = value_of(value, core.unit_of(default_of(m, key)), is_input or false, ("%s: `%s`"):format(where, tostring(key)))
     core.name_data({ s.values[n] }, tostring(key))
     s.by_key[key] = s.values[n]
   end
