@@ -34,8 +34,13 @@ bool ambit_leave_guard(void) {
   return known;
 }
 
+static int later = -1; /* an exit code that replaces what ambit_leave is given; -1: none */
+
+void ambit_leave_with(int code) { later = code; }
+
 int ambit_leave(int code) {
   guarded = 0;
+  if (later >= 0) code = later;
   if (fflush(stdout) == 0 && !ferror(stdout)) return code; /* the last flush, or one before it */
   fprintf(stderr, "ambit: not everything could be written to standard output\n");
   return code == EXIT_SUCCESS ? EXIT_FAILURE : code;

@@ -14,4 +14,6 @@ bool ambit_leave_reserve_files(void);
 bool ambit_leave_guard(void);
 /* What was printed goes out; the exit code becomes that of an error if it cannot. The guard is off. */
 int ambit_leave(int code);
+/* From here on ambit_leave takes this exit code instead of what it is given, for what happens while Lua closes. */
+void ambit_leave_with(int code);
 #endif

@@ -123,6 +123,12 @@ static int leave(lua_State *L) {
   exit(signal ? signal : code);
 }
 
+/* leave_with(code): the exit code of the process, although the command has returned another one */
+static int leave_with(lua_State *L) {
+  ambit_leave_with((int)luaL_checkinteger(L, 1));
+  return 0;
+}
+
 /* literal(x) -> the shortest text that reads back as x */
 static int literal(lua_State *L) {
   char text[AMBIT_DECIMAL_MAX];
@@ -154,7 +160,7 @@ static int heap(lua_State *L) {
 void ambit_lua_open_process(lua_State *L, ambit_lua *core) {
   static const luaL_Reg functions[] = { { "libraries", libraries }, { "cpu", cpu }, { "deadline", deadline },
     { "terminal", terminal }, { "where", where }, { "fail", fail }, { "progress", progress }, { "notes", notes },
-    { "interrupted", interrupted }, { "literal", literal }, { "codes", codes }, { "leave", leave },
+    { "interrupted", interrupted }, { "literal", literal }, { "codes", codes }, { "leave", leave }, { "leave_with", leave_with },
     { "settle", settle }, { "heap", heap }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
   lua_pushliteral(L, AMBIT_VERSION);

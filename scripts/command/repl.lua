@@ -1,7 +1,9 @@
 -- repl.lua -- `ambit repl`: an interval calculator and a place to build mechanisms, with the prelude at hand.
 local ambit = require "ambit"
+local code = require "ambit.code"
 local core = require "ambit.core"
 local scene = require "ambit.command.scene"
+local session = require "ambit.session"
 
 local command = {}
 
@@ -9,7 +11,8 @@ command.usage = [[
 usage: ambit repl
 Reads Lua. An expression prints its value, with or without `=` in front: `= ambit.sin(ambit.interval(0, 1))`. The
 functions of `ambit` are also known without its name: `sqrt(interval "[2, 3]")`. Line editing works if the rock
-`readline` is installed. Ctrl-D leaves.]]
+`readline` is installed. Ctrl-D leaves.
+exit: 0; if the input is not a terminal 1 after an error, else as `ambit run`.]]
 
 -- Globals first, then the functions of ambit.
 local function environment()
@@ -34,7 +37,9 @@ end
 local function show(value)
   local text = tostring(value)
   if getmetatable(value) == "ambit.expression" then
+    local before = session.worst -- what is only shown was no question
     local good, x = pcall(function() return ambit.evaluate { value } end)
+    session.worst = before
     if good and tostring(x) ~= text then text = text .. "  in " .. tostring(x) end
   end
   return text
@@ -83,13 +88,15 @@ function command.run(words)
   if words[1] then return 2, ("unexpected `%s`"):format(words[1]) end
   local env, read = environment(), reader()
   local interactive = core.terminal "stdin"
-  local code = 0
+  local failed = false
+  local function exit() return (not interactive) and (failed and 1 or code.exit(session.worst)) or 0 end
+  _G.os.exit = scene.leave_by(function(wish) return wish ~= 0 and wish or exit() end)
   if interactive then print(("ambit %s; Ctrl-D leaves"):format(ambit.version)) end
   for chunk in function() return read_chunk(read, env) end do
-    if not run(chunk) and not interactive then code = 1 end
+    if not run(chunk) then failed = true end
   end
   if interactive then print() end
-  return code
+  return exit()
 end
 
 return command

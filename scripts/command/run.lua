@@ -36,12 +36,22 @@ local function worst_of(problem)
   return session.worst
 end
 
+-- Verbs may still run in finalisers while Lua closes: they can make the exit code worse, too.
+local function watch_finalisers(exit, worst)
+  function session.closing(ended)
+    if exit ~= code.exit(worst) or not code.is_worse(ended, worst) then return end
+    exit, worst = code.exit(ended), ended
+    complain(("%s (%s), in a finaliser at the end"):format(sentences[exit], ended))
+    core.leave_with(exit)
+  end
+end
+
 -- The end of the scene, however it came: the last record, what is to be said, the exit code. problem: the error that
 -- ended it; wish: what os.exit asked for, which may not make it better.
 local function finish(problem, wish)
   local worst, signalled, by_signal = worst_of(problem), core.interrupted()
   local exit = code.exit(worst)
-  if wish and wish ~= 0 then exit = wish % 256 ~= 0 and wish or 1 end -- the system keeps 8 bits
+  if wish and wish ~= 0 then exit = wish end
   if signalled then exit = by_signal end
   if problem then complain(problem) end
   local reason = problem and tostring(problem):match "^[^\n]*"
@@ -50,6 +60,7 @@ local function finish(problem, wish)
   if signalled then complain "interrupted: what was recorded up to there is kept" end
   local sentence = not problem and sentences[code.exit(worst)]
   if sentence then complain(("%s (%s): see status, code and reason of the verbs"):format(sentence, worst)) end
+  watch_finalisers(exit, worst)
   return exit
 end
 

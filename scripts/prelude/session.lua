@@ -12,6 +12,7 @@ local session = {
   odes = setmetatable({}, weak),
   observer = nil,                         -- `ambit explain`: a function that is told of every verb as it ends
   worst = "ok",                           -- the worst code that a verb ended with
+  closing = nil,                          -- a function: the command is over, and wants to know of codes all the same
   asked = nil,                            -- a list: `ambit compare` wants to know what is evaluated
   simulations = nil,                      -- a list: it wants to know what is simulated
   comparisons = {},                       -- what ambit.compare found, in order
@@ -59,6 +60,7 @@ function session.finish(verb, result, report, settings)
   local ended = result.code or code.of(result.status)
   if result.code == nil then result.code = ended end
   if code.is_worse(ended, session.worst) then session.worst = ended end
+  if session.closing then session.closing(ended) end
   local entry = { verb = verb, status = result.status, code = ended, reason = result.reason, report = report,
     settings = settings, cpu_seconds = result.cpu_seconds or report.seconds_run or 0 }
   session.last = entry

@@ -47,10 +47,23 @@ describe("ambit run", function()
   it("ends by os.exit with at least the exit code of its verbs, and writes the last record", function()
     for _, case in ipairs { { 'faulty "unsure" os.exit(0)', 3 }, { 'faulty "unsure" os.exit(true)', 3 },
       { 'faulty "unsure" os.exit(5)', 5 }, { 'faulty "fine" os.exit(0)', 0 }, { 'faulty "fine" os.exit(false)', 1 },
-      { 'faulty "unsure" pcall(os.exit)', 3 }, { 'faulty "fine" coroutine.wrap(os.exit)(7)', 7 } } do
+      { 'faulty "unsure" pcall(os.exit)', 3 },
+      { 'faulty "fine" os.exit(256)', 1 }, { 'faulty "unsure" os.exit(512)', 1 }, { 'faulty "fine" os.exit(-256)', 1 },
+      { 'faulty "fine" os.exit(259)', 3 }, { 'faulty "fine" coroutine.wrap(os.exit)(7)', 7 } } do
       local code, output, records = run(case[1])
       assert.equal(case[2], code, case[1] .. output)
-      has(records, ('"exit":%d'):format(case[2]))
+      has(records, ('"exit":%d'):format(case[1]:find "259" and 259 or case[2]))
+    end
+  end)
+
+  it("counts the verbs of finalisers, also of those that run while Lua closes", function()
+    local late = 'keep = setmetatable({}, { __gc = function() faulty "%s" end }) %s'
+    for _, case in ipairs { { "unsure", "", 3, "unable.width" }, { "inverted", "", 1, "broken.bounds" },
+      { "nothing", "", 4, "domain.constraint" }, { "fine", "", 0 }, { "nothing", 'faulty "unsure"', 3 },
+      { "unsure", "keep = nil collectgarbage()", 3 } } do
+      local code, output = run(late:format(case[1], case[2]))
+      assert.equal(case[3], code, case[1] .. case[2] .. output)
+      if case[4] then has(output, case[4], "in a finaliser") end
     end
   end)
 
@@ -93,5 +106,31 @@ describe("ambit test", function()
     os.remove(name)
     assert.equal(1, code)
     has(output, "os.exit in a spec")
+  end)
+end)
+
+describe("ambit repl", function()
+  -- Exit code and all output for the lines of a pipe.
+  local function repl(lines)
+    local name = write(lines)
+    local pipe = io.popen(("'%s' repl <%s 2>&1"):format(command, name))
+    local output = pipe:read "a"
+    local _, _, code = pipe:close()
+    os.remove(name)
+    return code, output
+  end
+  local faulty = [[drift = ambit.ode { states = { "x" }, equations = function() return { x = 1 } end }
+    function faulty(fault) return ambit.simulate { drift, initial = { 0 }, t = { 0, 1 }, solver = "faulty", fault = fault } end
+    ]]
+
+  it("fed by a pipe ends with the exit code of its verbs", function()
+    for _, case in ipairs { { "fine", 0 }, { "unsure", 3 }, { "nothing", 4 }, { "inverted", 1 } } do
+      local code, output = repl(faulty .. ('faulty "%s"\n'):format(case[1]))
+      assert.equal(case[2], code, output)
+    end
+    assert.equal(1, (repl(faulty .. 'faulty "unsure"\nerror "no"\n')))
+    assert.equal(3, (repl(faulty .. 'faulty "unsure"\nos.exit(0)\n')))
+    assert.equal(1, (repl "os.exit(256)\n"))
+    assert.equal(0, (repl "sqrt(between(-1, 1))\n")) -- nothing was asked: what it is is shown
   end)
 end)
