@@ -160,8 +160,8 @@ static int heap(lua_State *L) {
 void ambit_lua_open_process(lua_State *L, ambit_lua *core) {
   static const luaL_Reg functions[] = { { "libraries", libraries }, { "cpu", cpu }, { "deadline", deadline },
     { "terminal", terminal }, { "where", where }, { "fail", fail }, { "progress", progress }, { "notes", notes },
-    { "interrupted", interrupted }, { "literal", literal }, { "codes", codes }, { "leave", leave }, { "leave_with", leave_with },
-    { "settle", settle }, { "heap", heap }, { NULL, NULL } };
+    { "interrupted", interrupted }, { "literal", literal }, { "codes", codes }, { "leave", leave },
+    { "leave_with", leave_with }, { "settle", settle }, { "heap", heap }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
   lua_pushliteral(L, AMBIT_VERSION);
   lua_setfield(L, -2, "version");
