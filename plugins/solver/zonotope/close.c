@@ -1,11 +1,13 @@
 /* close.c -- the set at the end of the step.
 **
 ** x(h) = Y(xi) + Y_eps eps + sum_j xi_j Y_j eps + z(h). Old generators move with Y_eps / E; what the mixed terms do to
-** them is bounded column by column and put into a box, with rounding. Each lump is a new generator h rr_j mean(K) C_j:
-** one symbol for all states. What K and C vary by goes into the box. Then generators are reduced [Girard 2005]: in units
+** them is bounded column by column and put into a box, with rounding. Each lump is two new generators (kernel.c): one
+** symbol for all states. What K and C vary by besides goes into the box. Then generators are reduced [Girard 2005]: in units
 ** of the states' sizes, the columns that are nearest to an axis, or shortest, become a box.
 */
 #include "proof.h"
+
+static double *box(const zono *z, enum origin from, uint32_t i) { return z->proof->boxes + from * z->nx + i; }
 
 /* -- the polynomials */
 
@@ -23,7 +25,7 @@ static void find_end(zono *z) {
       size += fabs(power) * row_total(s, row);
     }
     row_norms(s, to);
-    p->box[i] = 2 * (z->K + 3) * UNIT * size + z->h_error * (p->high[out] + p->delta[out]);
+    *box(z, FROM_START, i) += 2 * (z->K + 3) * UNIT * size + z->h_error * (p->high[out] + p->delta[out]);
   }
 }
 
@@ -60,6 +62,7 @@ static void move_generators(zono *z) {
   const shape *s = &z->shape;
   double *moved = p->turned + (size_t)z->nx * z->ngen;
   turn(z);
+  memcpy(p->origin, p->from, z->ngen);
   for (uint32_t i = 0; i < z->nx; i++) {
     const double *y = p->end + (size_t)i * s->stride;
     double mixed = 0;
@@ -68,8 +71,8 @@ static void move_generators(zono *z) {
     for (uint32_t c = 0; c < z->ngen; c++) p->columns[(size_t)c * z->nx + i] = moved[c];
     /* E is rounded up, so sums of |G| / E are at most 1 */
     double rounded = 2 * (z->nx + 4) * UNIT * (row_r(s, y) + row_x(s, y));
-    p->box[i] += mixed * ABOVE + rounded;
-    if (p->share) p->share[i].mixed = mixed;
+    *box(z, FROM_MIXED, i) += mixed * ABOVE;
+    *box(z, FROM_START, i) += rounded;
   }
 }
 
@@ -89,20 +92,32 @@ typedef struct sums {
   double *centre, *width; /* [nx] of |C_j| rr_j, dC_j rr_j */
 } sums;
 
-/* one more column, h size mean c; returns their number */
-static uint32_t add_lump(zono *z, uint32_t at, double size, const double *c, const sums *sum) {
+static double times(const zono *z, const double *matrix, uint32_t i, const double *c) {
+  double sum = 0;
+  for (uint32_t l = 0; l < z->nx; l++) sum += matrix[(size_t)i * z->nx + l] * c[l];
+  return sum;
+}
+
+/* Two more columns, for the integrals of theta and of theta (2 tau - 1), which is at most half of the bound of the first:
+** h size mean c, h / 2 size tilt c. Returns their number. */
+static uint32_t add_lump(zono *z, uint32_t at, double size, const double *c, const sums *sum, enum origin from) {
   proof *p = z->proof;
   uint32_t nx = z->nx;
-  double *to = p->columns + (size_t)at * nx, any = 0;
+  double *mean = p->columns + (size_t)at * nx, *tilt = mean + nx, any = 0, tilted = 0;
   for (uint32_t i = 0; i < nx; i++) any += fabs(c[i]), sum->centre[i] += fabs(c[i]) * size;
   if (any == 0) return at;
   for (uint32_t i = 0; i < nx; i++) {
-    double x = 0;
-    for (uint32_t l = 0; l < nx; l++)
-      if (c[l] != 0) x += p->mean[(size_t)i * nx + l] * c[l];
-    to[i] = z->h * size * x;
+    mean[i] = z->h * size * times(z, p->mean, i, c);
+    tilt[i] = 0.5 * z->h * size * times(z, p->tilt, i, c);
+    tilted += fabs(tilt[i]);
   }
-  return at + 1;
+  p->origin[at] = p->origin[at + 1] = (uint8_t)from;
+  return at + 1 + (tilted > 0);
+}
+
+static enum origin origin_of(const zono *z, uint32_t j) {
+  double r = z->r[j], square = z->rr[j] - r, late = z->proof->late[j];
+  return square > r ? FROM_SQUARE : 2 * late > r ? FROM_TIME : FROM_DEGREE;
 }
 
 static uint32_t add_lumps(zono *z, uint32_t at, const sums *sum) {
@@ -112,7 +127,7 @@ static uint32_t add_lumps(zono *z, uint32_t at, const sums *sum) {
   for (uint32_t j = 0; j < z->nslot; j++) {
     if (z->rr[j] == 0) continue;
     for (uint32_t i = 0; i < nx; i++) c[i] = weight_of(z, i, j), sum->width[i] += half_width(z, i, j) * z->rr[j];
-    at = add_lump(z, at, z->rr[j], c, sum);
+    at = add_lump(z, at, z->rr[j], c, sum, origin_of(z, j));
   }
   for (uint32_t q = 0; q < z->na; q++) {
     double size = z->rr_out[nx + q];
@@ -121,11 +136,11 @@ static uint32_t add_lumps(zono *z, uint32_t at, const sums *sum) {
       c[i] = p->link[i] == LINK_STATE ? 0 : p->L[n];
       sum->width[i] += p->link[i] == LINK_STATE ? 0 : p->dL[n] * size;
     }
-    at = add_lump(z, at, size, c, sum);
+    at = add_lump(z, at, size, c, sum, FROM_START);
   }
   for (uint32_t l = 0; l < nx; l++) {
     for (uint32_t i = 0; i < nx; i++) c[i] = i == l;
-    at = add_lump(z, at, z->rr_out[l], c, sum);
+    at = add_lump(z, at, z->rr_out[l], c, sum, FROM_TIME);
   }
   return at;
 }
@@ -147,9 +162,9 @@ static uint32_t add_distance(zono *z, uint32_t at) {
       kernel += p->wobble[(size_t)i * nx + l] * sum.centre[l];
       slope += reach * sum.width[l], second += reach * square[l], size += reach * sum.centre[l];
     }
-    p->box[i] += (kernel + slope + second + 4 * (nx + 4) * UNIT * size) * ABOVE;
-    if (p->share)
-      p->share[i].kernel = kernel, p->share[i].slope = slope, p->share[i].square = second, p->share[i].cubic = size;
+    *box(z, FROM_KERNEL, i) += (kernel + 4 * (nx + 4) * UNIT * size) * ABOVE;
+    *box(z, FROM_SLOPE, i) += slope * ABOVE;
+    *box(z, FROM_JACOBIAN, i) += second * ABOVE;
   }
   return at;
 }
@@ -202,9 +217,28 @@ static void find_spread(const zono *z, uint32_t n) {
     for (uint32_t i = 0; i < z->nx; i++) p->spread[i] += fabs(p->columns[(size_t)c * z->nx + i]);
   for (uint32_t i = 0; i < z->nx; i++) {
     const double *y = p->end + (size_t)i * z->shape.stride;
-    p->spread[i] += row_l(&z->shape, y) + row_q(&z->shape, y) + p->box[i];
+    p->spread[i] += row_l(&z->shape, y) + row_q(&z->shape, y);
+    for (uint32_t o = 0; o < ORIGINS; o++) p->spread[i] += *box(z, o, i);
     if (!(p->spread[i] > 0)) p->spread[i] = 1;
   }
+}
+
+/* the box as columns behind the `kept` ones of G */
+static uint32_t put_box(zono *z, uint32_t kept) {
+  proof *p = z->proof;
+  for (uint32_t i = 0; i < z->nx; i++) {
+    double *g = z->G + (size_t)kept * z->nx, sum = 0, most = -1;
+    for (uint32_t o = 0; o < ORIGINS; o++) {
+      double part = *box(z, o, i);
+      sum += part;
+      if (part > most) most = part, p->from[kept] = (uint8_t)o;
+    }
+    if (sum == 0) continue;
+    memset(g, 0, z->nx * sizeof *g);
+    g[i] = sum * ABOVE;
+    kept++;
+  }
+  return kept;
 }
 
 /* G := the columns that count most, and the box with all others */
@@ -220,22 +254,13 @@ static void reduce(zono *z, uint32_t n) {
   }
   for (uint32_t c = 0; c < n; c++) {
     const double *g = p->columns + (size_t)c * nx;
-    if (kept < room && (least < 0 || p->score[c] >= least))
+    if (kept < room && (least < 0 || p->score[c] >= least)) {
+      p->from[kept] = p->origin[c];
       memcpy(z->G + (size_t)kept++ * nx, g, nx * sizeof *g);
-    else
-      for (uint32_t i = 0; i < nx; i++) {
-        p->box[i] += fabs(g[i]);
-        if (p->share) p->share[i].reduction += fabs(g[i]);
-      }
+    } else
+      for (uint32_t i = 0; i < nx; i++) *box(z, p->origin[c], i) += fabs(g[i]);
   }
-  for (uint32_t i = 0; i < nx; i++) {
-    double *g = z->G + (size_t)kept * nx;
-    if (p->box[i] == 0) continue;
-    memset(g, 0, nx * sizeof *g);
-    g[i] = p->box[i] * ABOVE;
-    kept++;
-  }
-  z->ngen = kept;
+  z->ngen = put_box(z, kept);
 }
 
 static void find_sizes(zono *z) {
@@ -249,7 +274,7 @@ static void find_sizes(zono *z) {
 void zono_finish(zono *z) {
   proof *p = z->proof;
   const shape *s = &z->shape;
-  if (p->share) memset(p->share, 0, z->nx * sizeof *p->share);
+  memset(p->boxes, 0, ORIGINS * (size_t)z->nx * sizeof(double));
   find_end(z);
   move_generators(z);
   uint32_t n = add_distance(z, z->ngen);

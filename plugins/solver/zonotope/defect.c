@@ -245,8 +245,8 @@ static double evaluate(zono *z, uint32_t i, double length) {
   double sum = polynomial(drop, last(z, dst), length);
   if (orders(z, dst) == 1 && (last(z, a) || last(z, b))) return INFINITY; /* a tape with wrong degrees */
   switch (t->op[i]) {
-  case AMBIT_OP_MUL: return sum + tail(z, a, b, 0);
-  case AMBIT_OP_SQR: return sum + tail(z, a, a, 0);
+  case AMBIT_OP_MUL: return sum + (z->proof->late[dst] = tail(z, a, b, 0));
+  case AMBIT_OP_SQR: return sum + (z->proof->late[dst] = tail(z, a, a, 0));
   case AMBIT_OP_DIV: return low[b] > 0 ? (sum + tail(z, dst, b, 0)) / low[b] : INFINITY;
   case AMBIT_OP_SQRT:
     if (!(low[a] > 0 && low[dst] > 0 && row_at(z, a, 0)[0] > 0)) return INFINITY;

@@ -1,9 +1,11 @@
 /* kernel.c -- how a lump acts on the state at the end of the step: K(s) = e^(J (h - s)), J the middle of the slopes.
 **
-** With T_k = (J h)^k / k! and tau = (h - s) / h, K = sum_k T_k tau^k: its mean is sum T_k / (k + 1), the integral of |K|
-** at most |h| sum |T_k| / (k + 1), that of |K - mean| at most |h| sum c_k |T_k|, where c_k = integral of
-** |tau^k - 1 / (k + 1)| = 2 k (k + 1)^(-2 - 1/k). Rounding is bounded by powers of |J h|; what is beyond the last power
-** by its norm in units in which J h is small.
+** With T_k = (J h)^k / k! and tau = (h - s) / h, K = sum_k T_k tau^k. In Legendre polynomials on [0, 1],
+** tau^k = 1 / (k + 1) + b_k (2 tau - 1) + rest,  b_k = 3 k / ((k + 1) (k + 2)), and the integral of |rest| is at most the
+** root of that of its square, 1 / (2 k + 1) - 1 / (k + 1)^2 - b_k^2 / 3. So mean = sum T_k / (k + 1), tilt = sum b_k T_k;
+** reach, the integral of |K|, is at most |h| sum |T_k| / (k + 1), and wobble, that of |K - mean - tilt (2 tau - 1)|, at
+** most |h| sum |T_k| times that root. Rounding is bounded by powers of |J h|; what is beyond the last power by its norm
+** in units in which J h is small.
 */
 #include "proof.h"
 
@@ -54,11 +56,12 @@ static void find_units(const zono *z, double length) {
 
 /* adds T_k and a bound of its rounding */
 static void add_power(proof *p, uint32_t n, uint32_t k, double length) {
-  double off = k < 1 ? 0 : 2 * k * pow(k + 1.0, -2 - 1.0 / k) * (1 + 1e-12),
-         lost = k < 1 ? 0 : 2 * k * (n + 3.0) * UNIT;
+  double b = 3.0 * k / ((k + 1.0) * (k + 2.0)), lost = k < 1 ? 0 : 2 * k * (n + 3.0) * UNIT;
+  double off = k < 2 ? 0 : sqrt(1 / (2.0 * k + 1) - 1 / ((k + 1.0) * (k + 1.0)) - b * b / 3 + 16 * UNIT) * ABOVE;
   for (size_t e = 0; e < (size_t)n * n; e++) {
     double most = fabs(p->power[e]) + lost * p->size[e];
     p->mean[e] += p->power[e] / (k + 1.0);
+    p->tilt[e] += p->power[e] * b;
     p->reach[e] += length * most / (k + 1.0);
     p->wobble[e] += length * (off * most + (lost + 64 * UNIT) * p->size[e]);
   }
@@ -78,7 +81,7 @@ int kernel_find(zono *z) {
   uint32_t n = z->nx, k = 0;
   size_t all = (size_t)n * n, bytes = all * sizeof(double);
   double length = fabs(z->h) * ABOVE;
-  memset(p->mean, 0, bytes), memset(p->reach, 0, bytes), memset(p->wobble, 0, bytes);
+  memset(p->mean, 0, bytes), memset(p->tilt, 0, bytes), memset(p->reach, 0, bytes), memset(p->wobble, 0, bytes);
   memset(p->power, 0, bytes), memset(p->size, 0, bytes);
   for (uint32_t i = 0; i < n; i++) p->power[(size_t)i * n + i] = p->size[(size_t)i * n + i] = 1;
   for (size_t e = 0; e < all; e++) p->jacobian_size[e] = fabs(p->J[e]) * ABOVE;

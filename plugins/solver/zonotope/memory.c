@@ -67,8 +67,8 @@ static int open_slots(zono *z) {
   size_t rows = 0, n = z->nslot;
   for (uint32_t j = 0; j < z->nslot; j++) rows += t->degree[j] ? z->K_max + 1u : 1u;
   return doubles(h, rows, &p->total) && doubles(h, rows, &p->drop) && doubles(h, rows, &p->scaled) &&
-         doubles(h, n, &p->high) && doubles(h, n, &p->low) && doubles(h, n, &p->delta) && numbers(h, n, &p->slope_at) &&
-         doubles(h, (z->nx + 1u) * (size_t)z->shape.stride, &p->end);
+         doubles(h, n, &p->high) && doubles(h, n, &p->low) && doubles(h, n, &p->delta) && doubles(h, n, &p->late) &&
+         numbers(h, n, &p->slope_at) && doubles(h, (z->nx + 1u) * (size_t)z->shape.stride, &p->end);
 }
 
 static int open_targets(zono *z) {
@@ -89,16 +89,18 @@ static int open_targets(zono *z) {
 static int open_states(zono *z) {
   proof *p = z->proof;
   const ambit_host *h = z->host;
-  size_t nx = z->nx, square = nx * nx, columns = z->ngen_max + z->nslot + z->nout + (size_t)nx;
-  double **matrix[] = { &p->J, &p->dJ, &p->mean, &p->reach, &p->wobble, &p->power, &p->power_new, &p->size,
+  size_t nx = z->nx, square = nx * nx, columns = z->ngen_max + 2 * ((size_t)z->nslot + z->nout) + nx;
+  double **matrix[] = { &p->J, &p->dJ, &p->mean, &p->tilt, &p->reach, &p->wobble, &p->power, &p->power_new, &p->size,
     &p->size_new, &p->jacobian_size };
   for (size_t n = 0; n < sizeof matrix / sizeof *matrix; n++)
     if (!doubles(h, square, matrix[n])) return 0;
   return doubles(h, nx, &p->zeta) && doubles(h, nx, &p->zeta_new) && doubles(h, z->na, &p->alpha) &&
-         doubles(h, z->na, &p->alpha_new) && doubles(h, nx, &p->grow) && doubles(h, nx, &p->box) &&
+         doubles(h, z->na, &p->alpha_new) && doubles(h, nx, &p->grow) && doubles(h, ORIGINS * nx, &p->boxes) &&
          doubles(h, nx, &p->spread) && doubles(h, nx, &p->unit) && doubles(h, 4 * (nx + z->na), &p->work) &&
          doubles(h, columns * nx, &p->columns) && doubles(h, (z->ngen_max + nx) * (nx + 1), &p->turned) &&
-         doubles(h, columns, &p->score) && doubles(h, columns, &p->sorted);
+         doubles(h, columns, &p->score) && (p->origin = h->alloc(h, columns + 1)) != NULL &&
+         (p->from = h->alloc(h, z->ngen_max + nx + 1)) != NULL && doubles(h, 2 * z->shape.m, &p->range) &&
+         doubles(h, columns, &p->sorted);
 }
 
 int zono_open_proof(zono *z) {

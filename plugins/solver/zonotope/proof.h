@@ -25,10 +25,18 @@ typedef struct sweeps {
   double *scratch; /* [(na + 4)] forms */
 } sweeps;
 
-/* shares of the width that one step added, for the profile and for reasons */
-typedef struct shares {
-  double cubic, time, rounding, data, square, slope, kernel, mixed, reduction, implicit;
-} shares;
+/* what a generator, or what went into a box, comes from */
+enum origin {
+  FROM_START,    /* rounding of the initial values and of the polynomials */
+  FROM_DEGREE,   /* terms of the data that rows do not hold */
+  FROM_TIME,     /* orders of time beyond the last */
+  FROM_SQUARE,   /* products of distances from the polynomials */
+  FROM_KERNEL,   /* how a lump acts on the state, depending on when in the step it acts */
+  FROM_SLOPE,    /* how it does, depending on the data and on time */
+  FROM_JACOBIAN, /* the same for distances that there are already */
+  FROM_MIXED,    /* how the movement of old generators depends on the data */
+  ORIGINS
+};
 
 typedef struct proof {
   size_t nrow;
@@ -46,16 +54,15 @@ typedef struct proof {
   double *dC_new, *dL_new, *rho, *close; /* while they are made */
   double *L, *dL;                        /* [ntarget x na] of the lumps of the equations */
   double *J, *dJ;                        /* [nx x nx] */
-  double *weight;                /* [ntarget x nslot] C at the centre and the start: for the length of the step */
-  double *weight_L;              /* [ntarget x na] */
-  double *zeta, *zeta_new;       /* [nx] bound of |z| over the step */
-  double *alpha, *alpha_new;     /* [na] */
-  double *input;                 /* [nin] */
-  double *mean, *reach, *wobble; /* [nx x nx] mean and integral of |e^(J s)|, times |h|; integral of |e^(J s) - mean| */
+  double *weight;            /* [ntarget x nslot] C at the centre and the start: for the length of the step */
+  double *weight_L;          /* [ntarget x na] */
+  double *zeta, *zeta_new;   /* [nx] bound of |z| over the step */
+  double *alpha, *alpha_new; /* [na] */
+  double *input;             /* [nin] */
+  double *mean, *tilt, *reach, *wobble;                        /* [nx x nx] of K(s) = e^(J (h - s)), see kernel.c */
   double *power, *power_new, *size, *size_new, *jacobian_size; /* [nx x nx] */
   double *grow;                                                /* [nx] per state: sums for bounds */
-  double *box;                                                 /* [nx] what is put into a box at the end of the step */
-  double *columns;                                             /* [(ngen_max + nslot + nout + nx) x nx] */
+  double *columns;                                             /* [(ngen_max + 2 (nslot + nout) + nx) x nx] */
   double *turned;         /* [nx x (ngen_max + 4)] old generators, state by state */
   double *score, *sorted; /* one of each column */
   double *end;            /* [nx x stride] rows at the end of the step */
@@ -63,7 +70,10 @@ typedef struct proof {
   double *unit;           /* [nx] of the states, for norms */
   double *work;           /* [4 nx + na] */
   int prepared;           /* total and drop are those of the rows */
-  shares *share;          /* [nx] of the last step; NULL: nobody asks */
+  double *boxes;          /* [ORIGINS x nx] what goes into the box */
+  uint8_t *origin, *from; /* of columns, of z->G */
+  double *late;           /* [nslot] what of z->r is FROM_TIME */
+  double *range;          /* [2 m] */
   /* records */
   double *dense_mid, *dense_rad, *dense_column;
   ambit_set set;
@@ -79,6 +89,8 @@ int sweep_coefficients(zono *z); /* C, L, J of proof from forms over [0, h] */
 int sweep_weights(zono *z);      /* weight, weight_L: at the centre and the start */
 /* inverse.c: w->lambda from w->matrix; 0: a pivot is 0 */
 int inverse_find(zono *z, const sweeps *w);
+/* origin.c: the shares of the origins in E_i, largest first: "third order in the data 60 %, ..." */
+void origin_text(const zono *z, uint32_t i, char *text, size_t room);
 /* slope.c: forms of slots and of derivatives */
 int slope_forms(zono *z, const sweeps *w, double h);
 /* set.c, dense.c; 0: no memory */

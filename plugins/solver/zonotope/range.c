@@ -1,32 +1,62 @@
-/* range.c -- bounds of the set at the end of a step, and of the states over the step. */
+/* range.c -- bounds of the set at the end of a step, and of the states over the step.
+**
+** The highest value of a polynomial of degree 2 over the cube: a datum in which it is monotone over what is left of the
+** cube is put to its end, which changes the linear parts of the others; again and again. What is left: linear and square
+** terms of each datum exactly, terms of two data by size. Exact where all data are put to their ends.
+*/
 #include "proof.h"
 
-/* l v + d v^2 over [-1, 1] */
-static void add_square(double l, double d, double *lo, double *hi) {
-  double a = d + l, b = d - l, low = fmin(a, b), high = fmax(a, b);
-  if (2 * fabs(d) > fabs(l)) {
-    double top = -l * l / (4 * d);
-    low = fmin(low, top), high = fmax(high, top);
-  }
-  *lo += low, *hi += high;
+/* coefficient of xi_i xi_j */
+static double pair_of(const shape *s, const double *x, uint32_t i, uint32_t j) {
+  uint32_t low = i < j ? i : j, high = i < j ? j : i;
+  return high < s->reach[low] ? x[s->pair[low] + high - low] : 0;
 }
 
-/* of a row without eps, +- rest */
-static void row_range(const shape *s, const double *x, double rest, double *lo, double *hi) {
-  double low = x[0], high = x[0], cross = rest, size = rest + row_total(s, x);
-  for (uint32_t i = 0; i < s->m; i++) {
-    uint32_t n = s->reach[i] > i ? s->reach[i] - i : 0;
-    const double *pair = x + s->pair[i];
-    add_square(x[1 + i], n ? pair[0] : 0, &low, &high);
-    for (uint32_t j = 1; j < n; j++) cross += fabs(pair[j]);
+/* highest l v + d v^2 over [-1, 1] */
+static double parabola(double l, double d) {
+  double top = d + fabs(l);
+  return d < 0 && -2 * d > fabs(l) ? l * l / (-4 * d) : top;
+}
+
+/* what terms with other free data may add to the slope in xi_i */
+static double others(const shape *s, const double *x, uint32_t i, const double *is_free) {
+  double sum = 0;
+  for (uint32_t j = 0; j < s->m; j++)
+    if (j != i && is_free[j] != 0) sum += fabs(pair_of(s, x, i, j));
+  return sum;
+}
+
+/* of sign times a row without eps, but for rounding; l, is_free [m]: scratch */
+static double highest(const shape *s, const double *x, double sign, double *l, double *is_free) {
+  double sum = sign * x[0];
+  int changed = 1;
+  for (uint32_t i = 0; i < s->m; i++) l[i] = sign * x[1 + i], is_free[i] = 1;
+  while (changed) {
+    changed = 0;
+    for (uint32_t i = 0; i < s->m; i++) {
+      double own = sign * pair_of(s, x, i, i);
+      if (is_free[i] == 0 || !(fabs(l[i]) > 2 * fabs(own) + others(s, x, i, is_free))) continue;
+      double end = l[i] < 0 ? -1 : 1;
+      is_free[i] = 0, changed = 1;
+      sum += fabs(l[i]) + own;
+      for (uint32_t j = 0; j < s->m; j++)
+        if (is_free[j] != 0) l[j] += end * sign * pair_of(s, x, i, j);
+    }
   }
-  cross = cross * ABOVE + (2 * s->m + 16) * 2 * UNIT * size + LEAST;
-  *lo = low - cross, *hi = high + cross;
+  for (uint32_t i = 0; i < s->m; i++)
+    if (is_free[i] != 0) sum += parabola(l[i], sign * pair_of(s, x, i, i)) + 0.5 * others(s, x, i, is_free);
+  return sum;
 }
 
 void zono_hull(zono *z) {
-  for (uint32_t i = 0; i < z->nx; i++)
-    row_range(&z->shape, z->P + (size_t)i * z->shape.stride, z->E[i], &z->lo[i], &z->hi[i]);
+  const shape *s = &z->shape;
+  double *l = z->proof->range, *is_free = l + s->m;
+  for (uint32_t i = 0; i < z->nx; i++) {
+    const double *x = z->P + (size_t)i * s->stride;
+    double rest = z->E[i] * ABOVE + (8.0 * s->m + 32) * UNIT * (row_total(s, x) + z->E[i]) + LEAST;
+    z->lo[i] = -highest(s, x, -1, l, is_free) - rest;
+    z->hi[i] = highest(s, x, 1, l, is_free) + rest;
+  }
 }
 
 void zono_tube(zono *z) {
