@@ -58,7 +58,12 @@ static ambit_status check_times(const build *b) {
 
 /* -- expressions */
 
-#define WANT_RATES (AMBIT_WANT_RHS | AMBIT_WANT_SERIES | AMBIT_WANT_JACOBIAN | AMBIT_WANT_SLOPE)
+/* SERIES asks for the right-hand side, too, but not beside the implicit form. */
+static bool wants_rhs(uint32_t want) {
+  return (want & AMBIT_WANT_RHS) || ((want & AMBIT_WANT_SERIES) && !(want & AMBIT_WANT_IMPLICIT));
+}
+
+static bool wants_rates(uint32_t want) { return wants_rhs(want) || (want & (AMBIT_WANT_JACOBIAN | AMBIT_WANT_SLOPE)); }
 
 static ambit_status check_expressions(const build *b) {
   const ambit_system *s = b->q->system;
@@ -78,7 +83,7 @@ static ambit_status check_expressions(const build *b) {
 static ambit_status collect_expressions(build *b) {
   const ambit_system *s = b->q->system;
   size_t nform = b->form ? s->nx + b->form->na : 0;
-  b->nrate = b->form && !(b->q->want & WANT_RATES) ? 0 : s->nx;
+  b->nrate = b->form && !wants_rates(b->q->want) ? 0 : s->nx;
   b->nall = b->nrate + b->ninvariant + nform;
   b->all = room(b, b->nall + 1, sizeof *b->all);
   if (!b->all) return no_memory(b);
@@ -327,7 +332,7 @@ static ambit_status seal_wanted(build *b) {
   uint32_t want = b->q->want;
   ambit_problem *p = b->p;
   ambit_status status = AMBIT_OK;
-  if (want & (AMBIT_WANT_RHS | AMBIT_WANT_SERIES)) status = seal_flow(b, p->nx, b->all, &p->rhs);
+  if (wants_rhs(want)) status = seal_flow(b, p->nx, b->all, &p->rhs);
   if (status == AMBIT_OK && (want & AMBIT_WANT_IMPLICIT)) status = seal_implicit(b);
   if (status == AMBIT_OK && (want & AMBIT_WANT_JACOBIAN))
     status = seal_jacobian(b, p->nx, b->all, "right-hand side of state", p->name, &p->jacobian);

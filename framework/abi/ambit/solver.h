@@ -22,8 +22,8 @@
 /* one variable more in the arithmetic's context, behind those of the unknowns: the time within a step, number nu of
 ** set(); a context without it (an older host's) only gives wider results */
 #define AMBIT_WANT_TIME 128u
-/* x' and equations for further unknowns that enter linearly, instead of formulas that divide: ambit_implicit; without
-** AMBIT_WANT_RHS the formulas of x' = f are not even built where there is an implicit form */
+/* x' and equations for further unknowns that enter linearly, instead of formulas that divide: ambit_implicit; no rhs
+** without AMBIT_WANT_RHS, even with AMBIT_WANT_SERIES */
 #define AMBIT_WANT_IMPLICIT 256u
 
 /* What a solver solves. FLOW: x' = f from a start. ROOTS: f(x, p) = 0 with as many equations as unknowns x; rhs and jacobian are those of f, x0
