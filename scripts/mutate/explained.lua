@@ -59,4 +59,12 @@ return {
     "a smaller lower bound of the distance from 0: the radius is wider",
   ["plugins/solver/taylor_model/range.c | guard 1 | if (part == reach[v]) continue;"] =
     "nothing is left out of the box, and only the count of cuts grows",
+  ["scripts/prelude/verify/search.lua | guard 1 | if box.is_spent(job) or not box.is_open(job, b) then return end"] =
+    "ends are tried although nothing is open: slower",
+  ["scripts/prelude/verify/search.lua | extremum 1 | for j, moved in ipairs(job.moved[k]) do effect[j] = math.max(effect[j] or 0, moved) end"] =
+    "decides which datum is cut first",
+  ["scripts/prelude/verify/search.lua | relation 1 | local weight = most > 0 and math.max((effect[j] or 0) / most, 0.02) or 1"] =
+    "decides which datum is cut first",
+  ["framework/graph/jet_general.c | logic 2 | if (!s->first || !s->length || !s->weighted || !s->branch || !s->target || !s->left || !s->right)"] =
+    "memory that ran out for one array ran out for the next",
 }

@@ -14,3 +14,6 @@ foreach(name solver_krawczyk_operators solver_krawczyk_parameters)
   add_dependencies(test.plugins.${name} solver_krawczyk arithmetic_interval)
 endforeach()
 add_dependencies(test.model.eigen service_eigen)
+# From inside: with the files of the plugin.
+file(GLOB krawczyk_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/plugins/solver/krawczyk/*.c)
+target_sources(test.plugins.solver_krawczyk_linear PRIVATE ${krawczyk_sources})
