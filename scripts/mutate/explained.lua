@@ -67,4 +67,12 @@ return {
     "decides which datum is cut first",
   ["framework/graph/jet_general.c | logic 2 | if (!s->first || !s->length || !s->weighted || !s->branch || !s->target || !s->left || !s->right)"] =
     "memory that ran out for one array ran out for the next",
+  ["plugins/solver/krawczyk/newton.c | guard 1 | if (k->options.operation == OPERATOR_NEWTON) return VERDICT_UNKNOWN;"] =
+    "rows narrow the box then, as they do for the other operators",
+  ["plugins/solver/krawczyk/newton.c | logic 1 | return k->options.operation == OPERATOR_AUTO || k->options.operation == OPERATOR_HANSEN_SENGUPTA;"] =
+    "rows are left out: the enclosure is wider",
+  ["plugins/solver/krawczyk/solution.c | relation 1 | if (part[below].hi < part[1 - below].lo) note_gap(k, i, part[below], part[1 - below]);"] =
+    "fewer gaps are noted, and one of negative width is wider than none",
+  ["plugins/solver/taylor_model/functions.c | extremum 1 | *low = larger(*low, -bound);"] =
+    "the looser of two lower bounds",
 }

@@ -1,5 +1,5 @@
 /* Linear equations A x = -b from inside: a set with a singular matrix is never called regular, however it rounds, and
-** the enclosure of all solutions holds those of the corners, which MPFR solves. Matrices about the identity have their
+** the enclosure of all solutions holds those of the corners, which MPFR solves; none is in a gap. Matrices about the identity have their
 ** extreme solutions there, so that little more would be too wide. */
 #include "solver/krawczyk/krawczyk.h"
 #include "host/services.h"
@@ -18,7 +18,7 @@ typedef struct sample {
   ambit_lease *lease;
   krawczyk k;
   double lo[N * N], hi[N * N], off_lo[N * N], off_hi[N * N], scale[N], margin[N], best[N], B[N * N], work[N * N];
-  span diagonal[N], b[N], row[N], f[N], hull[N], z[N];
+  span diagonal[N], b[N], row[N], f[N], hull[N], z[N], mid[N];
 } sample;
 
 static ambit_random draws = { 1 };
@@ -31,7 +31,7 @@ static void sample_open(sample *s) {
   s->k = (krawczyk) { .host = &s->lease->host, .n = N, .b = s->b, .row = s->row, .f = s->f, .hull = s->hull };
   s->k.num = s->lease->host.service(&s->lease->host, AMBIT_NUM_SERVICE);
   s->k.off = (matrix) { s->off_lo, s->off_hi }, s->k.diagonal = s->diagonal, s->k.scale = s->scale;
-  s->k.margin = s->margin, s->k.best = s->best, s->k.B = s->B, s->k.work = s->work;
+  s->k.mid = s->mid, s->k.margin = s->margin, s->k.best = s->best, s->k.B = s->B, s->k.work = s->work;
 }
 
 static void set(sample *s) {
@@ -115,8 +115,39 @@ static void solutions_of_corners_are_held(void **unused) {
   ambit_lease_close(s.lease);
 }
 
+/* one row a z = -b for a around 0: solutions of the corners are in z, and none of them between the ends of the gap */
+static void gaps_hold_no_solution(void **unused) {
+  (void)unused;
+  sample s;
+  uint32_t gaps = 0;
+  sample_open(&s);
+  s.k.n = 1;
+  mpfr_t x;
+  mpfr_init2(x, BITS);
+  for (int n = 0; n < 5000; n++) {
+    double a[2] = { -between(0.01, 2), between(0.01, 2) }, side = below(2) ? 1 : -1, least = side * between(0.01, 1);
+    double b[2] = { least, least + (below(2) ? 0 : side * between(0, 1)) };
+    s.diagonal[0] = (span) { a[0], a[1] }, s.b[0] = (span) { fmin(b[0], b[1]), fmax(b[0], b[1]) };
+    s.z[0] = (span) { -between(0.1, 9), between(0.1, 9) }, s.mid[0].lo = s.mid[0].hi = between(-3, 3);
+    span before = s.z[0];
+    s.k.gap = (gap) { 0 };
+    int some = krawczyk_sweep(&s.k, s.z);
+    gaps += s.k.gap.hi > s.k.gap.lo;
+    for (int corner = 0; corner < 4; corner++) {
+      mpfr_set_d(x, -b[corner / 2], MPFR_RNDN), mpfr_div_d(x, x, a[corner % 2], MPFR_RNDN);
+      if (mpfr_cmp_d(x, before.lo) < 0 || mpfr_cmp_d(x, before.hi) > 0) continue;
+      assert_true(some && mpfr_cmp_d(x, s.z[0].lo) >= 0 && mpfr_cmp_d(x, s.z[0].hi) <= 0);
+      mpfr_add_d(x, x, s.mid[0].lo, MPFR_RNDN);
+      if (s.k.gap.hi > s.k.gap.lo) assert_true(mpfr_cmp_d(x, s.k.gap.lo) <= 0 || mpfr_cmp_d(x, s.k.gap.hi) >= 0);
+    }
+  }
+  assert_true(gaps > 1000);
+  mpfr_clear(x);
+  ambit_lease_close(s.lease);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = { cmocka_unit_test(singular_matrices_are_not_regular),
-    cmocka_unit_test(solutions_of_corners_are_held) };
+    cmocka_unit_test(solutions_of_corners_are_held), cmocka_unit_test(gaps_hold_no_solution) };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
