@@ -22,9 +22,10 @@ static void find_end(zono *z) {
     for (uint32_t k = 0; k < orders(z, slot); k++, power *= z->h) {
       const double *row = row_at(z, slot, k);
       for (uint32_t v = 0; v < s->norms; v++) to[v] += power * row[v];
+      for (uint32_t v = s->cube; v < s->cube + s->triples && row_c(s, row) > 0; v++) to[v] += power * row[v];
       size += fabs(power) * row_total(s, row);
     }
-    row_norms(s, to);
+    row_norms_all(s, to);
     *box(z, FROM_START, i) += 2 * (z->K + 3) * UNIT * size + z->h_error * (p->high[out] + p->delta[out]);
   }
 }
@@ -217,7 +218,7 @@ static void find_spread(const zono *z, uint32_t n) {
     for (uint32_t i = 0; i < z->nx; i++) p->spread[i] += fabs(p->columns[(size_t)c * z->nx + i]);
   for (uint32_t i = 0; i < z->nx; i++) {
     const double *y = p->end + (size_t)i * z->shape.stride;
-    p->spread[i] += row_l(&z->shape, y) + row_q(&z->shape, y);
+    p->spread[i] += row_l(&z->shape, y) + row_q(&z->shape, y) + row_c(&z->shape, y);
     for (uint32_t o = 0; o < ORIGINS; o++) p->spread[i] += *box(z, o, i);
     if (!(p->spread[i] > 0)) p->spread[i] = 1;
   }
@@ -284,7 +285,7 @@ void zono_finish(zono *z) {
     memcpy(to, p->end + (size_t)i * s->stride, s->stride * sizeof *to);
     memset(to + s->eps, 0, z->nx * sizeof *to);
     memset(to + s->mix, 0, (s->norms - s->mix) * sizeof *to);
-    row_norms(s, to);
+    row_norms_all(s, to);
   }
   find_sizes(z);
 }

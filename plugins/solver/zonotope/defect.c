@@ -8,8 +8,8 @@
 */
 #include "proof.h"
 
-/* a coefficient of a sum of n products: 6 n + 8 operations (zonotope.h) */
-static double rounding(double n) { return (6 * n + 10) * UNIT; }
+/* a coefficient of a sum of n products: 10 n + 14 operations (zonotope.h) */
+static double rounding(double n) { return (10 * n + 16) * UNIT; }
 static double total(const zono *z, uint32_t slot, uint32_t k) { return z->proof->total[z->first[slot] + k]; }
 static double scaled(const zono *z, uint32_t slot, uint32_t k) { return z->proof->scaled[z->first[slot] + k]; }
 static double *drop_at(const zono *z, uint32_t slot) { return z->proof->drop + z->first[slot]; }
@@ -23,7 +23,7 @@ static double dropped(const zono *z, uint32_t u, uint32_t v, uint32_t k, int wei
   for (uint32_t j = (uint32_t)weighted; j <= k && j <= last(z, u); j++) {
     if (k - j > last(z, v)) continue;
     double w = weighted ? (double)j / k : 1;
-    sum += w * row_dropped(&z->shape, row_at(z, u, j), row_at(z, v, k - j));
+    sum += w * row_dropped(&z->shape, row_at(z, u, j), row_at(z, v, k - j), has_triples(z, k));
     *size += w * total(z, u, j) * total(z, v, k - j);
   }
   return sum;
@@ -63,44 +63,50 @@ static void test(zono *z, double *drop, uint32_t count, uint32_t n, const produc
           terms_product(
               s, &sum, p[i].scale * (weighted ? (double)j / k : 1), row_at(z, p[i].u, j), row_at(z, p[i].v, k - j));
     }
-    terms_sum(s, &sum, z->proof->end);
+    terms_sum(s, &sum, z->proof->end, has_triples(z, k));
     drop[k] = row_total(s, z->proof->end) + lost + rounding(n * (k + 1.0) + 2) * 2 * size;
   }
 }
 
-/* -- order 0 of functions: Taylor's remainder of degree 2, g3 a bound of the third derivative */
+/* -- order 0 of functions: Taylor's remainder of degree 3; g: bounds of derivatives at the constant, the last one over
+** the operand's range */
 
-static double remainder_of(const zono *z, uint32_t a, double g, double g1, double g2, double g3) {
+static double remainder_of(const zono *z, uint32_t a, double g0, double g1, double g2, double g3, double g4) {
   const double *x = row_at(z, a, 0);
-  double A = row_moving(&z->shape, x);
-  return 0.5 * g2 * row_dropped(&z->shape, x, x) + g3 * A * A * A / 6 + 32 * UNIT * (g + g1 * A + g2 * A * A);
+  double A = row_moving(&z->shape, x), size = g0 + g1 * A + g2 * A * A + g3 * A * A * A;
+  return 0.5 * g2 * row_dropped(&z->shape, x, x, 1) + g3 * row_dropped_cube(&z->shape, x) / 6 +
+         g4 * A * A * A * A / 24 + 64 * UNIT * size;
 }
 
-/* atan2: the derivatives of an angle at the distance r are at most 1 / r, 1 / r^2, 2 / r^3 in every direction */
+/* atan2: u - u w + u w^2 - u^3 / 3, sizes of u and w at most A / r; the angle's n-th derivative in any direction is at
+** most (n - 1)! / r^n */
 static double angle_remainder(const zono *z, uint32_t a, uint32_t b) {
   const shape *s = &z->shape;
   const double *y = row_at(z, a, 0), *x = row_at(z, b, 0);
-  double A = row_moving(s, x) + row_moving(s, y), r = hypot(x[0], y[0]), near = r - A;
+  double A = row_moving(s, x) + row_moving(s, y), r = hypot(x[0], y[0]) * (1 - 4 * UNIT), near = r - A;
   if (!(near > 0)) return INFINITY;
-  double lost = 0.5 * (row_dropped(s, x, x) + row_dropped(s, y, y)) + row_dropped(s, x, y);
-  return lost / (r * r) + A * A * A / (3 * near * near * near) + 32 * UNIT * (4 + A / r + A * A / (r * r));
+  double lost = 0.5 * (row_dropped(s, x, x, 1) + row_dropped(s, y, y, 1)) + row_dropped(s, x, y, 1);
+  double far = A - (row_l(s, x) + row_l(s, y)) + x[s->norms + NORM_L_FAR] + y[s->norms + NORM_L_FAR] + 8 * UNIT * A;
+  double ratio = A / r, size = ratio + ratio * ratio + ratio * ratio * ratio;
+  return lost / (r * r) + 4 * ratio * ratio * far / r + A * A * A * A / (4 * near * near * near * near) +
+         64 * UNIT * (4 + 2 * size);
 }
 
 static double order0(const zono *z, uint32_t i) {
   const ambit_tape *t = z->program.tape;
   uint32_t a = t->a[i];
   const double *x = row_at(z, a, 0);
-  double A = row_moving(&z->shape, x), c = x[0], near = c - A;
+  double A = row_moving(&z->shape, x), c = x[0], near = c - A, e = exp(c), h = cosh(c), n = 1 / c;
   switch (t->op[i]) {
-  case AMBIT_OP_SIN: return remainder_of(z, a, 1, 1, fabs(sin(c)) + 4 * UNIT, 1);
-  case AMBIT_OP_COS: return remainder_of(z, a, 1, 1, fabs(cos(c)) + 4 * UNIT, 1);
-  case AMBIT_OP_EXP: return remainder_of(z, a, exp(c), exp(c), exp(c), exp(c + A));
+  case AMBIT_OP_SIN: return remainder_of(z, a, 1, 1, fabs(sin(c)) + 4 * UNIT, 1, 1);
+  case AMBIT_OP_COS: return remainder_of(z, a, 1, 1, fabs(cos(c)) + 4 * UNIT, 1, 1);
+  case AMBIT_OP_EXP: return remainder_of(z, a, e, e, e, e, exp(c + A));
   case AMBIT_OP_SINH:
-  case AMBIT_OP_COSH: return remainder_of(z, a, cosh(c), cosh(c), cosh(c), cosh(fabs(c) + A));
-  case AMBIT_OP_ATAN: return remainder_of(z, a, 2, 1, 1, 2);
+  case AMBIT_OP_COSH: return remainder_of(z, a, h, h, h, h, cosh(fabs(c) + A));
+  case AMBIT_OP_ATAN: return remainder_of(z, a, 2, 1, 1, 2, 6);
   case AMBIT_OP_LOG:
     if (!(near > 0)) return INFINITY;
-    return remainder_of(z, a, fabs(log(c)), 1 / c, 1 / (c * c), 2 / (near * near * near));
+    return remainder_of(z, a, fabs(log(c)), n, n * n, 2 * n * n * n, 6 / (near * near * near * near));
   case AMBIT_OP_ATAN2: return angle_remainder(z, a, t->b[i]);
   default: return 0;
   }
@@ -281,13 +287,16 @@ static void bound_slots(zono *z, double length) {
   }
 }
 
-/* x'_i: V_F - V_x'; R: all of it */
+/* x'_i: V_F - V_x', triples of F that x' does not hold among it; R: all of it */
 static void bound_outputs(zono *z, double length) {
   for (uint32_t o = 0; o < z->nout; o++) {
     uint32_t slot = slot_out(z)[o];
     double sum = 0, power = 1;
-    for (uint32_t k = 0; k <= last(z, slot); k++, power *= length)
-      sum += total(z, slot, k) * power * (o >= z->nx ? 1 : k == z->K ? 1 : 4 * UNIT);
+    for (uint32_t k = 0; k <= last(z, slot); k++, power *= length) {
+      double share = o >= z->nx || k == z->K ? 1 : 4 * UNIT;
+      sum += total(z, slot, k) * power * share;
+      if (o < z->nx && k + 1 == z->shape.cubed) sum += row_c(&z->shape, row_at(z, slot, k)) * power;
+    }
     z->rr_out[o] = sum * ABOVE + LEAST;
   }
 }

@@ -17,7 +17,7 @@ static void describe(const zono *z, uint32_t i, uint32_t k, uint32_t order, uint
   const proof *p = z->proof;
   const shape *s = &z->shape;
   const double *row = row_at(z, slot_x(z, i), k);
-  double mid = row[0], rad = row_x(s, row), *column = p->dense_column + (size_t)i * columns * order;
+  double mid = row[0], rad = row_x(s, row) + row_c(s, row), *column = p->dense_column + (size_t)i * columns * order;
   for (uint32_t v = 0; v < columns; v++) column[(size_t)v * order + k] = row[1 + v];
   for (uint32_t a = 0; a < s->m; a++)
     for (uint32_t b = a; b < s->reach[a]; b++) {

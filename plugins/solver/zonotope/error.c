@@ -19,7 +19,7 @@ static double apart(const zono *z, uint32_t a, uint32_t b) {
     terms_clear(&sum);
     if (k < orders(z, a)) terms_row(&z->shape, &sum, 1, row_at(z, a, k));
     if (k < orders(z, b)) terms_row(&z->shape, &sum, -1, row_at(z, b, k));
-    terms_sum(&z->shape, &sum, z->proof->end);
+    terms_sum(&z->shape, &sum, z->proof->end, 1);
     if (k == 0) centre = fabs(z->proof->end[0]), off = row_moving(&z->shape, z->proof->end);
     if (k > 0) off += row_total(&z->shape, z->proof->end) * power;
   }

@@ -12,17 +12,26 @@ static instr instruction(const zono *z, uint32_t i, uint32_t k) {
 
 /* -- order 0: the Taylor polynomial of degree 2 about the constant */
 
+/* u = (x dy - y dx) / r^2, w = (x dx + y dy) / r^2:  atan(u / (1 + w)) = u - u w + u w^2 - u^3 / 3 + ... */
 static void put_angle(const zono *z, const instr *n, double *to) {
   const shape *s = &z->shape;
   const double *y = row_at(z, n->a, 0), *x = row_at(z, n->b, 0);
-  double r = x[0] * x[0] + y[0] * y[0], mixed = x[0] * y[0] / r / r;
+  double r = x[0] * x[0] + y[0] * y[0], *u = s->scratch, *w = u + s->stride, *square = w + s->stride;
   terms sum;
   terms_clear(&sum);
-  sum.c = atan2(y[0], x[0]);
   terms_moving(s, &sum, x[0] / r, y), terms_moving(s, &sum, -y[0] / r, x);
-  terms_outer(s, &sum, -mixed, y, y), terms_outer(s, &sum, mixed, x, x);
-  terms_outer(s, &sum, (y[0] - x[0]) * (y[0] + x[0]) / r / r, x, y);
-  terms_sum(s, &sum, to);
+  terms_sum(s, &sum, u, 1);
+  terms_clear(&sum);
+  terms_moving(s, &sum, x[0] / r, x), terms_moving(s, &sum, y[0] / r, y);
+  terms_sum(s, &sum, w, 1);
+  terms_clear(&sum);
+  terms_outer(s, &sum, 1, w, w), terms_outer(s, &sum, -1.0 / 3, u, u);
+  terms_moving(s, &sum, -1, w);
+  terms_sum(s, &sum, square, 1); /* w^2 - u^2 / 3 - w */
+  terms_clear(&sum);
+  sum.c = atan2(y[0], x[0]);
+  terms_moving(s, &sum, 1, u), terms_outer(s, &sum, 1, u, square);
+  terms_sum(s, &sum, to, 1);
 }
 
 static void put_quotient(zono *z, uint32_t i, const instr *n, double *to) {
@@ -32,38 +41,43 @@ static void put_quotient(zono *z, uint32_t i, const instr *n, double *to) {
   terms sum;
   terms_clear(&sum);
   terms_product(s, &sum, 1, row_at(z, n->a, 0), inverse);
-  terms_sum(s, &sum, to);
+  terms_sum(s, &sum, to, 1);
+}
+
+static void set(double g[4], double g0, double g1, double g2, double g3) { g[0] = g0, g[1] = g1, g[2] = g2, g[3] = g3; }
+
+/* value and derivatives at c; 0: undefined */
+static int derivatives(uint32_t op, double c, double g[4]) {
+  double i = 1 / c, q = 1 / (1 + c * c), root = c > 0 ? sqrt(c) : 0, e = exp(c);
+  switch (op) {
+  case AMBIT_OP_SQRT: set(g, root, 0.5 * root * i, -0.25 * root * i * i, 0.375 * root * i * i * i); return c > 0;
+  case AMBIT_OP_EXP: set(g, e, e, e, e); return 1;
+  case AMBIT_OP_LOG:
+    if (c > 0) set(g, log(c), i, -i * i, 2 * i * i * i);
+    return c > 0;
+  case AMBIT_OP_SIN: set(g, sin(c), cos(c), -sin(c), -cos(c)); return 1;
+  case AMBIT_OP_COS: set(g, cos(c), -sin(c), -cos(c), sin(c)); return 1;
+  case AMBIT_OP_SINH: set(g, sinh(c), cosh(c), sinh(c), cosh(c)); return 1;
+  case AMBIT_OP_COSH: set(g, cosh(c), sinh(c), cosh(c), sinh(c)); return 1;
+  case AMBIT_OP_ATAN: set(g, atan(c), q, -2 * c * q * q, (6 * c * c - 2) * q * q * q); return 1;
+  default: return 0;
+  }
 }
 
 int zono_function_order0(zono *z, uint32_t i) {
   const instr n = instruction(z, i, 0);
-  const shape *s = &z->shape;
   const double *a = row_at(z, n.a, 0);
-  double *to = row_at(z, n.dst, 0), c = a[0], g = 0, g1 = 0, g2 = 0;
-  switch (n.op) {
-  case AMBIT_OP_DIV:
+  double *to = row_at(z, n.dst, 0), g[4];
+  if (n.op == AMBIT_OP_DIV) {
     if (row_at(z, n.b, 0)[0] == 0) return 0;
     return put_quotient(z, i, &n, to), 1;
-  case AMBIT_OP_ATAN2:
-    if (c == 0 && row_at(z, n.b, 0)[0] == 0) return 0;
-    return put_angle(z, &n, to), 1;
-  case AMBIT_OP_SQRT:
-    if (!(c > 0)) return 0;
-    g = sqrt(c), g1 = 0.5 / g, g2 = -0.5 * g1 / c;
-    break;
-  case AMBIT_OP_EXP: g = g1 = g2 = exp(c); break;
-  case AMBIT_OP_LOG:
-    if (!(c > 0)) return 0;
-    g = log(c), g1 = 1 / c, g2 = -g1 * g1;
-    break;
-  case AMBIT_OP_SIN: g = sin(c), g1 = cos(c), g2 = -g; break;
-  case AMBIT_OP_COS: g = cos(c), g1 = -sin(c), g2 = -g; break;
-  case AMBIT_OP_SINH: g = sinh(c), g1 = cosh(c), g2 = g; break;
-  case AMBIT_OP_COSH: g = cosh(c), g1 = sinh(c), g2 = g; break;
-  case AMBIT_OP_ATAN: g = atan(c), g1 = 1 / (1 + c * c), g2 = -2 * c * g1 * g1; break;
-  default: return 0;
   }
-  row_function(s, to, a, g, g1, g2);
+  if (n.op == AMBIT_OP_ATAN2) {
+    if (a[0] == 0 && row_at(z, n.b, 0)[0] == 0) return 0;
+    return put_angle(z, &n, to), 1;
+  }
+  if (!derivatives(n.op, a[0], g)) return 0;
+  row_function(&z->shape, to, a, g);
   return 1;
 }
 
@@ -108,7 +122,7 @@ static int find_inverse(zono *z, uint32_t i, const instr *n) {
   const double *a = row_at(z, of, 0);
   if (a[0] == 0) return 0;
   row_inverse(s, zono_inverse(z, i), a);
-  if (n->op == AMBIT_OP_SQRT) row_scale(s, zono_inverse(z, i), 0.5, zono_inverse(z, i));
+  if (n->op == AMBIT_OP_SQRT) row_scale(s, zono_inverse(z, i), 0.5, zono_inverse(z, i), 1);
   return 1;
 }
 
@@ -128,10 +142,10 @@ int zono_function(zono *z, uint32_t i, uint32_t k) {
     if (!z->has_inverse[i]) return 0;
     if (k == 1 && !find_inverse(z, i, &n)) return 0;
     add_dividend(z, &sum, &n);
-    terms_sum(s, &sum, z->scratch);
+    terms_sum(s, &sum, z->scratch, has_triples(z, k));
     terms_clear(&sum);
     terms_product(s, &sum, 1, z->scratch, inverse_at(z, i));
   }
-  terms_sum(s, &sum, to);
+  terms_sum(s, &sum, to, has_triples(z, k));
   return 1;
 }

@@ -69,19 +69,20 @@ static int divides(uint32_t op) {
 int zono_open_rows(zono *z) {
   const ambit_tape *t = z->program.tape;
   const ambit_host *h = z->host;
-  size_t stride = z->shape.stride, rows = 0, inverses = 0;
+  size_t stride = z->shape.stride, rows = 0, inverses = 0, at = 0;
   z->nslot = t->nslot, z->nout = t->nout;
   z->num = h->service(h, AMBIT_NUM_SERVICE);
-  z->first = room(h, t->nslot, sizeof *z->first);
+  z->first = room(h, t->nslot, sizeof *z->first), z->at = room(h, t->nslot, sizeof *z->at);
   z->has_inverse = room(h, t->ninstr, sizeof *z->has_inverse), z->branch = room(h, t->ninstr, 1);
-  if (!z->num || !z->first || !z->has_inverse || !z->branch || !open_program(z)) return 0;
+  if (!z->num || !z->first || !z->at || !z->has_inverse || !z->branch || !open_program(z)) return 0;
   for (uint32_t i = 0; i < t->nslot; i++) {
-    z->first[i] = rows;
-    rows += t->degree[i] ? z->K_max + 1u : 1u;
+    size_t n = t->degree[i] ? z->K_max + 1u : 1u, cubed = z->shape.cubed < n ? z->shape.cubed : n;
+    z->first[i] = rows, z->at[i] = at;
+    rows += n, at += cubed * stride + (n - cubed) * z->shape.cube;
   }
   for (uint32_t i = 0; i < t->ninstr; i++)
     if (divides(t->op[i])) z->has_inverse[i] = (uint32_t)++inverses;
-  z->row = doubles(h, rows * stride), z->inverse = doubles(h, inverses * stride);
+  z->row = doubles(h, at), z->inverse = doubles(h, inverses * stride);
   z->zero = doubles(h, stride), z->scratch = doubles(h, stride);
   z->r = doubles(h, t->nslot), z->rr = doubles(h, t->nslot), z->rr_out = doubles(h, t->nout);
   z->p_row = doubles(h, z->np * stride), z->p_rad = doubles(h, z->np);
@@ -92,7 +93,7 @@ int zono_open_rows(zono *z) {
 static uint32_t highest_order(const zono *z) {
   const ambit_tape *t = z->program.tape;
   if (z->options.time_order) return z->options.time_order;
-  double moving = 1, row = 8.0 * z->shape.stride;
+  double moving = 1, row = 8.0 * z->shape.cube;
   for (uint32_t i = 0; i < t->nslot; i++) moving += t->degree[i] != 0;
   double k = ROOM / (moving * row) - 1;
   return k > ORDER_HIGH ? ORDER_HIGH : k < ORDER_LEAST ? ORDER_LEAST : (uint32_t)k;

@@ -2,7 +2,7 @@
 **
 ** The highest value of a polynomial of degree 2 over the cube: a datum in which it is monotone over what is left of the
 ** cube is put to its end, which changes the linear parts of the others; again and again. What is left: linear and square
-** terms of each datum exactly, terms of two data by size. Exact where all data are put to their ends.
+** terms of each datum exactly, terms of two data by size. Terms of degree 3 by size throughout.
 */
 #include "proof.h"
 
@@ -53,7 +53,7 @@ void zono_hull(zono *z) {
   double *l = z->proof->range, *is_free = l + s->m;
   for (uint32_t i = 0; i < z->nx; i++) {
     const double *x = z->P + (size_t)i * s->stride;
-    double rest = z->E[i] * ABOVE + (8.0 * s->m + 32) * UNIT * (row_total(s, x) + z->E[i]) + LEAST;
+    double rest = (z->E[i] + row_c(s, x)) * ABOVE + (8.0 * s->m + 32) * UNIT * (row_total(s, x) + z->E[i]) + LEAST;
     z->lo[i] = -highest(s, x, -1, l, is_free) - rest;
     z->hi[i] = highest(s, x, 1, l, is_free) + rest;
   }

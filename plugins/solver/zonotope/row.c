@@ -13,11 +13,22 @@ void shape_place(shape *s) {
   s->pair[s->m] = at;
   s->mix = at;
   s->norms = s->mix + s->mixed * s->nx;
-  s->stride = (s->norms + 4 + 3) / 4 * 4;
+  for (uint32_t i = s->cubic; i-- > 0;)
+    if (s->reach[i] < s->cubic) s->cubic = i;
+  if (s->cubed == 0) s->cubic = 0;
+  if (s->cubic == 0) s->cubed = 0;
+  s->cube = (s->norms + NORMS + 4) / 4 * 4;
+  s->triples = s->cubic * (s->cubic + 1) * (s->cubic + 2) / 6;
+  s->stride = s->triples ? (s->cube + s->triples + 3 + 3) / 4 * 4 : s->cube; /* the last vector may run over */
 }
 
+#define CUBIC_MOST 27
+#define CUBED 3
+
 int shape_open(const ambit_host *h, shape *s, uint32_t m, uint32_t nx) {
-  *s = (shape) { .m = m, .nx = nx, .mixed = m, .sum = sum_portable };
+  *s = (shape) {
+    .m = m, .nx = nx, .mixed = m, .cubic = m < CUBIC_MOST ? m : CUBIC_MOST, .cubed = CUBED, .sum = sum_portable
+  };
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx2")) s->sum = sum_avx2;
 #endif
@@ -25,7 +36,8 @@ int shape_open(const ambit_host *h, shape *s, uint32_t m, uint32_t nx) {
   if (!s->reach || !s->pair) return 0;
   for (uint32_t i = 0; i < m; i++) s->reach[i] = m;
   shape_place(s);
-  return 1;
+  s->scratch = h->alloc(h, 3 * s->stride * sizeof *s->scratch);
+  return s->scratch != NULL;
 }
 
 /* -- rows */
@@ -37,18 +49,29 @@ static double sizes(const double *x, uint32_t from, uint32_t to) {
 }
 
 void row_norms(const shape *s, double *x) {
-  x[s->norms] = sizes(x, 1, s->eps), x[s->norms + 1] = sizes(x, s->eps, s->pair[0]);
-  x[s->norms + 2] = sizes(x, s->pair[0], s->mix), x[s->norms + 3] = sizes(x, s->mix, s->norms);
+  double *norm = x + s->norms;
+  norm[NORM_L] = sizes(x, 1, s->eps), norm[NORM_R] = sizes(x, s->eps, s->pair[0]);
+  norm[NORM_Q] = sizes(x, s->pair[0], s->mix), norm[NORM_X] = sizes(x, s->mix, s->norms);
+  norm[NORM_L_FAR] = sizes(x, 1 + s->cubic, s->eps), norm[NORM_Q_FAR] = sizes(x, s->pair[s->cubic], s->mix);
+  for (uint32_t i = 0; i < s->cubic; i++) norm[NORM_Q_FAR] += sizes(x, s->pair[i] + s->cubic - i, s->pair[i + 1]);
+}
+
+void row_norms_all(const shape *s, double *x) {
+  row_norms(s, x);
+  x[s->norms + NORM_C] = sizes(x, s->cube, s->cube + s->triples);
 }
 
 void row_constant(const shape *s, double *to, double c) {
-  memset(to, 0, s->stride * sizeof *to);
+  memset(to, 0, s->cube * sizeof *to);
   to[0] = c;
 }
 
-void row_scale(const shape *s, double *to, double scale, const double *a) {
+void row_scale(const shape *s, double *to, double scale, const double *a, int triples) {
+  int cubed = triples && row_c(s, a) > 0;
   for (uint32_t i = 0; i < s->norms; i++) to[i] = scale * a[i];
-  for (uint32_t i = s->norms; i < s->norms + 4; i++) to[i] = fabs(scale) * a[i];
+  for (uint32_t i = s->norms; i < s->norms + NORMS; i++) to[i] = fabs(scale) * a[i];
+  if (!cubed) to[s->norms + NORM_C] = 0;
+  for (uint32_t i = 0; cubed && i < s->triples; i++) to[s->cube + i] = scale * a[s->cube + i];
 }
 
 /* pairs of linear terms that are not held: what row i misses is at its end */
@@ -68,13 +91,24 @@ static double dropped_pairs(const shape *s, const double *a, const double *b) {
   return sum;
 }
 
-double row_dropped(const shape *s, const double *a, const double *b) {
-  double la = row_l(s, a), ra = row_r(s, a), high_a = row_q(s, a) + row_x(s, a);
-  double lb = row_l(s, b), rb = row_r(s, b), high_b = row_q(s, b) + row_x(s, b);
-  double sum = la * high_b + ra * (rb + high_b) + high_a * (lb + rb + high_b);
+double row_dropped(const shape *s, const double *a, const double *b, int triples) {
+  double la = row_l(s, a), ra = row_r(s, a), qa = row_q(s, a), last_a = row_x(s, a) + row_c(s, a);
+  double lb = row_l(s, b), rb = row_r(s, b), qb = row_q(s, b), last_b = row_x(s, b) + row_c(s, b);
+  double sum = la * last_b + ra * (rb + qb + last_b) + qa * (rb + qb + last_b) + last_a * (lb + rb + qb + last_b);
+  if (triples)
+    sum += a[s->norms + NORM_L_FAR] * qb + la * b[s->norms + NORM_Q_FAR] + b[s->norms + NORM_L_FAR] * qa +
+           lb * a[s->norms + NORM_Q_FAR];
+  else
+    sum += la * qb + qa * lb + fabs(a[0]) * row_c(s, b) + fabs(b[0]) * row_c(s, a);
   if (s->mixed < s->m) sum += sizes(a, 1 + s->mixed, 1 + s->m) * rb + sizes(b, 1 + s->mixed, 1 + s->m) * ra;
   if (s->m && s->reach[s->m - 1] < s->m) sum += dropped_pairs(s, a, b);
   return sum;
+}
+
+/* a^3 - b^3 <= 3 a^2 (a - b): b the linear terms that have triples */
+double row_dropped_cube(const shape *s, const double *x) {
+  double all = row_moving(s, x);
+  return 3 * all * all * (x[s->norms + NORM_L_FAR] + row_r(s, x) + row_bent(s, x));
 }
 
 /* -- sums */
@@ -90,9 +124,12 @@ void terms_row(const shape *s, terms *t, double scale, const double *x) {
 }
 
 void terms_outer(const shape *s, terms *t, double scale, const double *a, const double *b) {
-  int has = row_l(s, a) * (row_l(s, b) + row_r(s, b)) + row_r(s, a) * row_l(s, b) > 0;
-  if (scale == 0 || !has) return;
-  t->outer[t->nouter].scale = scale, t->outer[t->nouter].a = a, t->outer[t->nouter++].b = b;
+  double la = row_l(s, a), lb = row_l(s, b);
+  if (scale == 0) return;
+  if (la * (lb + row_r(s, b)) + row_r(s, a) * lb > 0)
+    t->outer[t->nouter].scale = scale, t->outer[t->nouter].a = a, t->outer[t->nouter++].b = b;
+  if (la * row_q(s, b) > 0) t->bend[t->nbend].scale = scale, t->bend[t->nbend].a = a, t->bend[t->nbend++].b = b;
+  if (lb * row_q(s, a) > 0) t->bend[t->nbend].scale = scale, t->bend[t->nbend].a = b, t->bend[t->nbend++].b = a;
 }
 
 void terms_product(const shape *s, terms *t, double scale, const double *a, const double *b) {
@@ -102,18 +139,28 @@ void terms_product(const shape *s, terms *t, double scale, const double *a, cons
   terms_outer(s, t, scale, a, b);
 }
 
-void terms_sum(const shape *s, const terms *t, double *to) {
-  if (!t->nrow && !t->nouter)
+void terms_sum(const shape *s, const terms *t, double *to, int triples) {
+  if (!t->nrow && !t->nouter && !t->nbend)
     row_constant(s, to, t->c);
   else
-    s->sum(s, t, to);
+    s->sum(s, t, to, triples && s->cubed);
 }
 
-void row_function(const shape *s, double *to, const double *a, double g, double g1, double g2) {
+/* d = a - its constant: g0 + g1 d + g2 / 2 d^2 + g3 / 6 d^3 */
+void row_function(const shape *s, double *to, const double *a, const double g[4]) {
+  double *square = s->scratch;
   terms t;
   terms_clear(&t);
-  t.c = g;
-  terms_moving(s, &t, g1, a);
-  terms_outer(s, &t, g2 / 2, a, a);
-  terms_sum(s, &t, to);
+  terms_outer(s, &t, 1, a, a);
+  terms_sum(s, &t, square, 1);
+  terms_clear(&t);
+  t.c = g[0];
+  terms_moving(s, &t, g[1], a), terms_moving(s, &t, g[2] / 2, square);
+  terms_outer(s, &t, g[3] / 6, a, square);
+  terms_sum(s, &t, to, 1);
+}
+
+void row_inverse(const shape *s, double *to, const double *a) {
+  double i = 1 / a[0], g[4] = { i, -i * i, 2 * i * i * i, -6 * i * i * i * i };
+  row_function(s, to, a, g);
 }

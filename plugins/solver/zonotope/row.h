@@ -1,9 +1,11 @@
-/* row.h -- rows: polynomials with point coefficients, of degree 2 in xi [m], 1 in eps [nx], and 1 in each of xi and eps.
+/* row.h -- rows: polynomials with point coefficients, of degree 3 in xi [m], 1 in eps [nx], and 1 in each of xi and eps.
 **
-** A row is  c | xi [m] | eps [nx] | xi xi | xi eps | L R Q X:  pairs xi_i xi_j of i <= j, row by row, j < reach[i] only;
-** xi_j eps_i for j < mixed, j-major; then the norms of the four parts (sums of absolute values). Data are numbered by
-** how much they matter, so that pairs left out are those at the end. A monomial that a row does not hold is dropped from
-** every product.
+** A row is  c | xi [m] | eps [nx] | xi xi | xi eps | norms | xi xi xi:  pairs xi_i xi_j of i <= j, row by row,
+** j < reach[i] only; xi_j eps_i for j < mixed, j-major; triples of i <= j <= k < cubic, in the same order. Rows of orders
+** in time from `cubed` on hold no triples: what they would add is small, for it has a power of the step before it. Data
+** are numbered by how much they matter, so that what is left out is at the end. A monomial that a row does not hold is
+** dropped from every sum and product. Norms are sums of absolute values: of each part, and of the linear terms and pairs
+** that have no triples (FAR).
 */
 #ifndef ZONOTOPE_ROW_H
 #define ZONOTOPE_ROW_H
@@ -12,6 +14,7 @@
 #include <string.h>
 
 struct terms;
+enum { NORM_L, NORM_R, NORM_Q, NORM_X, NORM_C, NORM_L_FAR, NORM_Q_FAR, NORMS };
 
 typedef struct shape {
   uint32_t m, nx;
@@ -19,33 +22,41 @@ typedef struct shape {
   uint32_t mixed;  /* data that have terms with eps */
   uint32_t eps;    /* 1 + m: where linear terms in eps start */
   uint32_t mix;    /* where xi eps starts */
-  uint32_t norms;  /* where L R Q X are; also the number of coefficients */
-  uint32_t stride; /* doubles of a row, a multiple of 4 */
+  uint32_t cubic;  /* data that have triples; reach[i] >= cubic for each of them */
+  uint32_t cubed;  /* orders in time whose rows have triples */
+  uint32_t norms;  /* where norms are; also the number of coefficients before them */
+  uint32_t cube;   /* where triples start; a multiple of 4, and the length of a row without them */
+  uint32_t triples;
+  uint32_t stride; /* doubles of a row with triples, a multiple of 4 */
+  double *scratch; /* [3 x stride] */
   uint32_t *pair;  /* [m + 1] where row i of the pairs starts: xi_i xi_j is at pair[i] + j - i; pair[0] = 1 + m + nx */
-  void (*sum)(const struct shape *s, const struct terms *t, double *to); /* portable.c, avx2.c */
+  void (*sum)(const struct shape *s, const struct terms *t, double *to, int triples); /* portable.c, avx2.c */
 } shape;
 
 int shape_open(const ambit_host *h, shape *s, uint32_t m, uint32_t nx); /* all pairs; 0: no memory */
-void shape_place(shape *s);                                             /* offsets, from reach and mixed */
+void shape_place(shape *s);                                             /* offsets, from reach, mixed and cubic */
 
-static inline double row_l(const shape *s, const double *x) { return x[s->norms]; }
-static inline double row_r(const shape *s, const double *x) { return x[s->norms + 1]; }
-static inline double row_q(const shape *s, const double *x) { return x[s->norms + 2]; }
-static inline double row_x(const shape *s, const double *x) { return x[s->norms + 3]; }
-/* everything but the constant; everything */
-static inline double row_moving(const shape *s, const double *x) {
-  const double *n = x + s->norms;
-  return n[0] + n[1] + n[2] + n[3];
-}
+static inline double row_l(const shape *s, const double *x) { return x[s->norms + NORM_L]; }
+static inline double row_r(const shape *s, const double *x) { return x[s->norms + NORM_R]; }
+static inline double row_q(const shape *s, const double *x) { return x[s->norms + NORM_Q]; }
+static inline double row_x(const shape *s, const double *x) { return x[s->norms + NORM_X]; }
+static inline double row_c(const shape *s, const double *x) { return x[s->norms + NORM_C]; }
+/* of degree 2 and more; everything but the constant; everything */
+static inline double row_bent(const shape *s, const double *x) { return row_q(s, x) + row_x(s, x) + row_c(s, x); }
+static inline double row_moving(const shape *s, const double *x) { return row_l(s, x) + row_r(s, x) + row_bent(s, x); }
 static inline double row_total(const shape *s, const double *x) { return fabs(x[0]) + row_moving(s, x); }
 
-/* sum of absolute values of all coefficients that a product of these rows has and a (*) b does not, but for rounding:
-** only nonnegative terms are added */
-double row_dropped(const shape *s, const double *a, const double *b);
+/* sum of absolute values of all coefficients that a product of these rows has and a (*) b, of an order with or without
+** triples, does not, but for rounding: only nonnegative terms are added */
+double row_dropped(const shape *s, const double *a, const double *b, int triples);
+/* the same of (x - its constant)^3 and its triples */
+double row_dropped_cube(const shape *s, const double *x);
 
 void row_constant(const shape *s, double *to, double c);
-void row_norms(const shape *s, double *x);                                 /* brings L R Q X up to date */
-void row_scale(const shape *s, double *to, double scale, const double *a); /* to := scale a; may be a */
+void row_norms(const shape *s, double *x);     /* brings norms up to date, all but that of triples: C stays */
+void row_norms_all(const shape *s, double *x); /* of a row with triples */
+/* to := scale a; may be a; with triples if there is room for them */
+void row_scale(const shape *s, double *to, double scale, const double *a, int triples);
 
 /* -- a sum of multiples of rows and of products of rows, made in one go */
 
@@ -53,7 +64,7 @@ void row_scale(const shape *s, double *to, double scale, const double *a); /* to
 
 typedef struct terms {
   double c;
-  uint32_t nrow, nouter;
+  uint32_t nrow, nouter, nbend;
   struct {
     double scale;
     const double *x;
@@ -61,24 +72,22 @@ typedef struct terms {
   struct {
     double scale;
     const double *a, *b;
-  } outer[TERMS]; /* scale times the products of linear parts */
+  } outer[TERMS], bend[2 * TERMS]; /* scale times the product of linear parts; of the linear part of a and pairs of b */
 } terms;
 
-static inline void terms_clear(terms *t) { t->c = 0, t->nrow = t->nouter = 0; }
+static inline void terms_clear(terms *t) { t->c = 0, t->nrow = t->nouter = t->nbend = 0; }
 void terms_moving(const shape *s, terms *t, double scale, const double *x); /* scale (x - its constant) */
 void terms_row(const shape *s, terms *t, double scale, const double *x);
 void terms_outer(const shape *s, terms *t, double scale, const double *a, const double *b); /* without constants */
 void terms_product(const shape *s, terms *t, double scale, const double *a, const double *b);
-void terms_sum(const shape *s, const terms *t, double *to); /* with norms; `to` is none of the operands */
-/* to := the function with value g, first and second derivative g1, g2 at the constant of a */
-void row_function(const shape *s, double *to, const double *a, double g, double g1, double g2);
-static inline void row_inverse(const shape *s, double *to, const double *a) {
-  double i = 1 / a[0];
-  row_function(s, to, a, i, -i * i, 2 * i * i * i);
-}
+/* with norms; `to` is none of the operands; triples: it has room for them */
+void terms_sum(const shape *s, const terms *t, double *to, int triples);
+/* to := the function with these value and derivatives at the constant of a; a row of order 0 */
+void row_function(const shape *s, double *to, const double *a, const double g[4]);
+void row_inverse(const shape *s, double *to, const double *a);
 
-void sum_portable(const shape *s, const terms *t, double *to);
+void sum_portable(const shape *s, const terms *t, double *to, int triples);
 #if defined(__x86_64__)
-void sum_avx2(const shape *s, const terms *t, double *to);
+void sum_avx2(const shape *s, const terms *t, double *to, int triples);
 #endif
 #endif

@@ -22,7 +22,8 @@ static void put_branch(zono *z, uint32_t i, uint32_t k) {
   int absolute = t->op[i] == AMBIT_OP_ABS;
   if (k == 0) choose_branch(z, i);
   uint32_t from = absolute || z->branch[i] > 0 ? t->a[i] : t->b[i];
-  row_scale(&z->shape, row_at(z, t->dst[i], k), absolute ? z->branch[i] : 1, coefficient(z, from, k));
+  row_scale(
+      &z->shape, row_at(z, t->dst[i], k), absolute ? z->branch[i] : 1, coefficient(z, from, k), has_triples(z, k));
 }
 
 /* terms of order k of a b, with (last) or without those that have order k of an operand that depends on stage `level` */
@@ -49,7 +50,7 @@ static void put_partial(zono *z, uint32_t i, uint32_t k) {
   terms sum;
   terms_clear(&sum);
   add_convolution(z, &sum, t->a[i], t->b[i], k, z->program.level[t->dst[i]], 0);
-  terms_sum(&z->shape, &sum, implicit_partial(z, i));
+  terms_sum(&z->shape, &sum, implicit_partial(z, i), has_triples(z, k));
 }
 
 static void put_product(zono *z, uint32_t i, uint32_t k) {
@@ -66,7 +67,7 @@ static void put_product(zono *z, uint32_t i, uint32_t k) {
     if (z->program.level[a] == level) terms_product(s, &sum, 1, coefficient(z, a, k), row_at(z, b, 0));
     if (z->program.level[b] == level) terms_product(s, &sum, 1, row_at(z, a, 0), coefficient(z, b, k));
   }
-  terms_sum(s, &sum, row_at(z, t->dst[i], k));
+  terms_sum(s, &sum, row_at(z, t->dst[i], k), has_triples(z, k));
 }
 
 static int evaluate(zono *z, uint32_t i, uint32_t k) {
@@ -89,7 +90,7 @@ static int evaluate(zono *z, uint32_t i, uint32_t k) {
   case AMBIT_OP_SQR: add_square(z, &sum, t->a[i], k); break;
   default: return k ? zono_function(z, i, k) : zono_function_order0(z, i);
   }
-  terms_sum(s, &sum, row_at(z, dst, k));
+  terms_sum(s, &sum, row_at(z, dst, k), has_triples(z, k));
   return 1;
 }
 
@@ -114,7 +115,8 @@ static void put_inputs(zono *z) {
 
 static void integrate(zono *z, uint32_t k) {
   for (uint32_t i = 0; i < z->nx; i++)
-    row_scale(&z->shape, row_at(z, slot_x(z, i), k + 1), 1 / (k + 1.0), coefficient(z, slot_out(z)[i], k));
+    row_scale(&z->shape, row_at(z, slot_x(z, i), k + 1), 1 / (k + 1.0), coefficient(z, slot_out(z)[i], k),
+        has_triples(z, k + 1));
 }
 
 /* -- stages */

@@ -47,7 +47,7 @@ const ambit_set *zono_describe_set(zono *z) {
   const shape *s = &z->shape;
   for (uint32_t x = 0; x < z->nx; x++) {
     const double *row = z->P + (size_t)x * s->stride;
-    double *to = p->coefficient + (size_t)x * p->set.nterm, rest = z->E[x];
+    double *to = p->coefficient + (size_t)x * p->set.nterm, rest = z->E[x] + row_c(s, row);
     uint32_t at = 0;
     to[at++] = row[0];
     for (uint32_t i = 0; i < z->m; i++)

@@ -19,7 +19,7 @@ static void slot_form(const zono *z, const sweeps *w, uint32_t j, double h, doub
   if (f->n) {
     const double *row = row_at(z, j, 0);
     memcpy(to + 1, row + 1, n * sizeof *to);
-    rad = row_q(s, row) + row_x(s, row), size = row_total(s, row);
+    rad = row_bent(s, row), size = row_total(s, row);
   }
   for (uint32_t k = 1; k < count && f->n; k++) {
     const double *row = row_at(z, j, k);
@@ -28,7 +28,7 @@ static void slot_form(const zono *z, const sweeps *w, uint32_t j, double h, doub
     for (uint32_t v = 1; v <= n; v++) to[v] += half * row[v];
     time += row[0] * power;
     to[0] -= 0.5 * g * row[0];
-    rad += 0.5 * fabs(g * row[0]) + (0.5 * (row_l(s, row) + row_r(s, row)) + row_q(s, row) + row_x(s, row)) * sizes;
+    rad += 0.5 * fabs(g * row[0]) + (0.5 * (row_l(s, row) + row_r(s, row)) + row_bent(s, row)) * sizes;
     size += row_total(s, row) * sizes;
   }
   if (f->n) to[f->n] = 0.5 * time;

@@ -54,6 +54,96 @@ static inline double sum_square(const terms *t, uint32_t at, uint32_t by) {
   return sum;
 }
 
+/* -- triples: coefficient ijk of a product is the sum of l_v q_(the other two) over its different v */
+
+typedef struct cubes {
+  uint32_t nrow;
+  struct {
+    double scale;
+    const double *x;
+  } row[TERMS]; /* those of the terms that have triples */
+} cubes;
+
+/* where the run of triples (i, j, k), k > j, and what it is made of starts */
+typedef struct run_of {
+  uint32_t at, i, j, k, ij, ik, jk;
+} run_of;
+
+static inline __attribute__((always_inline)) void sum_bend(
+    const cubes *c, const terms *t, double *to, const run_of *r, uint32_t done, int same, int width) {
+  four sum[4];
+#pragma GCC unroll 4
+  for (int w = 0; w < width; w++) sum[w] = (four) { 0, 0, 0, 0 };
+  for (uint32_t n = 0; n < c->nrow; n++) {
+    const four *x = (const four *)(c->row[n].x + r->at + done);
+    four scale = SPREAD(c->row[n].scale);
+#pragma GCC unroll 4
+    for (int w = 0; w < width; w++) sum[w] += scale * x[w];
+  }
+  for (uint32_t n = 0; n < t->nbend; n++) {
+    const double *a = t->bend[n].a, *b = t->bend[n].b;
+    double x = t->bend[n].scale * a[r->i], y = t->bend[n].scale * a[r->j], z = t->bend[n].scale * b[r->ij];
+    four li = SPREAD(x), lj = SPREAD(y), q = SPREAD(z);
+    const four *jk = (const four *)(b + r->jk + done), *ik = (const four *)(b + r->ik + done);
+    const four *k = (const four *)(a + r->k + done);
+#pragma GCC unroll 4
+    for (int w = 0; w < width; w++) {
+      sum[w] += li * jk[w] + q * k[w];
+      if (!same) sum[w] += lj * ik[w];
+    }
+  }
+#pragma GCC unroll 4
+  for (int w = 0; w < width; w++) ((four *)(to + r->at + done))[w] = sum[w];
+}
+
+static inline __attribute__((always_inline)) void sum_run(
+    const cubes *c, const terms *t, double *to, const run_of *r, uint32_t length, int same) {
+  uint32_t done = 0;
+  for (; done + 12 < length; done += 16) sum_bend(c, t, to, r, done, same, 4);
+  if (done >= length) return;
+  switch ((length - done + 3) / 4) {
+  case 1: sum_bend(c, t, to, r, done, same, 1); break;
+  case 2: sum_bend(c, t, to, r, done, same, 2); break;
+  default: sum_bend(c, t, to, r, done, same, 3);
+  }
+}
+
+/* triple (i, j, j) */
+static double sum_first(const shape *s, const cubes *c, const terms *t, uint32_t at, uint32_t i, uint32_t j) {
+  double sum = 0;
+  uint32_t jj = s->pair[j], ij = s->pair[i] + j - i;
+  for (uint32_t n = 0; n < c->nrow; n++) sum += c->row[n].scale * c->row[n].x[at];
+  for (uint32_t n = 0; n < t->nbend; n++) {
+    const double *a = t->bend[n].a, *b = t->bend[n].b;
+    double x = a[1 + i] * b[jj];
+    if (i != j) x += a[1 + j] * b[ij];
+    sum += t->bend[n].scale * x;
+  }
+  return sum;
+}
+
+/* 0: there are none */
+static int sum_triples(const shape *s, const terms *t, double *to) {
+  cubes c = { .nrow = 0 };
+  uint32_t at = s->cube, n = s->cubic;
+  for (uint32_t k = 0; k < t->nrow; k++)
+    if (row_c(s, t->row[k].x) > 0) c.row[c.nrow].scale = t->row[k].scale, c.row[c.nrow++].x = t->row[k].x;
+  if (!c.nrow && !t->nbend) return 0;
+  for (uint32_t i = 0; i < n; i++)
+    for (uint32_t j = i; j < n; j++) {
+      const run_of r = { at + 1, 1 + i, 1 + j, 2 + j, s->pair[i] + j - i, s->pair[i] + j + 1 - i, s->pair[j] + 1 };
+      to[at] = sum_first(s, &c, t, at, i, j);
+      if (i == j)
+        sum_run(&c, t, to, &r, n - j - 1, 1);
+      else
+        sum_run(&c, t, to, &r, n - j - 1, 0);
+      at += n - j;
+    }
+  return 1;
+}
+
+/* -- norms */
+
 static double sum_sizes(const double *x, uint32_t n) {
   const four_bits no_sign = { INT64_MAX, INT64_MAX, INT64_MAX, INT64_MAX };
   four sum = { 0, 0, 0, 0 };
@@ -64,14 +154,19 @@ static double sum_sizes(const double *x, uint32_t n) {
   return all;
 }
 
-static void sum_norms(const shape *s, double *x) {
-  double *norm = x + s->norms;
+static void sum_norms(const shape *s, double *x, int triples) {
+  double *norm = x + s->norms, far = 0;
   double l = sum_sizes(x + 1, s->m), r = sum_sizes(x + s->eps, s->nx);
   double q = sum_sizes(x + s->pair[0], s->mix - s->pair[0]), mixed = sum_sizes(x + s->mix, s->norms - s->mix);
-  norm[0] = l, norm[1] = r, norm[2] = q, norm[3] = mixed;
+  for (uint32_t i = 0; i < s->cubic && s->cubic < s->m; i++)
+    far += sum_sizes(x + s->pair[i] + s->cubic - i, s->pair[i + 1] - s->pair[i] - (s->cubic - i));
+  norm[NORM_L] = l, norm[NORM_R] = r, norm[NORM_Q] = q, norm[NORM_X] = mixed;
+  norm[NORM_L_FAR] = sum_sizes(x + 1 + s->cubic, s->m - s->cubic);
+  norm[NORM_Q_FAR] = far + sum_sizes(x + s->pair[s->cubic], s->mix - s->pair[s->cubic]);
+  norm[NORM_C] = triples ? sum_sizes(x + s->cube, s->triples) : 0;
 }
 
-void VARIANT(const shape *s, const terms *t, double *to) {
+void VARIANT(const shape *s, const terms *t, double *to, int triples) {
   to[0] = t->c;
   sum_segment(t, to, 1, s->m + s->nx, 0, 0, 0);
   for (uint32_t i = 0; i < s->m && s->reach[i] > i; i++) {
@@ -79,5 +174,6 @@ void VARIANT(const shape *s, const terms *t, double *to) {
     sum_segment(t, to, s->pair[i] + 1, s->reach[i] - i - 1, 1 + i, 2 + i, 1);
   }
   for (uint32_t j = 0; j < s->mixed; j++) sum_segment(t, to, s->mix + j * s->nx, s->nx, 1 + j, s->eps, 1);
-  sum_norms(s, to);
+  int made = triples && sum_triples(s, t, to);
+  sum_norms(s, to, made);
 }

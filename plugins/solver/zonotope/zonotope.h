@@ -1,6 +1,6 @@
 /* zonotope.h -- what the files of the zonotope solver share.
 **
-** The set at time t is { P(xi) + G rho : xi in [-1, 1]^m, rho in [-1, 1]^ngen }: P a polynomial of degree 2 in the data,
+** The set at time t is { P(xi) + G rho : xi in [-1, 1]^m, rho in [-1, 1]^ngen }: P a polynomial of degree 3 in the data,
 ** G generators. For one step (G rho)_i is written E_i eps_i, |eps_i| <= 1.
 **
 ** Phase 1 (series.c, implicit.c, functions.c) finds rows V_jk, k <= K, for every slot j of the tape, such that
@@ -21,8 +21,8 @@
 **   ATAN2          z_k = 1/k (sum_{1 <= j <= k} j (b_(k-j) (*) a_j - a_(k-j) (*) b_j)
 **                             - sum_{1 <= j < k} j z_j (*) q_(k-j)) (*) i_0
 **   ABS MIN MAX    a copy (ABS: perhaps negated), chosen by `branch`
-** and for k = 0 of a function the Taylor polynomial of degree 2 about the constant of its operand.
-** Each coefficient of a sum of n products is got by at most 6 n + 8 operations in doubles, in any order, contracted or
+** and for k = 0 of a function the Taylor polynomial of degree 3 about the constant of its operand.
+** Each coefficient of a sum of n products is got by at most 10 n + 14 operations in doubles, in any order, contracted or
 ** not; the divisions by k and factors j are among them. i_0 is inverse_at(): b_0 (*) i_0 = 1 but for rounding.
 ** No value from before the solution of the implicit equations is left in them: nothing cancels that is not in the rows.
 ** Slots of degree 0 (constant in time) have row 0 only, the others K + 1, zero above the slot's degree.
@@ -77,7 +77,8 @@ typedef struct zono {
   double *row;           /* [sum of orders_max x shape.stride] */
   double *zero;          /* [stride] */
   double *scratch;       /* [stride] */
-  size_t *first;         /* [nslot] row 0 of the slot, in rows */
+  size_t *first;         /* [nslot] number of row 0 of the slot */
+  size_t *at;            /* [nslot] where it is in `row` */
   double *inverse;       /* [ninverse x stride] */
   uint32_t *has_inverse; /* [ninstr] number of the inverse + 1, 0: none */
   int8_t *branch;        /* [ninstr] ABS, MIN, MAX: 1 as it is or the first, -1 negated or the second */
@@ -114,8 +115,11 @@ typedef struct zono {
 /* -- rows of slots */
 
 static inline uint32_t orders(const zono *z, uint32_t slot) { return z->program.tape->degree[slot] ? z->K + 1 : 1; }
+static inline int has_triples(const zono *z, uint32_t k) { return k < z->shape.cubed; }
 static inline double *row_at(const zono *z, uint32_t slot, uint32_t k) {
-  return z->row + (z->first[slot] + k) * z->shape.stride;
+  const shape *s = &z->shape;
+  double *row = z->row + z->at[slot];
+  return k < s->cubed ? row + k * s->stride : row + s->cubed * s->stride + (k - s->cubed) * s->cube;
 }
 /* order k of a slot that may have fewer */
 static inline const double *coefficient(const zono *z, uint32_t slot, uint32_t k) {
