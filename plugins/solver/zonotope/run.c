@@ -4,7 +4,7 @@
 ** (defect.c), how far solutions can be from the rows (zono_prove), and the set at the end (zono_finish). Where the proof
 ** fails the step is made shorter with the same rows.
 */
-#include "zonotope.h"
+#include "proof.h"
 #include <ambit/code.h>
 #include <stdio.h>
 
@@ -112,10 +112,27 @@ static void work(zono *z) {
 
 /* -- reasons */
 
+/* where the width comes from that is not the data's own: of the state that has most of it */
+static void tell_origins(const zono *z, char *text, size_t room) {
+  double most = 0;
+  uint32_t worst = 0;
+  for (uint32_t i = 0; i < z->nx; i++) {
+    double share = z->E[i] / fmax(z->hi[i] - z->lo[i], 1e-300);
+    if (share > most) most = share, worst = i;
+  }
+  int at = snprintf(text, room, " (of `%s` %.0f %% are errors of the method: ", z->problem.name[worst], 200 * most);
+  if (!(most > 0.005)) at = 0, text[0] = 0;
+  if (at <= 0 || (size_t)at + 2 >= room) return;
+  origin_text(z, worst, text + at, room - (size_t)at - 1);
+  strcat(text, ")");
+}
+
 static ambit_status explain(const zono *z) {
   const ambit_host *h = z->host;
   double width = 0;
+  char from[300];
   for (uint32_t i = 0; i < z->nx; i++) width = fmax(width, z->hi[i] - z->lo[i]);
+  tell_origins(z, from, sizeof from);
   switch (z->why) {
   case WHY_NOTHING: return AMBIT_OK;
   case WHY_STOPPED: return AMBIT_STOPPED;
@@ -136,9 +153,10 @@ static ambit_status explain(const zono *z) {
         z->t, width, z->culprit + 1);
   case WHY_WIDE:
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_WIDTH,
-        "the enclosure of `%s` grew wider than allowed in the step from t = %.9g s; narrow the data, or allow more by "
+        "the enclosure of `%s` grew wider than allowed in the step from t = %.9g s%s; narrow the data, or allow more "
+        "by "
         "`width_max`",
-        z->problem.name[z->culprit], z->t);
+        z->problem.name[z->culprit], z->t, from);
   case WHY_CREEP:
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_CREEP,
         "at t = %.9g s steps over an enclosure up to %.3g wide, now of %.3g s, are so short that the end is out of "
@@ -146,9 +164,9 @@ static ambit_status explain(const zono *z) {
         z->t, width, z->guess);
   default:
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_STEP,
-        "at t = %.9g s no step of at least %.3g s could be proved, with an enclosure up to %.3g wide: a solution may "
+        "at t = %.9g s no step of at least %.3g s could be proved, with an enclosure up to %.3g wide%s: a solution may "
         "escape or leave the domain of the equations near here; if not, narrow the data or lower `step_min`",
-        z->t, z->options.step_min, width);
+        z->t, z->options.step_min, width, from);
   }
 }
 
