@@ -4,7 +4,7 @@
 #include <string.h>
 
 typedef struct source {
-  ambit_implicit_source base; /* first */
+  ambit_system_source base; /* first */
   ambit_implicit_change change;
   ambit_arena *arena;
 } source;
@@ -23,7 +23,7 @@ static ambit_status write_rates(const source *s, const ambit_implicit_form *form
   return AMBIT_OK;
 }
 
-static ambit_status write(ambit_implicit_source *self, ambit_failure *f) {
+static ambit_status write(ambit_system_source *self, ambit_failure *f) {
   source *s = (source *)(void *)self;
   const ambit_implicit_change *c = &s->change;
   const ambit_implicit_form *form;
@@ -44,7 +44,7 @@ static ambit_status write(ambit_implicit_source *self, ambit_failure *f) {
   return AMBIT_OK;
 }
 
-static void mark(const ambit_implicit_source *self, ambit_graph *g) {
+static void mark(const ambit_system_source *self, ambit_graph *g) {
   const ambit_implicit_change *c = &((const source *)(const void *)self)->change;
   ambit_graph_mark(g, c->n, c->leaf);
   ambit_graph_mark(g, c->n, c->value);
@@ -57,9 +57,9 @@ static const ambit_expr *copy(ambit_arena *arena, size_t n, const ambit_expr *e)
   return to;
 }
 
-ambit_implicit_source *ambit_implicit_change_open(
+ambit_system_source *ambit_implicit_change_open(
     const ambit_implicit_change *change, ambit_arena *arena, ambit_failure *f) {
-  if (!change->of->implicit) return NULL;
+  if (!change->of->source) return NULL;
   source *s = ambit_arena_alloc(arena, sizeof *s);
   if (s) {
     *s = (source) { { .write = write, .mark = mark }, *change, arena };

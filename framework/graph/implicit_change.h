@@ -13,6 +13,6 @@ typedef struct ambit_implicit_change {
 } ambit_implicit_change;
 
 /* NULL: `of` has no implicit form, or (f) out of memory. Copies the lists into the arena, that of the new system. */
-ambit_implicit_source *ambit_implicit_change_open(
+ambit_system_source *ambit_implicit_change_open(
     const ambit_implicit_change *change, ambit_arena *arena, ambit_failure *f);
 #endif

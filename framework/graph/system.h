@@ -18,14 +18,16 @@ typedef struct ambit_implicit_form {
   const uint32_t *pivot;      /* [na] */
 } ambit_implicit_form;
 
-/* Whoever makes a system may be able to write it in implicit form, which is done when somebody asks for it. Lives as
-** long as the system. */
-typedef struct ambit_implicit_source ambit_implicit_source;
-struct ambit_implicit_source {
+/* Whoever makes a system may be able to write it in implicit form, and may leave its right-hand sides for later, too:
+** both are done when somebody asks for them. Lives as long as the system. */
+typedef struct ambit_system_source ambit_system_source;
+struct ambit_system_source {
   bool written;
   ambit_implicit_form form; /* once it is written */
-  ambit_status (*write)(ambit_implicit_source *self, ambit_failure *f);
-  void (*mark)(const ambit_implicit_source *self, ambit_graph *g); /* what it keeps besides the form, or NULL */
+  ambit_status (*write)(ambit_system_source *self, ambit_failure *f);
+  const ambit_expr *rate;                                                   /* [nx] once they are written */
+  ambit_status (*write_rates)(ambit_system_source *self, ambit_failure *f); /* NULL: the system has them */
+  void (*mark)(const ambit_system_source *self, ambit_graph *g); /* what it keeps besides form and rates, or NULL */
 };
 
 typedef struct ambit_system {
@@ -34,19 +36,28 @@ typedef struct ambit_system {
   const char *const *name; /* [nx] "beta1", "beta1'" */
   const char *const *unit; /* [nx] */
   const ambit_expr *state; /* [nx] symbols */
-  const ambit_expr *rate;  /* [nx] right-hand sides; their unknowns are the uncertain parameters */
+  /* [nx] right-hand sides; their unknowns are the uncertain parameters; NULL: see ambit_system_rates */
+  const ambit_expr *rate;
   size_t ninvariant;
   const ambit_expr *invariant; /* [ninvariant] g(x, t), zero along every solution that starts with g = 0; see below */
   const char *const *invariant_name; /* [ninvariant] "close: row 1", for messages */
-  /* of this very system: who changes states, rates or data drops it, or changes it in the same way; NULL: there is none
-  */
-  ambit_implicit_source *implicit;
+  /* of this very system: who changes states, rates or data drops it, or changes it in the same way; NULL: there is
+  ** none, and no implicit form */
+  ambit_system_source *source;
 } ambit_system;
+
+/* *rate := the right-hand sides, [nx]. */
+static inline ambit_status ambit_system_rates(const ambit_system *s, const ambit_expr **rate, ambit_failure *f) {
+  ambit_system_source *source = s->source;
+  ambit_status status = s->rate || source->rate ? AMBIT_OK : source->write_rates(source, f);
+  *rate = s->rate ? s->rate : source->rate;
+  return status;
+}
 
 /* *form := the implicit form, NULL where there is none. */
 static inline ambit_status ambit_system_implicit(
     const ambit_system *s, const ambit_implicit_form **form, ambit_failure *f) {
-  ambit_implicit_source *source = s->implicit;
+  ambit_system_source *source = s->source;
   *form = NULL;
   if (!source) return AMBIT_OK;
   ambit_status status = source->written ? AMBIT_OK : source->write(source, f);

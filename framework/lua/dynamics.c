@@ -16,13 +16,20 @@ static uint32_t form_at(lua_State *L, int idx) {
   return form[luaL_checkoption(L, idx, "auto", name)];
 }
 
+/* From here on the formulas of the accelerations are long, and a solver may do without them; mistakes in them are told
+** when they are written. Those of smaller mechanisms are written, and checked, at once. */
+#define LATER 11u
+
 /* dynamics(mechanism, form) -> system */
 static int dynamics(lua_State *L) {
   ambit_failure f = { 0 };
   ambit_mechanism *m = ambit_lua_to_mechanism(L, 1);
   uint32_t form = form_at(L, 2);
   ambit_lua_system *s = ambit_lua_push_system(L);
-  if (ambit_constrained_system(m, form, s->arena, &s->system, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
+  bool later = ambit_mechanism_speeds(m, 0, NULL) >= LATER;
+  ambit_status status = later ? ambit_constrained_outline(m, form, s->arena, &s->system, &f)
+                              : ambit_constrained_system(m, form, s->arena, &s->system, &f);
+  if (status != AMBIT_OK) ambit_lua_raise(L, &f);
   lua_pushvalue(L, 1);
   lua_setiuservalue(L, -2, 1);
   return 1;

@@ -12,12 +12,14 @@ static void mark(ambit_holder *holder, ambit_graph *g) {
   if (s->state) ambit_graph_mark(g, s->nx, s->state);
   if (s->rate) ambit_graph_mark(g, s->nx, s->rate);
   if (s->invariant) ambit_graph_mark(g, s->ninvariant, s->invariant);
-  const ambit_implicit_source *implicit = s->implicit;
-  if (implicit && implicit->mark) implicit->mark(implicit, g);
-  if (!implicit || implicit->form.na == 0) return;
-  ambit_graph_mark(g, implicit->form.na, implicit->form.unknown);
-  ambit_graph_mark(g, implicit->form.na, implicit->form.residual);
-  ambit_graph_mark(g, s->nx, implicit->form.rate);
+  const ambit_system_source *source = s->source;
+  if (!source) return;
+  if (source->mark) source->mark(source, g);
+  if (source->rate) ambit_graph_mark(g, s->nx, source->rate);
+  if (source->form.na == 0) return;
+  ambit_graph_mark(g, source->form.na, source->form.unknown);
+  ambit_graph_mark(g, source->form.na, source->form.residual);
+  ambit_graph_mark(g, s->nx, source->form.rate);
 }
 
 ambit_lua_system *ambit_lua_push_system(lua_State *L) {
@@ -31,10 +33,17 @@ ambit_lua_system *ambit_lua_push_system(lua_State *L) {
   return s;
 }
 
-ambit_lua_system *ambit_lua_check_system(lua_State *L, int idx) { return luaL_checkudata(L, idx, AMBIT_TYPE_SYSTEM); }
+ambit_lua_system *ambit_lua_check_outline(lua_State *L, int idx) { return luaL_checkudata(L, idx, AMBIT_TYPE_SYSTEM); }
+
+ambit_lua_system *ambit_lua_check_system(lua_State *L, int idx) {
+  ambit_lua_system *s = ambit_lua_check_outline(L, idx);
+  ambit_failure f = { 0 };
+  if (ambit_system_rates(&s->system, &s->system.rate, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
+  return s;
+}
 
 static int close(lua_State *L) {
-  ambit_lua_system *s = ambit_lua_check_system(L, 1);
+  ambit_lua_system *s = ambit_lua_check_outline(L, 1);
   ambit_graph_release(&s->holder);
   ambit_arena_close(s->arena);
   memset(s, 0, sizeof *s);
@@ -72,13 +81,13 @@ static ambit_expr *list_at(lua_State *L, int idx, size_t *n) {
 static void add_implicit(lua_State *L, ambit_lua_system *s) {
   if (lua_isnoneornil(L, 7)) return;
   ambit_failure f = { 0 };
-  ambit_implicit_change change = { .of = &ambit_lua_check_system(L, 7)->system };
+  ambit_implicit_change change = { .of = &ambit_lua_check_outline(L, 7)->system };
   size_t nvalue;
   change.leaf = list_at(L, 8, &change.n);
   change.value = list_at(L, 9, &nvalue);
   change.g = list_at(L, 10, &change.nfurther);
   luaL_argcheck(L, nvalue == change.n && s->system.nx == change.of->nx + change.nfurther, 7, "does not fit");
-  s->system.implicit = ambit_implicit_change_open(&change, s->arena, &f);
+  s->system.source = ambit_implicit_change_open(&change, s->arena, &f);
   if (f.status != AMBIT_OK) ambit_lua_raise(L, &f);
   lua_pushvalue(L, 7);
   lua_setiuservalue(L, 11, 1);
@@ -111,9 +120,16 @@ static int system_new(lua_State *L) {
   return 1;
 }
 
-/* system_parts(system) -> {name}, {unit}, {state}, {rate} */
-static int system_parts(lua_State *L) {
+/* system_right(system) -> {rate} */
+static int system_right(lua_State *L) {
   const ambit_system *s = &ambit_lua_check_system(L, 1)->system;
+  ambit_lua_push_expressions(L, s->nx, s->rate);
+  return 1;
+}
+
+/* system_parts(system) -> {name}, {unit}, {state} */
+static int system_parts(lua_State *L) {
+  const ambit_system *s = &ambit_lua_check_outline(L, 1)->system;
   lua_createtable(L, (int)s->nx, 0);
   lua_createtable(L, (int)s->nx, 0);
   for (size_t i = 0; i < s->nx; i++) {
@@ -123,13 +139,12 @@ static int system_parts(lua_State *L) {
     lua_rawseti(L, -2, (lua_Integer)i + 1);
   }
   ambit_lua_push_expressions(L, s->nx, s->state);
-  ambit_lua_push_expressions(L, s->nx, s->rate);
-  return 4;
+  return 3;
 }
 
 /* system_invariants(system) -> {expression} that vanish along every solution, {name} */
 static int system_invariants(lua_State *L) {
-  const ambit_system *s = &ambit_lua_check_system(L, 1)->system;
+  const ambit_system *s = &ambit_lua_check_outline(L, 1)->system;
   ambit_lua_push_expressions(L, s->ninvariant, s->invariant);
   lua_createtable(L, (int)s->ninvariant, 0);
   for (size_t i = 0; i < s->ninvariant; i++) {
@@ -155,7 +170,7 @@ static void set_expressions(lua_State *L, const char *key, size_t n, const ambit
 
 /* system_implicit(system) -> { unknowns, rates, residuals: expressions; stage_end, pivot: numbers }, or nil */
 static int system_implicit(lua_State *L) {
-  const ambit_system *s = &ambit_lua_check_system(L, 1)->system;
+  const ambit_system *s = &ambit_lua_check_outline(L, 1)->system;
   const ambit_implicit_form *form;
   ambit_failure f = { 0 };
   if (ambit_system_implicit(s, &form, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
@@ -228,8 +243,8 @@ static int system_rates(lua_State *L) {
 void ambit_lua_open_system(lua_State *L, ambit_lua *core) {
   static const luaL_Reg meta[] = { { "__gc", close }, { NULL, NULL } };
   static const luaL_Reg functions[] = { { "system", system_new }, { "system_parts", system_parts },
-    { "system_invariants", system_invariants }, { "system_implicit", system_implicit },
-    { "system_rates", system_rates }, { NULL, NULL } };
+    { "system_right", system_right }, { "system_invariants", system_invariants },
+    { "system_implicit", system_implicit }, { "system_rates", system_rates }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
   ambit_lua_new_type(L, core, AMBIT_TYPE_SYSTEM, meta);
   lua_pop(L, 1);

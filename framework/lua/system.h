@@ -13,4 +13,6 @@ typedef struct ambit_lua_system {
 
 ambit_lua_system *ambit_lua_push_system(lua_State *L); /* empty, with its arena */
 ambit_lua_system *ambit_lua_check_system(lua_State *L, int idx);
+/* The same, maybe without its right-hand sides (ambit_system_rates). */
+ambit_lua_system *ambit_lua_check_outline(lua_State *L, int idx);
 #endif

@@ -65,8 +65,7 @@ static void push_result(lua_State *L, const ambit_receiver *to, const ambit_simu
   lua_setfield(L, -2, "rigorous");
 }
 
-ambit_simulate_request ambit_lua_simulate_request(lua_State *L) {
-  ambit_lua_system *s = ambit_lua_check_system(L, 1);
+static ambit_simulate_request request_of(lua_State *L, const ambit_lua_system *s) {
   ambit_simulate_request q = { .system = &s->system, .registry = AMBIT_LUA(L)->registry };
   q.solver = luaL_checkstring(L, 2);
   q.arithmetic = luaL_optstring(L, 3, NULL);
@@ -76,6 +75,8 @@ ambit_simulate_request ambit_lua_simulate_request(lua_State *L) {
   q.time = ambit_lua_numbers(L, 7, &q.ntime);
   return q;
 }
+
+ambit_simulate_request ambit_lua_simulate_request(lua_State *L) { return request_of(L, ambit_lua_check_system(L, 1)); }
 
 /* A run that is a part of another verb's work writes no records of its own: { silent = true } at idx. */
 static bool is_silent(lua_State *L, int idx) {
@@ -90,7 +91,8 @@ static bool is_silent(lua_State *L, int idx) {
 ** run options or nil) -> track, result, report */
 static int simulate(lua_State *L) {
   ambit_lua_events *events = ambit_lua_find_events(L, 8);
-  ambit_simulate_request q = ambit_lua_simulate_request(L);
+  bool watches = !lua_isnoneornil(L, 8); /* for events everybody needs the rates */
+  ambit_simulate_request q = request_of(L, watches ? ambit_lua_check_system(L, 1) : ambit_lua_check_outline(L, 1));
   q.wish = AMBIT_WISH_SET;
   uint32_t keep = ambit_lua_run_options(L, 9, &q);
   ambit_receiver to = ambit_receiver_push(L, q.system->nx, q.system->name, keep);

@@ -10,7 +10,7 @@ typedef struct reduction {
   ambit_graph *g;
   ambit_arena *arena;
   ambit_failure *f;
-  ambit_loops *loops;
+  const ambit_loops *loops;
   ambit_loop_motion motion;
   ambit_motion dynamics;
   size_t nu, nfree;
@@ -99,12 +99,10 @@ static ambit_status reduced_motion(reduction *s, ambit_motion *reduced) {
 }
 
 static ambit_status build(reduction *s, ambit_motion *reduced) {
-  const ambit_constraints *c = &s->loops->constraints;
-  ambit_status status = ambit_loops_build(s->m, s->arena, s->loops, s->f);
-  s->nu = c->nu;
+  s->nu = s->loops->constraints.nu;
   s->nfree = s->loops->nfree;
   s->independent = s->loops->partition.independent;
-  if (status == AMBIT_OK) status = ambit_loop_motion_build(s->loops, s->arena, &s->motion, s->f);
+  ambit_status status = ambit_loop_motion_build(s->loops, s->arena, &s->motion, s->f);
   if (status == AMBIT_OK) status = ambit_motion_build(s->m, s->arena, &s->dynamics, s->f);
   if (status == AMBIT_OK) status = build_force(s);
   if (status == AMBIT_OK) status = reduced_motion(s, reduced);
@@ -145,54 +143,79 @@ static ambit_status add_invariants(
   return AMBIT_OK;
 }
 
-/* Only rows that restrict no speed, of unit quaternions or 0 = 0: the equations are those of an open chain. */
-static ambit_status open_system(ambit_mechanism *m, uint32_t form, const ambit_constraints *c, ambit_arena *arena,
-    ambit_system *system, ambit_failure *f) {
-  ambit_forward forward = { 0 };
-  ambit_status status = ambit_forward_build(m, form, false, arena, &forward, f);
-  size_t n = forward.variables.n;
-  ambit_expr *du = ambit_expressions(arena, n);
-  if (status == AMBIT_OK && !du) status = no_memory(f);
-  if (status != AMBIT_OK) return status;
-  memcpy(du, forward.du, n * sizeof *du);
-  status = drop_multipliers(m, arena, n, du, f);
-  if (status == AMBIT_OK)
-    status = ambit_dynamics_of(ambit_mechanism_graph(m), &forward.variables, du, arena, system, f);
-  if (status == AMBIT_OK) status = ambit_implicit_offer(m, NULL, arena, system, f);
-  return status == AMBIT_OK ? add_invariants(c, arena, system, f) : status;
+/* The states are those of the open chain, but of the speeds only the independent ones. */
+static ambit_status closed_variables(const ambit_loops *loops, ambit_arena *arena, ambit_variables *v) {
+  const ambit_constraints *c = &loops->constraints;
+  ambit_speed *speed = ambit_arena_alloc(arena, (loops->nfree + 1) * sizeof *speed);
+  if (!speed) return AMBIT_NOMEM;
+  for (size_t l = 0; l < loops->nfree; l++) speed[l] = c->speed[loops->partition.independent[l]];
+  *v = (ambit_variables) { .ncoordinate = c->nq, .n = loops->nfree, .coordinate = c->coordinate, .speed = speed };
+  return AMBIT_OK;
 }
 
-static ambit_status closed_system(reduction *s, ambit_system *system) {
+/* Without rows that restrict a speed (those of unit quaternions, and 0 = 0, do not) there are no loops. */
+ambit_status ambit_constrained_outline(
+    ambit_mechanism *m, uint32_t form, ambit_arena *arena, ambit_system *system, ambit_failure *f) {
+  ambit_failure own = { 0 };
+  ambit_constraints c;
+  ambit_variables v = { 0 };
+  ambit_loops *loops = ambit_arena_alloc(arena, sizeof *loops);
+  if (!loops) return no_memory(f);
+  ambit_status status = ambit_constraints_build(m, arena, &c, &own);
+  if (status == AMBIT_OK && c.n == 0) {
+    loops = NULL;
+    status = ambit_variables_read(m, arena, &v, &own);
+  } else if (status == AMBIT_OK) {
+    status = ambit_loops_build(m, arena, loops, &own);
+    if (status == AMBIT_OK) status = closed_variables(loops, arena, &v);
+  }
+  if (status == AMBIT_OK) status = ambit_dynamics_of(ambit_mechanism_graph(m), &v, NULL, arena, system, &own);
+  if (status == AMBIT_OK) status = add_invariants(loops ? &loops->constraints : &c, arena, system, &own);
+  if (status == AMBIT_OK) status = ambit_implicit_offer(m, loops, form, arena, system, &own);
+  return status == AMBIT_OK ? status : ambit_fail(f, status, "%s", own.message);
+}
+
+static ambit_status open_rates(
+    ambit_mechanism *m, uint32_t form, ambit_arena *arena, const ambit_expr **rate, ambit_failure *f) {
+  ambit_forward forward = { 0 };
+  ambit_status status = ambit_forward_build(m, form, false, arena, &forward, f);
+  const ambit_variables *v = &forward.variables;
+  ambit_expr *list = ambit_expressions(arena, v->ncoordinate + v->n);
+  if (status == AMBIT_OK && !list) status = no_memory(f);
+  if (status != AMBIT_OK) return status;
+  for (size_t j = 0; j < v->ncoordinate; j++) list[j] = v->coordinate[j].rate;
+  memcpy(list + v->ncoordinate, forward.du, v->n * sizeof *list);
+  *rate = list;
+  return drop_multipliers(m, arena, v->n, list + v->ncoordinate, f);
+}
+
+static ambit_status closed_rates(reduction *s, const ambit_expr **rate) {
   ambit_motion reduced = { 0 };
   ambit_status status = build(s, &reduced);
   if (status != AMBIT_OK) return status;
-  size_t nq = s->loops->constraints.nq;
-  ambit_coordinate *coordinate = ambit_arena_alloc(s->arena, (nq + 1) * sizeof *coordinate);
-  ambit_expr *rate = ambit_expressions(s->arena, nq + s->nfree);
-  if (!coordinate || !rate) return no_memory(s->f);
-  memcpy(coordinate, s->loops->constraints.coordinate, nq * sizeof *coordinate);
-  for (size_t j = 0; j < nq; j++) rate[j] = coordinate[j].rate;
-  memcpy(rate + nq, s->du, s->nfree * sizeof *rate);
-  status = eliminate_speeds(s, nq + s->nfree, rate);
-  if (status != AMBIT_OK) return status;
-  for (size_t j = 0; j < nq; j++) coordinate[j].rate = rate[j];
-  reduced.variables.ncoordinate = nq;
-  reduced.variables.coordinate = coordinate;
-  status = ambit_dynamics_of(s->g, &reduced.variables, rate + nq, s->arena, system, s->f);
-  if (status == AMBIT_OK) status = ambit_implicit_offer(s->m, s->loops, s->arena, system, s->f);
-  return status == AMBIT_OK ? add_invariants(&s->loops->constraints, s->arena, system, s->f) : status;
+  const ambit_constraints *c = &s->loops->constraints;
+  ambit_expr *list = ambit_expressions(s->arena, c->nq + s->nfree);
+  if (!list) return no_memory(s->f);
+  for (size_t j = 0; j < c->nq; j++) list[j] = c->coordinate[j].rate;
+  memcpy(list + c->nq, s->du, s->nfree * sizeof *list);
+  *rate = list;
+  return eliminate_speeds(s, c->nq + s->nfree, list);
+}
+
+ambit_status ambit_constrained_rates(ambit_mechanism *m, const ambit_loops *loops, uint32_t form, ambit_arena *arena,
+    const ambit_expr **rate, ambit_failure *f) {
+  ambit_failure own = { 0 };
+  const ambit_expr *list = NULL;
+  reduction s = { .m = m, .g = ambit_mechanism_graph(m), .arena = arena, .f = &own, .loops = loops };
+  ambit_status status = loops ? closed_rates(&s, &list) : open_rates(m, form, arena, &list, &own);
+  *rate = status == AMBIT_OK ? list : NULL;
+  return status == AMBIT_OK ? status : ambit_fail(f, status, "%s", own.message);
 }
 
 ambit_status ambit_constrained_system(
     ambit_mechanism *m, uint32_t form, ambit_arena *arena, ambit_system *system, ambit_failure *f) {
-  ambit_failure own = { 0 };
-  ambit_constraints c;
-  ambit_loops *loops = ambit_arena_alloc(arena, sizeof *loops); /* the system's implicit form is written from them */
-  if (!loops) return no_memory(f);
-  reduction s = { .m = m, .g = ambit_mechanism_graph(m), .arena = arena, .f = &own, .loops = loops };
-  ambit_status status = ambit_constraints_build(m, arena, &c, &own);
-  if (status == AMBIT_OK) status = c.n ? closed_system(&s, system) : open_system(m, form, &c, arena, system, &own);
-  return status == AMBIT_OK ? status : ambit_fail(f, status, "%s", own.message);
+  ambit_status status = ambit_constrained_outline(m, form, arena, system, f);
+  return status == AMBIT_OK ? ambit_system_rates(system, &system->rate, f) : status;
 }
 
 /* -- what the states determine */
@@ -219,7 +242,8 @@ ambit_status ambit_constrained_build(ambit_mechanism *m, ambit_arena *arena, amb
   ambit_failure own = { 0 };
   ambit_motion reduced = { 0 };
   reduction s = { .m = m, .g = ambit_mechanism_graph(m), .arena = arena, .f = &own, .loops = &c->loops };
-  ambit_status status = build(&s, &reduced);
+  ambit_status status = ambit_loops_build(m, arena, &c->loops, &own);
+  if (status == AMBIT_OK) status = build(&s, &reduced);
   if (status != AMBIT_OK) return ambit_fail(f, status, "%s", own.message);
   size_t n = c->loops.constraints.n;
   ambit_expr *all = ambit_expressions(arena, 2 * s.nu + n), *du = all + s.nu, *lambda = du + s.nu;

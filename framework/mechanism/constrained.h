@@ -12,9 +12,16 @@
 #include "mechanism/dynamics.h"
 #include "mechanism/loops.h"
 
-/* The system of a mechanism for which ambit_constraints_exist(); form: AMBIT_FORM_*, for mechanisms without loops. */
+/* The system of a mechanism, with constraints or without; form: AMBIT_FORM_*, for mechanisms without loops. */
 ambit_status ambit_constrained_system(
     ambit_mechanism *m, uint32_t form, ambit_arena *arena, ambit_system *system, ambit_failure *f);
+
+/* The same without right-hand sides, which are written when they are asked for: what is wrong with them is said then. */
+ambit_status ambit_constrained_outline(
+    ambit_mechanism *m, uint32_t form, ambit_arena *arena, ambit_system *system, ambit_failure *f);
+/* They alone, (*rate)[nx]; loops: those of the outline, or NULL */
+ambit_status ambit_constrained_rates(ambit_mechanism *m, const ambit_loops *loops, uint32_t form, ambit_arena *arena,
+    const ambit_expr **rate, ambit_failure *f);
 
 /* Everything that the states determine, in terms of the states. */
 typedef struct ambit_constrained {

@@ -7,8 +7,6 @@
 #include "mechanism/constrained.h"
 #include "mechanism/affine_in.h"
 #include "mechanism/factor.h"
-#include "mechanism/forward.h"
-#include "mechanism/implicit.h"
 #include "mechanism/pivot.h"
 #include <string.h>
 
@@ -207,19 +205,15 @@ ambit_status ambit_dynamics_of(ambit_graph *g, const ambit_variables *v, const a
     name[i] = ambit_arena_text(arena, speed ? v->speed[i - nc].name : v->coordinate[i].name);
     unit[i] = ambit_arena_text(arena, speed ? v->speed[i - nc].unit : v->coordinate[i].unit);
     state[i] = speed ? v->speed[i - nc].u : v->coordinate[i].q;
-    rate[i] = speed ? du[i - nc] : v->coordinate[i].rate;
+    if (du) rate[i] = speed ? du[i - nc] : v->coordinate[i].rate;
     if (!name[i] || !unit[i]) return no_memory(f);
   }
-  *system = (ambit_system) { .graph = g, .nx = nx, .name = name, .unit = unit, .state = state, .rate = rate };
+  *system =
+      (ambit_system) { .graph = g, .nx = nx, .name = name, .unit = unit, .state = state, .rate = du ? rate : NULL };
   return AMBIT_OK;
 }
 
 ambit_status ambit_dynamics_system(
     ambit_mechanism *m, uint32_t form, ambit_arena *arena, ambit_system *system, ambit_failure *f) {
-  if (ambit_constraints_exist(m)) return ambit_constrained_system(m, form, arena, system, f);
-  ambit_forward forward = { 0 };
-  ambit_status status = ambit_forward_build(m, form, false, arena, &forward, f);
-  if (status != AMBIT_OK) return status;
-  status = ambit_dynamics_of(ambit_mechanism_graph(m), &forward.variables, forward.du, arena, system, f);
-  return status == AMBIT_OK ? ambit_implicit_offer(m, NULL, arena, system, f) : status;
+  return ambit_constrained_system(m, form, arena, system, f);
 }

@@ -1,16 +1,16 @@
 /* implicit.c -- balances, constraints on speeds and on accelerations, as equations for what is not known. */
 #include "mechanism/implicit.h"
 #include "graph/collect.h"
-#include "mechanism/balance.h"
+#include "mechanism/constrained.h"
 #include "mechanism/implicit_order.h"
 #include <string.h>
 
 typedef struct source {
-  ambit_implicit_source base; /* first */
+  ambit_system_source base; /* first */
   ambit_mechanism *m;
   ambit_arena *arena;       /* of the system */
   const ambit_loops *loops; /* NULL: none */
-  uint32_t parts;           /* of the mechanism whose equations these are */
+  uint32_t parts, form;     /* of the mechanism whose equations these are; AMBIT_FORM_* */
 } source;
 
 typedef struct writer {
@@ -157,7 +157,7 @@ static ambit_status write_closed(writer *w, ambit_implicit_form *form) {
 }
 
 /* A mechanism that has got further parts has other equations: then there is no form. */
-static ambit_status write(ambit_implicit_source *self, ambit_failure *f) {
+static ambit_status write(ambit_system_source *self, ambit_failure *f) {
   const source *s = (const source *)(const void *)self;
   ambit_failure own = { 0 };
   ambit_implicit_form form = { 0 };
@@ -170,16 +170,32 @@ static ambit_status write(ambit_implicit_source *self, ambit_failure *f) {
   return AMBIT_OK;
 }
 
-static void mark(const ambit_implicit_source *self, ambit_graph *g) {
+static ambit_status write_rates(ambit_system_source *self, ambit_failure *f) {
   const source *s = (const source *)(const void *)self;
-  if (s->loops) ambit_graph_mark(g, s->loops->constraints.n, s->loops->constraints.rate);
+  if (ambit_mechanism_count(s->m) != s->parts)
+    return ambit_fail(f, AMBIT_INVALID,
+        "the mechanism has got further parts since these equations of motion were asked for: ask for new ones, "
+        "m:dynamics()");
+  return ambit_constrained_rates(s->m, s->loops, s->form, s->arena, &self->rate, f);
 }
 
-ambit_status ambit_implicit_offer(
-    ambit_mechanism *m, const ambit_loops *loops, ambit_arena *arena, ambit_system *system, ambit_failure *f) {
+static void mark(const ambit_system_source *self, ambit_graph *g) {
+  const source *s = (const source *)(const void *)self;
+  if (!s->loops) return;
+  const ambit_constraints *c = &s->loops->constraints;
+  ambit_graph_mark(g, c->n, c->rate);
+  ambit_graph_mark(g, c->n, c->drive);
+  ambit_graph_mark(g, c->n * c->nu, c->velocity);
+  ambit_graph_mark(g, (c->n + c->npure) * c->nq, c->slope);
+  for (size_t k = 0; k < c->n + c->npure + c->ntrivial; k++) ambit_graph_mark(g, 1, &c->row[k].g);
+}
+
+ambit_status ambit_implicit_offer(ambit_mechanism *m, const ambit_loops *loops, uint32_t form, ambit_arena *arena,
+    ambit_system *system, ambit_failure *f) {
   source *s = ambit_arena_alloc(arena, sizeof *s);
   if (!s) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
-  *s = (source) { { .write = write, .mark = mark }, m, arena, loops, ambit_mechanism_count(m) };
-  system->implicit = &s->base;
+  *s = (source) { { .write = write, .write_rates = write_rates, .mark = mark }, m, arena, loops,
+    ambit_mechanism_count(m), form };
+  system->source = &s->base;
   return AMBIT_OK;
 }

@@ -11,9 +11,9 @@
 #include "graph/system.h"
 #include "mechanism/loops.h"
 
-/* Lets `system`, the equations of motion of m, be written in implicit form later, as long as no part has been added by
-** then. loops: of a mechanism with closed loops, in the arena of the system; else NULL. The mechanism must outlive the
-** system. */
-ambit_status ambit_implicit_offer(
-    ambit_mechanism *m, const ambit_loops *loops, ambit_arena *arena, ambit_system *system, ambit_failure *f);
+/* Lets `system`, the equations of motion of m, be written in implicit form later, and its right-hand sides if it has
+** none yet, as long as no part has been added by then. loops: of a mechanism with closed loops, in the arena of the
+** system; else NULL. form: AMBIT_FORM_*. The mechanism must outlive the system. */
+ambit_status ambit_implicit_offer(ambit_mechanism *m, const ambit_loops *loops, uint32_t form, ambit_arena *arena,
+    ambit_system *system, ambit_failure *f);
 #endif

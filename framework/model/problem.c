@@ -18,6 +18,7 @@ typedef struct build {
   ambit_graph *graph;
   ambit_arena *arena;
   ambit_failure *f;
+  const ambit_expr *rate;          /* [nx] of the system; NULL: not wanted */
   size_t nrate, ninvariant;        /* nx, or 0 where the implicit form does; 0 unless they are wanted */
   const ambit_implicit_form *form; /* NULL: not wanted, or there is none */
   /* everything over states, parameters and time, without point unknowns: rates [nrate], invariants [ninvariant], of the
@@ -71,7 +72,8 @@ static ambit_status check_expressions(const build *b) {
   for (size_t i = 0; i < s->nx; i++) {
     if (b->q->initial[i] == AMBIT_NO_EXPR)
       return ambit_fail(b->f, AMBIT_INVALID, "state `%s` has no initial value", s->name[i]);
-    if (s->rate[i] == AMBIT_NO_EXPR) return ambit_fail(b->f, AMBIT_INVALID, "state `%s` has no equation", s->name[i]);
+    if (b->rate && b->rate[i] == AMBIT_NO_EXPR)
+      return ambit_fail(b->f, AMBIT_INVALID, "state `%s` has no equation", s->name[i]);
   }
   for (size_t i = 0; i < b->ninvariant; i++)
     if (s->invariant[i] == AMBIT_NO_EXPR)
@@ -83,13 +85,13 @@ static ambit_status check_expressions(const build *b) {
 static ambit_status collect_expressions(build *b) {
   const ambit_system *s = b->q->system;
   size_t nform = b->form ? s->nx + b->form->na : 0;
-  b->nrate = b->form && !wants_rates(b->q->want) ? 0 : s->nx;
+  b->nrate = b->rate ? s->nx : 0;
   b->nall = b->nrate + b->ninvariant + nform;
   b->all = room(b, b->nall + 1, sizeof *b->all);
   if (!b->all) return no_memory(b);
   b->invariant = b->all + b->nrate;
   b->implicit = b->form ? b->invariant + b->ninvariant : b->all;
-  memcpy(b->all, s->rate, b->nrate * sizeof *b->all);
+  if (b->rate) memcpy(b->all, b->rate, b->nrate * sizeof *b->all);
   if (b->ninvariant) memcpy(b->invariant, s->invariant, b->ninvariant * sizeof *b->all);
   if (!b->form) return AMBIT_OK;
   memcpy(b->implicit, b->form->rate, s->nx * sizeof *b->all);
@@ -100,8 +102,10 @@ static ambit_status collect_expressions(build *b) {
 static ambit_status copy_expressions(build *b) {
   const ambit_system *s = b->q->system;
   b->ninvariant = b->q->want & AMBIT_WANT_INVARIANT ? s->ninvariant : 0;
-  ambit_status status = check_expressions(b);
-  if (status == AMBIT_OK && (b->q->want & AMBIT_WANT_IMPLICIT)) status = ambit_system_implicit(s, &b->form, b->f);
+  ambit_status status = AMBIT_OK;
+  if (b->q->want & AMBIT_WANT_IMPLICIT) status = ambit_system_implicit(s, &b->form, b->f);
+  if (status == AMBIT_OK && (!b->form || wants_rates(b->q->want))) status = ambit_system_rates(s, &b->rate, b->f);
+  if (status == AMBIT_OK) status = check_expressions(b);
   if (status == AMBIT_OK) status = collect_expressions(b);
   if (status != AMBIT_OK) return status;
   b->start = room(b, s->nx, sizeof *b->start);

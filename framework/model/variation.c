@@ -237,7 +237,7 @@ static ambit_status assemble(const build *b, size_t n) {
   memcpy(p.rate, b->s->rate, nx * sizeof *p.rate);
   memcpy(p.start, b->q->initial, nx * sizeof *p.start);
   b->v->system = *b->s;
-  b->v->system.implicit = NULL; /* it knows nothing of the further states */
+  b->v->system.source = NULL; /* it knows nothing of the further states */
   b->v->system.nx = n;
   b->v->system.name = p.name;
   b->v->system.unit = p.unit;

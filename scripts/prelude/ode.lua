@@ -5,7 +5,6 @@ local formula = require "ambit.formula"
 local session = require "ambit.session"
 
 local Ode = { __name = "ode" }
-Ode.__index = Ode
 
 local ode = {}
 
@@ -43,10 +42,18 @@ end
 require("ambit.source").install(Ode)
 check.methods(Ode, Ode)
 
+-- The right-hand sides, which of a large mechanism are written only now.
+function Ode.__index(self, key)
+  if key ~= "rates" then return Ode[key] end
+  local rates = core.system_right(self.system)
+  rawset(self, "rates", rates)
+  return rates
+end
+
 local function object(system, name, mechanism, parameters, declaration)
-  local names, units, symbols, rates = core.system_parts(system)
+  local names, units, symbols = core.system_parts(system)
   return setmetatable({ name = name, system = system, states = names, units = units, symbols = symbols,
-    rates = rates, mechanism = mechanism or false, parameters = parameters or {}, declaration = declaration or false,
+    mechanism = mechanism or false, parameters = parameters or {}, declaration = declaration or false,
     unchecked = false }, Ode)
 end
 

@@ -2,7 +2,7 @@
 #include "kit/solver_kit_implicit.h"
 #include <stdio.h>
 
-static ambit_status write_form(ambit_implicit_source *self, ambit_failure *f) {
+static ambit_status write_form(ambit_system_source *self, ambit_failure *f) {
   kit_form *o = (kit_form *)(void *)self;
   (void)f;
   self->form = (ambit_implicit_form) { o->na, o->nstage, o->unknown, o->rate, o->residual, o->stage_end, o->pivot };

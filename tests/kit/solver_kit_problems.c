@@ -162,7 +162,7 @@ void kit_model_open(kit_model *m, const kit_problem *p) {
     .ninvariant = m->ninvariant,
     .invariant = m->invariant,
     .invariant_name = m->invariant_name,
-    .implicit = m->form.na ? &m->form.source : NULL };
+    .source = m->form.na ? &m->form.source : NULL };
 }
 
 void kit_model_close(kit_model *m) { ambit_graph_close(m->graph); }

@@ -9,7 +9,7 @@
 
 /* A system in implicit form: na unknowns in nstage stages. */
 typedef struct kit_form {
-  ambit_implicit_source source; /* first */
+  ambit_system_source source; /* first */
   size_t na, nstage;
   ambit_expr unknown[KIT_STATES], rate[KIT_STATES], residual[KIT_STATES];
   uint32_t stage_end[2], pivot[KIT_STATES];

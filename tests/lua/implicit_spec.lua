@@ -432,6 +432,87 @@ describe("a system made of one in implicit form", function()
   end)
 end)
 
+-- -- right-hand sides that wait
+
+local function long_chain(n, load)
+  local m = ambit.mechanism { "long", gravity = { 0, "-9.81", 0 } }
+  local at = m.world
+  for i = 1, n do
+    at = m:rigid_link { from = m:revolute { from = at, axis = "z", name = "q" .. i }, offset = { 1, 0, 0 } }
+    if i < n or load then m:point_mass { at = at, mass = 1 } end
+  end
+  return m
+end
+
+-- n crossed four-bars on top of each other: 3 n speeds, 2 n rows.
+local function tower(n)
+  local m = ambit.mechanism { "tower", gravity = { 0, "-9.81", 0 } }
+  local reference, at = {}, m.world
+  local function bar(from, name)
+    local hinge = m:revolute { from = from, axis = "z", name = name }
+    body(m, hinge)
+    return m:rigid_link { from = hinge, offset = { 1, "0.1", 0 } }
+  end
+  for i = 1, n do
+    local a = bar(at, "a" .. i)
+    local b = bar(a, "b" .. i)
+    local c = bar(m:rigid_link { from = at, offset = { "0.9", 0, 0 } }, "c" .. i)
+    m:close_pin { a = b, b = c, name = "l" .. i }
+    reference["a" .. i], reference["b" .. i], reference["c" .. i] = 1, -1, 1
+    at = m:rigid_link { from = b, offset = { 1, 0, 0 } }
+  end
+  m:reference(reference)
+  return m
+end
+
+local function at_rest(d)
+  local initial = {}
+  for _, name in ipairs(d.states) do initial[name] = name:find "'" and 0 or "0.1" end
+  return initial
+end
+
+describe("the right-hand sides of many joints", function()
+  setup(function() math.randomseed(19) end)
+
+  it("are not written for a solver that takes the implicit form", function()
+    local function made() return select(2, core.evaluate("interval", {}, { core.expression(1) }, {}, {})).graph_nodes end
+    local d, before = long_chain(14, true):dynamics(), made()
+    local run = ambit.simulate { d, initial = at_rest(d), t = { 0, "0.01" }, solver = "zonotope" }
+    assert.equal("complete", run.status)
+    local implicit = made() - before
+    assert.equal(28, #d.rates)
+    assert.is_true(made() - before > 2 * implicit)
+  end)
+
+  it("agree with it when they are asked for, also after collections", function()
+    expect_all(tower(4))
+    local m = tower(4)
+    local d = m:dynamics()
+    m:independent { "a1", "a2", "a3", "a4" } -- for later equations
+    for _ = 1, 3 do
+      collectgarbage()
+      local z = core.symbol("z", "1")
+      for i = 1, 20000 do local _ = z + i end
+    end
+    assert.equal(16, #d.rates)
+    assert.is_truthy(core.system_implicit(d.system))
+  end)
+
+  it("tell mistakes when they are written", function()
+    local d = long_chain(14, false):dynamics()
+    local good, message = pcall(function() return d.rates end)
+    assert.is_false(good)
+    assert.is_truthy(message:find("q14", 1, true), message)
+    local m = long_chain(12, true)
+    d = m:dynamics()
+    m:point_mass { at = m.world, mass = 1 }
+    good, message = pcall(ambit.simulate, { d, initial = at_rest(d), t = { 0, 1 }, solver = "lohner" })
+    assert.is_false(good)
+    assert.is_truthy(message:find("has got further parts", 1, true), message)
+    assert.equal(24, #m:dynamics().rates)
+  end)
+end)
+
 describe("the implicit form", function()
   setup(function() math.randomseed(17) end)
 

@@ -100,12 +100,12 @@ static void what_has_no_implicit_form_comes_without_unknowns(void **unused) {
 
 /* x' = a v, y' = -y with x v - b = 0, and then, in a second stage, w + v^2 - c t = 0 */
 typedef struct form {
-  ambit_implicit_source source;
+  ambit_system_source source;
   ambit_expr unknown[2], rate[2], residual[2];
   uint32_t stage_end[2], pivot[2];
 } form;
 
-static ambit_status write_form(ambit_implicit_source *self, ambit_failure *f) {
+static ambit_status write_form(ambit_system_source *self, ambit_failure *f) {
   form *o = (form *)(void *)self;
   (void)f;
   self->form = (ambit_implicit_form) { 2, 2, o->unknown, o->rate, o->residual, o->stage_end, o->pivot };
@@ -124,7 +124,7 @@ static void open_form(scene *s, form *o) {
   o->residual[0] = op(s, AMBIT_OP_SUB, op(s, AMBIT_OP_MUL, s->state[0], v), b);
   ambit_expr driven = op(s, AMBIT_OP_MUL, c, ambit_graph_time(s->graph));
   o->residual[1] = op(s, AMBIT_OP_SUB, op(s, AMBIT_OP_ADD, w, op(s, AMBIT_OP_SQR, v, v)), driven);
-  s->system.implicit = &o->source;
+  s->system.source = &o->source;
 }
 
 static void an_implicit_form_stands_for_the_rates(void **unused) {
