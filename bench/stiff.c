@@ -1,9 +1,9 @@
 /* stiff.c -- how far, how tight and how fast the stiff integrator is, on published stiff problems.
 **
 ** Prints times, widths relative to each state and CPU seconds reached in this run, beside what is required. That the
-** enclosures hold the reference solutions is shown by tests/plugins/test_solver_stiff_figures.c; here a miss of the digits
-** below is reported too. Needs AMBIT_PATH to find the plugins. stiff [NAME [OPTION=VALUE ...]]: only the problem of that
-** name, with options of the solver.
+** enclosures hold the reference solutions is shown by tests/plugins/test_solver_stiff_figures.c; here a miss of the
+** digits below is reported too. Needs AMBIT_PATH to find the plugins. stiff [NAME [OPTION=VALUE ...]]: only the problem
+** of that name, with options of the solver.
 */
 #define _POSIX_C_SOURCE 200809L
 #include "../tests/kit/stiff_models.h"

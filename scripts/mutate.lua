@@ -4,10 +4,10 @@
 --   lua5.4 scripts/mutate.lua [--count N] [--seed N] [--area NAME] [--place DIR] [--results FILE]
 --
 -- N mutations (300) are drawn from all that are possible, spread over the areas and the operators. What has been tried
--- stands in FILE (docs/results/mutations.txt) and is not tried again, so that a run can be interrupted and go on; remove
--- the file to try everything anew. A mutation that survives must be explained in scripts/mutate/explained.lua: it
--- changes no answer, or only makes a set wider or a run slower. The exit code is 3 if one is not; the next run tries it
--- again. scripts/bench/mutations.lua prints the counts.
+-- stands in FILE (docs/results/mutations.txt) and is not tried again, so that a run can be interrupted and go on;
+-- remove the file to try everything anew. A mutation that survives must be explained in scripts/mutate/explained.lua:
+-- it changes no answer, or only makes a set wider or a run slower. The exit code is 3 if one is not; the next run tries
+-- it again. scripts/bench/mutations.lua prints the counts.
 package.path = "./scripts/?.lua;" .. package.path
 local areas = require "mutate.areas"
 local draw = require "mutate.draw"

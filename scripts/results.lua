@@ -1,8 +1,9 @@
 -- results.lua: measures anew what the pages of results quote: lua5.4 scripts/results.lua BUILD [WORD ...]
--- A block between <!-- run: COMMAND --> and <!-- end --> becomes what the command prints; with `run text:` it is fenced.
--- COMMAND starts with `ambit` or `bench/NAME`, both of the folder BUILD, or is a script for `ambit run --quiet`. With
--- words, only blocks whose command contains one of them. Pages are written after each block, so nothing is lost by
--- Ctrl-C; a command that prints nothing leaves its block as it was. Exit 1 if one failed or missed a figure.
+-- A block between <!-- run: COMMAND --> and <!-- end --> becomes what the command prints; with `run text:` it is
+-- fenced. COMMAND starts with `ambit` or `bench/NAME`, both of the folder BUILD, or is a script for
+-- `ambit run --quiet`. With words, only blocks whose command contains one of them. Pages are written after each block,
+-- so nothing is lost by Ctrl-C; a command that prints nothing leaves its block as it was. Exit 1 if one failed or
+-- missed a figure.
 local build = table.remove(arg, 1)
 local pages = { "docs/results.md" }
 for name in io.popen("ls docs/results/*.md 2>/dev/null"):lines() do pages[#pages + 1] = name end

@@ -1,5 +1,6 @@
 -- double_pendulum.lua DATA-FOLDER: the data of the picture in the README, for docs/picture/double_pendulum.gp
--- boxes.dat: t_from t_to lo hi of beta1, then of beta2, over each step; samples.dat: t beta1 beta2 of simulated pendulums
+-- boxes.dat: t_from t_to lo hi of beta1, then of beta2, over each step; samples.dat: t beta1 beta2 of simulated
+-- pendulums
 local ambit = require "ambit"
 local folder = arg[1] or "."
 local around, pi = ambit.around, ambit.pi

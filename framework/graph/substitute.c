@@ -1,4 +1,5 @@
-/* substitute.c -- leaves, or kinks, replaced all at once; every node is rebuilt at most once, by the folding operations.
+/* substitute.c -- leaves, or kinks, replaced all at once; every node is rebuilt at most once, by the folding
+** operations.
 */
 #include "graph/kink.h"
 #include "graph/store.h"

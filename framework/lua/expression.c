@@ -40,8 +40,8 @@ static int text(lua_State *L) {
   return 1;
 }
 
-/* Is the running metamethod asked by a script, and not by the prelude, while a formula is written (prelude formula.lua)?
-** Then the comparison says nothing about what the expression will be. */
+/* Is the running metamethod asked by a script, and not by the prelude, while a formula is written (prelude
+** formula.lua)? Then the comparison says nothing about what the expression will be. */
 static bool in_formula(lua_State *L) {
   lua_Debug frame;
   for (int level = 1; lua_getstack(L, level, &frame); level++) {

@@ -185,7 +185,8 @@ static void push_rank(lua_State *L, const ambit_rank *r) {
   lua_setfield(L, -2, "boxes");
 }
 
-/* rank(mechanism, {name}, {lo}, {hi}, t_lo, t_hi, boxes) -> {status, independent, dependent, redundant, rows, loops, boxes} */
+/* rank(mechanism, {name}, {lo}, {hi}, t_lo, t_hi, boxes) -> {status, independent, dependent, redundant, rows, loops,
+** boxes} */
 static int rank(lua_State *L) {
   ambit_failure f = { 0 };
   ambit_rank result;

@@ -72,8 +72,8 @@ static int add(lua_State *L) {
   return 1;
 }
 
-/* written_by(mechanism, who, f, ...) -> f(...); formulas written meanwhile are that element's, for messages about kinks.
-** f cannot yield: it is called from C, and would leave the others in the middle of it. */
+/* written_by(mechanism, who, f, ...) -> f(...); formulas written meanwhile are that element's, for messages about
+** kinks. f cannot yield: it is called from C, and would leave the others in the middle of it. */
 static int written_by(lua_State *L) {
   ambit_graph *g = ambit_mechanism_graph(self(L));
   const char *other = ambit_graph_written_by(g, luaL_checkstring(L, 2));

@@ -1,8 +1,8 @@
 /* output.c -- files that commands write: whole, or not at all.
 **
 ** What is written goes to a file of another name beside the old one, which only this process knows (mkstemp), and takes
-** its place when all of it is on the disk. So a reader never sees half a report, a failure leaves the old one as it was,
-** and nobody can lay a link where the new one will be. Devices and pipes are written to as they are.
+** its place when all of it is on the disk. So a reader never sees half a report, a failure leaves the old one as it
+** was, and nobody can lay a link where the new one will be. Devices and pipes are written to as they are.
 */
 #include "lua/core.h"
 #include <errno.h>

@@ -4,7 +4,8 @@
 ** operators: what they make of texts are expressions. A host's Lua state keeps Lua's results (`require "ambit"` alone
 ** must not change a program); but where one is not exactly what the texts say, this is remembered, and from then on
 ** numbers of the host that may be such results are refused (value.c) until the host has said by text_arithmetic which
-** arithmetic it means: those with a point, and whole ones too once one of them has wrapped around. Proof that nothing else is refused or let through: docs/soundness.md.
+** arithmetic it means: those with a point, and whole ones too once one of them has wrapped around. Proof that nothing
+** else is refused or let through: docs/soundness.md.
 */
 #include "lua/core.h"
 #include "num/decimal.h"

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What is known of a node: 0 nothing, FIXED, or VARIES: it depends on one of the symbols; then VARIES + 1 + its place in
-** the present search, if it has one. */
+/* What is known of a node: 0 nothing, FIXED, or VARIES: it depends on one of the symbols; then VARIES + 1 + its place
+** in the present search, if it has one. */
 #define FIXED 1u
 #define VARIES 2u
 

@@ -2,8 +2,8 @@
 ** that exists once an element has asked for it.
 **
 ** Symbols are found by name, so every name must be nobody else's. A coordinate is "beta" (several: "beta.1", ...), its
-** speed "beta'" ("beta.1'"), the time derivative of that "beta''". Where an element has fewer speeds than coordinates, a
-** speed is no derivative of one coordinate: "beta'.1" and "beta''.1".
+** speed "beta'" ("beta.1'"), the time derivative of that "beta''". Where an element has fewer speeds than coordinates,
+** a speed is no derivative of one coordinate: "beta'.1" and "beta''.1".
 */
 #include "base/vector.h"
 #include "mechanism/parts.h"

@@ -28,8 +28,8 @@ static size_t fill_in(const elimination *e, size_t i, size_t j) {
   return in_row * in_column;
 }
 
-/* false: what is left counts as 0. The last column that has a good entry, so that joints near the base stay independent;
-** in it the row that fills in least.
+/* false: what is left counts as 0. The last column that has a good entry, so that joints near the base stay
+** independent; in it the row that fills in least.
 */
 static bool find_pivot(const elimination *e, size_t *row, size_t *column) {
   double most = 0;

@@ -1,5 +1,5 @@
-/* implicit.c -- sealing the implicit form, and the proof that it is one: by the rules for sums, products and quotients no
-** instruction can be of a higher degree in the unknowns of a stage than is promised.
+/* implicit.c -- sealing the implicit form, and the proof that it is one: by the rules for sums, products and quotients
+** no instruction can be of a higher degree in the unknowns of a stage than is promised.
 */
 #include "model/implicit.h"
 #include "graph/tape.h"

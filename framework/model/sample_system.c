@@ -1,5 +1,5 @@
-/* sample_system.c -- a sample of a system: preparations, the draws (sample_system_draws.c), the search from the extremes
-** (sample_system_search.c), the estimate of the error, what is told.
+/* sample_system.c -- a sample of a system: preparations, the draws (sample_system_draws.c), the search from the
+** extremes (sample_system_search.c), the estimate of the error, what is told.
 */
 #include "graph/tape.h"
 #include "host/processors.h"

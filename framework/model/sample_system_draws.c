@@ -1,6 +1,6 @@
-/* sample_system_draws.c -- the draws of a sample of a system: blocks on the threads of the pool, and those that the lanes
-** lost once more one by one. Results of blocks are put together by hulls, so neither the order nor the number of threads
-** matters.
+/* sample_system_draws.c -- the draws of a sample of a system: blocks on the threads of the pool, and those that the
+** lanes lost once more one by one. Results of blocks are put together by hulls, so neither the order nor the number of
+** threads matters.
 */
 #include "model/sample_job.h"
 #include <stdlib.h>

@@ -1,4 +1,5 @@
-/* sample_system_search.c -- the search from the extremes of a sample of a system: candidates as blocks on its threads. */
+/* sample_system_search.c -- the search from the extremes of a sample of a system: candidates as blocks on its
+** threads. */
 #include "model/sample_job.h"
 #include "model/sample_polish.h"
 #include <math.h>

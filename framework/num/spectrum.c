@@ -1,12 +1,12 @@
 /* spectrum.c -- Gershgorin's discs of X^-1 A X.
 **
 ** X: roughly the eigenvectors, Y: roughly its inverse, in doubles; E = Y X - I and B = Y A X in intervals. If ||E|| = d
-** < 1/2 (maximum norm), X and Y are regular, and X^-1 A X = (Y X)^-1 Y A X = B + F B with ||F|| <= d / (1 - d): entry (i,
-** j) of F B is at most d / (1 - d) max_k |B_kj|. The columns u, w of a pair (real and imaginary part) turn into u + iw,
-** u - iw by T = [1 1; i -i]: the diagonal becomes (a + d)/2 +- i (b - c)/2 for the block [a b; c d], what is beside it
-** gets small. Every eigenvalue of a matrix lies in the union of its row discs; a set of m discs that the others do not
-** touch holds exactly m (Gershgorin 1931). Boxes around discs, for every matrix of the set, inherit both statements. A
-** matrix is real: the one eigenvalue in a disc about the real axis that stands alone is real.
+** < 1/2 (maximum norm), X and Y are regular, and X^-1 A X = (Y X)^-1 Y A X = B + F B with ||F|| <= d / (1 - d): entry
+** (i, j) of F B is at most d / (1 - d) max_k |B_kj|. The columns u, w of a pair (real and imaginary part) turn into u +
+** iw, u - iw by T = [1 1; i -i]: the diagonal becomes (a + d)/2 +- i (b - c)/2 for the block [a b; c d], what is beside
+** it gets small. Every eigenvalue of a matrix lies in the union of its row discs; a set of m discs that the others do
+** not touch holds exactly m (Gershgorin 1931). Boxes around discs, for every matrix of the set, inherit both
+** statements. A matrix is real: the one eigenvalue in a disc about the real axis that stands alone is real.
 */
 #include "num/spectrum.h"
 #include "num/regular.h"

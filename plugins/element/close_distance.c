@@ -1,5 +1,5 @@
-/* close_distance.c -- a rod without mass, hinged at both ends, keeps the origins of a and b at its length l (row: close.h,
-** `rod`).
+/* close_distance.c -- a rod without mass, hinged at both ends, keeps the origins of a and b at its length l (row:
+** close.h, `rod`).
 **
 ** g = (d.d / l - l) / 2 instead of |d| - l: the same zeros and, on them, the same derivative, so that g is the excess
 ** of length to first order and the multiplier the force in the rod (> 0 pushes the ends apart); but no root, hence

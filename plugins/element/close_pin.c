@@ -1,5 +1,5 @@
-/* close_pin.c -- the hinge of a planar mechanism closes a loop: the origins coincide, seen along the normal of the plane
-** (rows: close.h, `along`). An offset along the normal does not matter.
+/* close_pin.c -- the hinge of a planar mechanism closes a loop: the origins coincide, seen along the normal of the
+** plane (rows: close.h, `along`). An offset along the normal does not matter.
 */
 #include "close.h"
 

@@ -1,5 +1,5 @@
 -- figures.lua: the figures that docs/results.md quotes, from the scene to the proof, in one run.
--- ambit run scripts/bench/figures.lua         prints a table: what, required, measured, verdict; exit 1 if one is missed
+-- ambit run scripts/bench/figures.lua prints a table: what, required, measured, verdict; exit 1 if one is missed
 package.path = (arg[0]:match ".*/" or "./") .. "?.lua;" .. package.path
 local ambit = require "ambit"
 local bench = require "bench"

@@ -2,9 +2,10 @@
 -- ambit run scripts/bench/robots.lua [--row NAME] [--solver NAME] [--draws N] [--seconds S] [--marks yes]
 --
 -- Prints a table: of each scene of scripts/bench/robots how far it is proved, with nothing chosen by the scene, the
--- largest width of the enclosures by that of the hull of samples, CPU time and memory, on one core. Samples are ordinary
--- runs of the same scene with drawn data: at random, half of them corners, and the corners at which each state is least
--- and greatest to first order, at each listed time. The factor counts states whose hull is wider than the row's bound.
+-- largest width of the enclosures by that of the hull of samples, CPU time and memory, on one core. Samples are
+-- ordinary runs of the same scene with drawn data: at random, half of them corners, and the corners at which each state
+-- is least and greatest to first order, at each listed time. The factor counts states whose hull is wider than the
+-- row's bound.
 -- --row: only rows whose name has this in it; --seconds: CPU time for each run, without it as much as it takes; --marks:
 -- a line for each listed time, too.
 -- Exit 1 if a row is missed, or a sample or a reference is not in its enclosure: then the table says OUTSIDE.

@@ -90,7 +90,8 @@ print(("\n%d cases in %d seconds of CPU time; %d outcomes not as expected%s%s"):
 if arg[1] then
   local page = assert(io.open(arg[1], "w"))
   page:write("# Every stiff, chaotic and extreme case\n\n",
-    "Written by `scripts/bench/stability.lua`; in short: [results](../results.md).\n\n", suite_table.markdown(result), "\n")
+    "Written by `scripts/bench/stability.lua`; in short: [results](../results.md).\n\n",
+    suite_table.markdown(result), "\n")
   assert(page:close())
 end
 bench.missed = #bad

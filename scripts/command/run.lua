@@ -14,13 +14,14 @@ usage: ambit run [--json FILE|-] [--quiet] SCENE.lua [ARG ...]
   --quiet      no progress bar and no notes
 The words behind the scene are in its table `arg`. Ctrl-C ends a simulation with status "stopped" and keeps what was
 recorded.
-exit: 0 done and proved, 1 error in the scene or its input, or a plugin is broken, 3 a verb could not prove all, 4 a verb
-proved that there is no answer, 130 interrupted; of several the worst: 1 before 3 before 4. `ambit errors` lists the
-codes of verbs.]]
+exit: 0 done and proved, 1 error in the scene or its input, or a plugin is broken, 3 a verb could not prove all, 4 a
+verb proved that there is no answer, 130 interrupted; of several the worst: 1 before 3 before 4. `ambit errors` lists
+the codes of verbs.]]
 
 local function complain(message) io.stderr:write("ambit: ", tostring(message), "\n") end
 
-local sentences = { "a plugin contradicts itself, or a proof another or a reference", [3] = "not everything could be proved",
+local sentences = { "a plugin contradicts itself, or a proof another or a reference",
+  [3] = "not everything could be proved",
   [4] = "it is proved that there is no answer" }
 
 local function close_records()

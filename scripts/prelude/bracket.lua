@@ -128,8 +128,8 @@ function bracket.values(run, from, to, m, t)
   return start
 end
 
--- How far the states may move from the end of the run, `to`, back to t, of which `from` is the bracket's first end; nil:
--- not known.
+-- How far the states may move from the end of the run, `to`, back to t, of which `from` is the bracket's first end;
+-- nil: not known.
 function bracket.moved(run, from, to, t)
   local start = run.rigorous and known_at(run, to)
   local first = start and first_step(run, from)

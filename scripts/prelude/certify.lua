@@ -43,7 +43,8 @@ local function verdict(result, names, bounds)
   if result.status ~= "proved" then return result.status, result.code, result.reason end
   for _, name in ipairs(names) do
     if bounds[name] and not (result.error[name] <= bounds[name]) then
-      return "exceeded", "unable.bound", ("`%s` is only proved to be within %s"):format(name, number.up(result.error[name]))
+      return "exceeded", "unable.bound",
+        ("`%s` is only proved to be within %s"):format(name, number.up(result.error[name]))
     end
   end
   return "proved", "ok", ""
@@ -124,8 +125,9 @@ function verb.certify(t)
   result.status, result.code, result.reason = verdict(result, names, bounds)
   result.outputs, result.bounds, result.criterion, result.settings = names, bounds, how.criterion, how
   result.detailed, result.reduced, result.given = detailed, reduced, scenarios
-  session.finish("certify", { status = result.status, code = result.code, reason = result.reason, t_reached = result.t_reached,
-    cpu_seconds = result.cpu_seconds }, how.report, { "criterion", how.criterion, "solver", how.solver, "options", how.shown,
+  session.finish("certify", { status = result.status, code = result.code, reason = result.reason,
+    t_reached = result.t_reached, cpu_seconds = result.cpu_seconds }, how.report, { "criterion", how.criterion,
+    "solver", how.solver, "options", how.shown,
     "error", fields(names, result.error), "bounds", fields(names, bounds) })
   return setmetatable(result, Certificate)
 end

@@ -124,7 +124,8 @@ function event.finish(q, facts)
   local results, last, most = event.read(q.watch, q.events, q.system.states, q.times)
   facts.events = results
   if most then
-    facts.status, facts.code, facts.reason = "unable", "unable.events-max", ("there are more than %d events"):format(most)
+    facts.status, facts.code = "unable", "unable.events-max"
+    facts.reason = ("there are more than %d events"):format(most)
   elseif last and (last.certain or not facts.rigorous) then
     facts.status, facts.code, facts.reason, facts.ended_by = "complete", "ok", "", last.name
   elseif last then

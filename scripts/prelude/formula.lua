@@ -7,10 +7,11 @@
 local formula = {}
 
 local sentences = {
-  compared = "%s is compared by == or ~=, but it is an expression, which has no value while the formula is written: the \z
-    comparison never depends on it. Use ambit.abs, ambit.min and ambit.max, or one mode for each case (ambit.hybrid)",
-  condition = "%s is used as a condition, but it is an expression, which has no value while the formula is written: it \z
-    always holds. Use ambit.abs, ambit.min and ambit.max, or one mode for each case (ambit.hybrid)",
+  compared = "%s is compared by == or ~=, but it is an expression, which has no value while the formula is written: \z
+    the comparison never depends on it. Use ambit.abs, ambit.min and ambit.max, or one mode for each case \z
+    (ambit.hybrid)",
+  condition = "%s is used as a condition, but it is an expression, which has no value while the formula is written: \z
+    it always holds. Use ambit.abs, ambit.min and ambit.max, or one mode for each case (ambit.hybrid)",
 }
 
 -- Functions that were searched already.

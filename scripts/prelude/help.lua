@@ -56,7 +56,8 @@ reduce { ode or m:dynamics(), t = { 0, 10 }, initial = ..., outputs = { "x", y =
   error = { x = "0.1", y = 1 }, scenarios = { { parameters = { v = ... }, inputs = { u = function(t) ... end } }, ... },
   reductions = { "branch", "neglect", "constant", "enclosure", "linearise", "merge" }, elements = true }
   The smallest equations whose outputs provably stay within `error` of the detailed ones, for all data of all
-  scenarios, at all times: .ode, .error, .terms; :report(), :decisions(), :sample { draws = 100 }, :json(FILE), :picture(FILE).]],
+  scenarios, at all times: .ode, .error, .terms; :report(), :decisions(), :sample { draws = 100 }, :json(FILE),
+:picture(FILE).]],
   certify = [[
 certify { detailed, reduced, t = { 0, 10 }, initial = ..., outputs = { "x", y = function(s, p, t) ... end },
   error = { x = 0.1 }, criterion = "difference" | "bounds", parameters, inputs, scenarios = { { ... }, ... },
@@ -96,8 +97,8 @@ compare { expression or table of them, at = { name = value }, arithmetics = { "i
 run time, a result with status, rows, advice, and a table when printed. Without a subject: how `ambit compare` shall
 compare this scene.]],
   view = [[
-view { m, run = run, points = { tip = frame }, at = { joint = value }, t = { 0, 5 }, title = "" }: what `ambit view` shows
-of a mechanism; otherwise nothing happens.]],
+view { m, run = run, points = { tip = frame }, at = { joint = value }, t = { 0, 5 }, title = "" }: what `ambit view`
+shows of a mechanism; otherwise nothing happens.]],
   derivative = "derivative(e, x): de/dx for a variable, an unknown or ambit.time.",
   simplify = "simplify(e): an equal expression with fewer operations, if one is found.",
   plugins = "plugins([kind]): what there is, without loading it.",

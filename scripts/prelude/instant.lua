@@ -118,8 +118,8 @@ end
 
 -- t = { t0, ..., t1 }, ascending or descending; t = 10 means { 0, 10 } -> the doubles that a solver steps on. Of an
 -- instant that is no double it is one next to it, of the last one both ends of the bracket. Besides: .said, for
--- those who read; and, nil where all is double, .start, as read, .shift, as above, .final, the last bracket, on the clock,
--- and .last, its first end.
+-- those who read; and, nil where all is double, .start, as read, .shift, as above, .final, the last bracket, on the
+-- clock, and .last, its first end.
 function instant.list(t, what)
   if t == nil then check.fail("%s is missing: { start, ..., end } in seconds", what) end
   local list = read_all(type(t) == "table" and t or { 0, t }, what)

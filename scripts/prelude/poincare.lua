@@ -71,7 +71,8 @@ local function one_return(q, system, g, x, t, latest)
   local list = { { g = g, name = "section", direction = q.direction, stop = true } }
   local found = leg.to_event(q, system, x, { 0.0, latest - start.lo }, list, { true })
   if found.status == "complete" then
-    return nil, ("some solutions do not return to the section by t = %s"):format(core.literal(latest)), "unable", "unable.event"
+    return nil, ("some solutions do not return to the section by t = %s"):format(core.literal(latest)), "unable",
+      "unable.event"
   elseif found.status ~= "event" then
     return nil, found.reason, found.status, found.code
   end
@@ -80,7 +81,8 @@ local function one_return(q, system, g, x, t, latest)
     return nil, "on the way onto the section: " .. image.run.reason, image.run.status, image.run.code
   end
   if image.when.hi > latest then
-    return nil, ("some solutions do not return to the section by t = %s"):format(core.literal(latest)), "unable", "unable.event"
+    return nil, ("some solutions do not return to the section by t = %s"):format(core.literal(latest)), "unable",
+      "unable.event"
   end
   return image, found.event
 end

@@ -1,5 +1,6 @@
--- provenance.lua -- whence a result comes: Ambit's version and kernel, the scene, and every plugin that was loaded, with
--- its file and the SHA-256 of that file. Reports and records begin with it. Nothing of it is computed unless asked for.
+-- provenance.lua -- whence a result comes: Ambit's version and kernel, the scene, and every plugin that was loaded,
+-- with its file and the SHA-256 of that file. Reports and records begin with it. Nothing of it is computed unless asked
+-- for.
 local core = require "ambit.core"
 
 local provenance = {}
@@ -120,8 +121,8 @@ end
 -- The text of a JSON object, beginning with it.
 function provenance.json(text)
   local json = require "ambit.view.json"
-  return ('{"provenance":%s%s'):format(json.encode(provenance.now()), text:find "^{%s*}" and "}" .. text:match "^{%s*}(.*)"
-    or "," .. text:sub(2))
+  local rest = text:match "^{%s*}(.*)"
+  return ('{"provenance":%s%s'):format(json.encode(provenance.now()), rest and "}" .. rest or "," .. text:sub(2))
 end
 
 -- For the head of an HTML page, folded.

@@ -301,7 +301,8 @@ local function work(job)
   return status, reason
 end
 
--- How to forget all that was cut, because a run broke its contract: the model is the detailed one, and nothing is proved.
+-- How to forget all that was cut, because a run broke its contract: the model is the detailed one, and nothing is
+-- proved.
 local function fallback(job)
   local detailed, model_before, first = job.detailed, job.model, job.history[1]
   return function(outcome)

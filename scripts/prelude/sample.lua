@@ -233,8 +233,9 @@ end
 -- The inner hull for what another verb was asked: q = what simulate.request makes, or { expressions, leaves, values }
 -- of an evaluation -> { t, lo = { { bound at t[1], ... } by state or result }, hi, error, draws, failed, status,
 -- cpu_seconds }, or nil and why there is none. Where no draw reached a time, lo = inf and hi = -inf; the hull is made
--- smaller by `error` already (NaN: not known); where that leaves nothing, lo = hi is off by `error`. options: cpu = s after which it ends with what it has, threads, t = { times of its
--- own instead of those of the request and 49 between }, points.
+-- smaller by `error` already (NaN: not known); where that leaves nothing, lo = hi is off by `error`. options: cpu = s
+-- after which it ends with what it has, threads, t = { times of its own instead of those of the request and 49 between
+-- }, points.
 function verb.inner(q, n, seed, options)
   local plan = { polish = true }
   for _, key in ipairs { "cpu", "threads", "t", "points" } do plan[key] = options and options[key] end

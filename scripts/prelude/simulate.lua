@@ -169,7 +169,8 @@ function verb.solve(q)
   facts.solver_reason = q.suggestion and q.suggestion.reason or "named in the scene"
   event.finish(q, facts)
   local result = run.new(facts)
-  local hint = (facts.status == "unable" or facts.status == "impossible") and q.system.mechanism and loops.hint(q.system.mechanism, result)
+  local failed = facts.status == "unable" or facts.status == "impossible"
+  local hint = failed and q.system.mechanism and loops.hint(q.system.mechanism, result)
   if hint then facts.reason = facts.reason .. "; " .. hint end
   return result
 end

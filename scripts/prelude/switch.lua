@@ -166,7 +166,9 @@ local function meeting_time(q, crossing, began)
   return t.hi < T and T <= latest and T or nil
 end
 
-local function failure(format, ...) return { status = "unable", code = "unable.switch", reason = format:format(...) } end
+local function failure(format, ...)
+  return { status = "unable", code = "unable.switch", reason = format:format(...) }
+end
 
 -- Why the new mode cannot be entered with these values; nil: it can.
 local function gap(states, x)
@@ -183,7 +185,8 @@ local function pass(q, result, mode, found, began)
   local at = ("switch `%s` of mode `%s` in t = %s"):format(guard.name, mode.name, tostring(found.event.t))
   local image = surface.onto(q, mode.system, guard.g, found.x, found.t)
   if image.run.status ~= "complete" then
-    return { status = image.run.status, code = image.run.code, reason = ("%s: on the way to the guard: %s"):format(at, image.run.reason) }
+    return { status = image.run.status, code = image.run.code,
+      reason = ("%s: on the way to the guard: %s"):format(at, image.run.reason) }
   end
   local T = meeting_time(q, image.when, began)
   if not T then return failure("%s: the run ends before every solution has made it", at) end
@@ -200,7 +203,9 @@ local function pass(q, result, mode, found, began)
     return failure("%s: guard `%s` of mode `%s` may be met before every solution has made it: %s", at, met.name,
       guard.to.name, met.reason or "the switches overlap in time")
   end
-  if away.run.status ~= "complete" then return { status = away.run.status, code = away.run.code, reason = away.run.reason } end
+  if away.run.status ~= "complete" then
+    return { status = away.run.status, code = away.run.code, reason = away.run.reason }
+  end
   switch_run.add_switch(result, mode, guard, image, away, found.t, T)
   return { mode = guard.to, x = away.x, t = T }
 end

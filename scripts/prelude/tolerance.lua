@@ -53,8 +53,8 @@ local function glob(name)
   return "^" .. pattern .. "$"
 end
 
--- Checks the tolerance itself: a number in SI units or a text, with a unit that fits or in per cent. Is it relative, and
--- how large, in SI units or per cent?
+-- Checks the tolerance itself: a number in SI units or a text, with a unit that fits or in per cent. Is it relative,
+-- and how large, in SI units or per cent?
 local function size_of(value, datum, key)
   local what = "tolerances: " .. key
   local kind = check.kind(value)

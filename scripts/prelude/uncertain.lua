@@ -7,8 +7,8 @@ local core = require "ambit.core"
 
 local uncertain = {}
 
--- { expression, ... } -> { leaf } as core.leaves gives them, with names that are told apart: in every message, report and
--- record a datum is called so.
+-- { expression, ... } -> { leaf } as core.leaves gives them, with names that are told apart: in every message, report
+-- and record a datum is called so.
 function uncertain.leaves(expressions)
   local list, data = {}, {}
   for _, leaf in ipairs(core.leaves(expressions)) do
@@ -18,8 +18,8 @@ function uncertain.leaves(expressions)
   return list
 end
 
--- { expression, ... } -> { datum }, { lo }, { hi }, { lo = { inner lo }, hi = { inner hi } }, { name } of those that are
--- no points
+-- { expression, ... } -> { datum }, { lo }, { hi }, { lo = { inner lo }, hi = { inner hi } }, { name } of those that
+-- are no points
 function uncertain.data(expressions)
   local unknowns, lo, hi, inner, names = {}, {}, {}, { lo = {}, hi = {} }, {}
   for _, leaf in ipairs(uncertain.leaves(expressions)) do

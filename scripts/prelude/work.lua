@@ -1,5 +1,5 @@
--- work.lua -- the report of a verb that is made of several runs: what was counted and spent is added up, sizes are those
--- of the largest run.
+-- work.lua -- the report of a verb that is made of several runs: what was counted and spent is added up, sizes are
+-- those of the largest run.
 local core = require "ambit.core"
 
 local work = {}

@@ -1,6 +1,7 @@
 ---@meta ambit
--- Annotations of the Lua API (LuaCATS) for editors: add the folder of this file to the workspace library of lua-language-server.
--- Elements are plugins; those that come with Ambit are listed, others are m:<name> { ... } all the same.
+-- Annotations of the Lua API (LuaCATS) for editors: add the folder of this file to the workspace library of
+-- lua-language-server. Elements are plugins; those that come with Ambit are listed, others are m:<name> { ... } all the
+-- same.
 
 ---@class ambit
 ---@field version string
@@ -57,7 +58,7 @@ function enclosure:is_empty() end
 ---@return boolean
 function enclosure:is_bounded() end
 
----A number is the exact double; text is the decimal it says, with an optional unit: "0.1", "35 mm", "[0.1, 0.2]", "3.56?2".
+---A number is the exact double; text is the decimal it says, perhaps with a unit: "0.1", "35 mm", "[0.1, 0.2]".
 ---@alias ambit.datum number|string|ambit.expression|ambit.enclosure
 ---@alias ambit.vector { x: ambit.datum, y: ambit.datum, z: ambit.datum }|ambit.datum[]
 ---@alias ambit.axis "x"|"y"|"z"|"-x"|"-y"|"-z"|ambit.datum[]
@@ -362,7 +363,7 @@ function ode:modelica() end
 ---@return ambit.ode
 function ambit.ode(t) end
 
----"real" proves nothing; the others enclose. With options as a table: { "affine", symbols = 20 }. Plugins: others may be
+---"real" proves nothing; the others enclose. With options as a table: { "affine", symbols = 20 }. Others may be
 ---installed; `ambit plugins NAME` prints the options of one.
 ---@alias ambit.arithmetic
 ---|"real"
@@ -958,8 +959,8 @@ function ambit.plugin(kind, name) end
 ---@return { ambit: string, command: string?, scene: { file: string, sha256: string }?, kernel: { file: string, sha256: string }, plugins: { kind: string, name: string, version: string, file: string, sha256: string, shadows: string? }[], trusted: string[]? }
 function ambit.provenance() end
 
----Loads plugins from these folders although others may write there. It holds for the whole process, and for plugins that
----are loaded from then on: what `ambit --trust FOLDER --allow-shadow` says on the command line.
+---Loads plugins from these folders although others may write there. It holds for the whole process and for plugins
+---that are loaded from then on: what `ambit --trust FOLDER --allow-shadow` says on the command line.
 ---@param t { [integer]: string, shadow?: boolean } shadow: a plugin may replace one of Ambit's own by its kind and name
 function ambit.trust(t) end
 ---@param name? string

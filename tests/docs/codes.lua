@@ -1,5 +1,6 @@
--- The codes of <ambit/code.h>: docs/errors.md holds the table that `ambit errors --markdown` prints, and the code of every
--- outcome that some file of the tree gives is in it, as every code of it is given by some file: lua5.4 codes.lua AMBIT
+-- The codes of <ambit/code.h>: docs/errors.md holds the table that `ambit errors --markdown` prints, and the code of
+-- every outcome that some file of the tree gives is in it, as every code of it is given by some file: lua5.4 codes.lua
+-- AMBIT
 local ambit = arg[1]
 
 local function output(command)

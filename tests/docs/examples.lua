@@ -1,7 +1,7 @@
 -- Runs every Lua example of the documentation: lua5.4 tests/docs/examples.lua AMBIT README.md docs/*.md
--- A fenced block ```lua is a scene of its own and must exit with 0; ```lua fails must exit with 1; ```lua unable with 3, ```lua impossible with 4;
--- ```lua fragment continues the block before it. A block ```text prints behind a scene must be its output. A block below the line
--- <!-- file: PATH --> must be that file, word by word.
+-- A fenced block ```lua is a scene of its own and must exit with 0; ```lua fails must exit with 1;
+-- ```lua unable with 3, ```lua impossible with 4; ```lua fragment continues the block before it. A block ```text prints
+-- behind a scene must be its output. A block below the line <!-- file: PATH --> must be that file, word by word.
 local ambit = table.remove(arg, 1)
 local count, failed = 0, 0
 

@@ -1,5 +1,5 @@
-/* Inverse operations and HC4-revise keep every solution (random operands, points in them, nasty bounds) and narrow where
-** they can. */
+/* Inverse operations and HC4-revise keep every solution (random operands, points in them, nasty bounds) and narrow
+** where they can. */
 #include "graph/contract.h"
 #include "graph/graph.h"
 #include "graph/tape.h"

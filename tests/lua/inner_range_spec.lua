@@ -1,5 +1,5 @@
--- Ranges of uncertain data are known from both sides: nothing is refuted, bounded from inside or sampled by a value that
--- the tolerance does not surely allow. True ranges here are worked out by hand.
+-- Ranges of uncertain data are known from both sides: nothing is refuted, bounded from inside or sampled by a value
+-- that the tolerance does not surely allow. True ranges here are worked out by hand.
 local ambit = require "ambit"
 local core = require "ambit.core"
 local session = require "ambit.session"

@@ -1,5 +1,5 @@
--- Nothing but the command gives exit code 0 (findings S7), and what ends it is said. AMBIT_COMMAND is the command to test;
--- solver.faulty (plugins/faulty.c) ends as its option says.
+-- Nothing but the command gives exit code 0 (findings S7), and what ends it is said. AMBIT_COMMAND is the command to
+-- test; solver.faulty (plugins/faulty.c) ends as its option says.
 local command = os.getenv "AMBIT_COMMAND" or "ambit"
 
 local function read(name)

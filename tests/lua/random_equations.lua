@@ -5,8 +5,8 @@
 -- backwards in time; solutions for drawn data and initial values, most of them corners, are integrated in extended
 -- precision (tests/oracle/equations_lua.c) and must lie inside, at ends of steps and between; and at the end of the run
 -- in the set for just these data (run:set()), which is much narrower. Needs the test module
--- `equations` in LUA_CPATH. --beyond 2: data are drawn from twice their ranges, so that solutions must be found outside.
--- Exit 1 if a solution is outside.
+-- `equations` in LUA_CPATH. --beyond 2: data are drawn from twice their ranges, so that solutions must be found
+-- outside. Exit 1 if a solution is outside.
 local ambit = require "ambit"
 local core = require "ambit.core"
 local session = require "ambit.session"

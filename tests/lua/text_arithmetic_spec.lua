@@ -1,5 +1,5 @@
--- Arithmetic on texts is Ambit's: "1" / "3" is a third. In a host's Lua it stays Lua's, which rounds; what may have been
--- rounded is then refused.
+-- Arithmetic on texts is Ambit's: "1" / "3" is a third. In a host's Lua it stays Lua's, which rounds; what may have
+-- been rounded is then refused.
 local ambit = require "ambit"
 local number, interval = ambit.number, ambit.interval
 

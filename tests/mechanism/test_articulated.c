@@ -323,7 +323,8 @@ static void add_law(robot *r, const char *joint, const char *acceleration, doubl
   driven(r, "joint_torque", NULL, (ambit_frame) { part, 2 }, "torque", law);
 }
 
-/* A law like an inertia, -0.5 q1'', is taken by the mass matrix alone; one that M does not stay symmetric with by none. */
+/* A law like an inertia, -0.5 q1'', is taken by the mass matrix alone; one that M does not stay symmetric with by
+** none. */
 static void laws_of_accelerations(void **state) {
   (void)state;
   robot r = robot_chain(3, 1);

@@ -1,6 +1,6 @@
-/* equations_lua.c -- the Lua module `equations` of the tests: solutions of x' = f(x, p, t), f a list of instructions, in
-** extended precision, by Gragg's rule, extrapolated in the square of the step [Hairer, Norsett, Wanner, Solving Ordinary
-** Differential Equations I, II.9]. Shares nothing with Ambit.
+/* equations_lua.c -- the Lua module `equations` of the tests: solutions of x' = f(x, p, t), f a list of instructions,
+** in extended precision, by Gragg's rule, extrapolated in the square of the step [Hairer, Norsett, Wanner, Solving
+** Ordinary Differential Equations I, II.9]. Shares nothing with Ambit.
 **
 ** equations.solve { n, p = { ... }, x = { ... }, code = { { "mul", 3, 4 }, ... }, out = { ... }, times = { ... },
 **   tolerance } returns the list of states at the times (the first is where x is given), or nil. Slots count from 1:

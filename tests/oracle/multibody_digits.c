@@ -1,5 +1,6 @@
 /* multibody_digits.c -- prints digits of chains for scripts/bench/robots/rows.lua, in quadruple precision and with two
-** tolerances:   cc -O2 -DMULTIBODY_QUAD multibody*.c (without multibody_lua.c) -lquadmath -lm && ./a.out LINKS TIME DAMPING
+** tolerances: cc -O2 -DMULTIBODY_QUAD multibody*.c (without multibody_lua.c) -lquadmath -lm && ./a.out LINKS TIME
+** DAMPING
 */
 #include "multibody.h"
 #ifdef MULTIBODY_QUAD

@@ -1,5 +1,6 @@
-/* multibody_flow.c -- Gragg's rule (the modified midpoint rule), extrapolated in the square of the step [Hairer, Norsett,
-** Wanner, Solving Ordinary Differential Equations I, II.9]: order 2 COLUMNS, the step chosen by the last two columns.
+/* multibody_flow.c -- Gragg's rule (the modified midpoint rule), extrapolated in the square of the step [Hairer,
+** Norsett, Wanner, Solving Ordinary Differential Equations I, II.9]: order 2 COLUMNS, the step chosen by the last two
+** columns.
 */
 #include "multibody.h"
 #include <string.h>

@@ -1,5 +1,5 @@
-/* Each operator of the root finder: random systems with planted roots, standard test systems with known numbers of roots,
-** and that a gap of a quotient is used. */
+/* Each operator of the root finder: random systems with planted roots, standard test systems with known numbers of
+** roots, and that a gap of a quotient is used. */
 #include "roots_case.h"
 
 #define PLANTED 120
@@ -25,8 +25,8 @@ static found *run_with(roots_case *c, uint32_t n, const ambit_expr *f, const amb
   return r;
 }
 
-/* n coupled products of two factors, each with known roots: (x_i - a_i)(x_i - b_i) + sum_j c_ij (x_j - a_j) prod_k ... vanish
-** at a; whatever else they have as roots, a is one of them */
+/* n coupled products of two factors, each with known roots: (x_i - a_i)(x_i - b_i) + sum_j c_ij (x_j - a_j) prod_k ...
+** vanish at a; whatever else they have as roots, a is one of them */
 static void planted_roots_are_found_by_each(void **state) {
   roots_case *c = *state;
   uint32_t proved[4] = { 0 };

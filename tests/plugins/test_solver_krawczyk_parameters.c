@@ -1,5 +1,5 @@
-/* The root finder with wide parameters: for every sampled value of them, the roots by closed form are in the boxes, and as
-** many boxes are proved as there are branches; folds, roots that leave the box, tight hulls. */
+/* The root finder with wide parameters: for every sampled value of them, the roots by closed form are in the boxes, and
+** as many boxes are proved as there are branches; folds, roots that leave the box, tight hulls. */
 #include "roots_case.h"
 
 #define SAMPLES 300

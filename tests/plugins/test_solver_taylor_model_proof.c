@@ -1,8 +1,8 @@
 /* A step of taylor_model from inside: over a box of starts and parameters of
 **   x' = p x^2, y' = p x y, z' = u, u' = FALL
-** whose solutions are known, x = x0 / (1 - p x0 t), y = y0 / (1 - p x0 t), z = z0 + u0 t + FALL t^2 / 2, u = u0 + FALL t,
-** the tube holds them, the transfer holds their derivatives by the start, `reach` what these make of a remainder, and A
-** the derivatives of the right-hand side near the tube. MPFR is the judge. */
+** whose solutions are known, x = x0 / (1 - p x0 t), y = y0 / (1 - p x0 t), z = z0 + u0 t + FALL t^2 / 2, u = u0 + FALL
+** t, the tube holds them, the transfer holds their derivatives by the start, `reach` what these make of a remainder,
+** and A the derivatives of the right-hand side near the tube. MPFR is the judge. */
 #include "solver/taylor_model/proof.c"
 #include "kit/arithmetic_loader.h"
 #include "kit/tape_builder.h"

@@ -1,6 +1,7 @@
 /* valencia's step from inside: the error at its start covers what the rounded curve p and the rounded frame B leave of
-** the set, |p(-1) - P| + |B(-1) - B| w; what is rounded at its end covers |p(1) - P| + |B(1) - B| w; the frame of the next
-** step holds every sum of generators. MPFR is the judge. The frames differ from the set by up to 1e-3, far more than in a run, so that a part left out shows. */
+** the set, |p(-1) - P| + |B(-1) - B| w; what is rounded at its end covers |p(1) - P| + |B(1) - B| w; the frame of the
+** next step holds every sum of generators. MPFR is the judge. The frames differ from the set by up to 1e-3, far more
+** than in a run, so that a part left out shows. */
 /* bound_start and round_end are theirs alone */
 #include "solver/valencia/frame.c"
 #include "solver/valencia/verify.c"

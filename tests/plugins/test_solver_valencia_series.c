@@ -1,8 +1,8 @@
 /* valencia's power series from inside: the defect of the middle curve, and the residuals of the columns, enclose
 **   half f(p) - p'  and  half (df/dx c + df/dp reach) - c'
-** for f = (x y + p (t - CENTRE), e^x + p y) along curves that solve nothing, at many sigma, states in the box, parameters,
-** instants and lengths of step. MPFR is the judge. Where all coefficients are positive the largest value is attained
-** at sigma = 1, so that a radius or a tail left out shows. */
+** for f = (x y + p (t - CENTRE), e^x + p y) along curves that solve nothing, at many sigma, states in the box,
+** parameters, instants and lengths of step. MPFR is the judge. Where all coefficients are positive the largest value is
+** attained at sigma = 1, so that a radius or a tail left out shows. */
 #include "solver/valencia/valencia.h"
 #include "kit/arithmetic_loader.h"
 #include "kit/tape_builder.h"

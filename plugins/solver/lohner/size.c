@@ -5,7 +5,7 @@
 ** derivatives too (the far end of a chain), has no size of its own; with leniency it gets what others could make of it:
 **   NEAR: in the time in which some state changes by its own size, by one derivative after the other;
 **   FAR: in one implicit Euler step over all the time that is left, |(I - T J)^-1 size|. The far end of a chain counts
-**        as what diffuses there in the end, however small it is now: relative to what it is in its first steps, it could
+**        as what diffuses there in the end, however small it is now: relative to its size in the first steps, it could
 **        only be followed by a series of as many orders as it has links to the source.
 */
 #include "lohner.h"
@@ -113,7 +113,8 @@ static void fill_far(const lohner *s, double share, double *size) {
   }
 }
 
-/* States that only second derivatives reach (a product of two that start at zero) count as the smallest of the others. */
+/* States that only second derivatives reach (a product of two that start at zero) count as the smallest of the
+** others. */
 static void fill_rest(const lohner *s, double *size) {
   double least = INFINITY;
   for (uint32_t i = 0; i < s->nx; i++)

@@ -1,8 +1,8 @@
 /* kink.c -- which operation of the right-hand side is not smooth where a piece could not go on: no proof, only a name
 ** for the reason.
 **
-** |a| has its kink at a = 0, min and max of a and b at a = b. Either the series found that the set reaches one, or steps
-** shrink to nothing before one: then the values at the start of the step are close, at the rates there.
+** |a| has its kink at a = 0, min and max of a and b at a = b. Either the series found that the set reaches one, or
+** steps shrink to nothing before one: then the values at the start of the step are close, at the rates there.
 */
 #include "flow.h"
 

@@ -75,7 +75,8 @@ static int allocate(valencia *s) {
 }
 
 /* Slopes about the middle are twice as tight as derivatives, but bound the sum over all columns only: none of them may
-** be intersected with another bound, nor the sum over the unknowns be replaced. So they serve where there is no other. */
+** be intersected with another bound, nor the sum over the unknowns be replaced. So they serve where there is no
+** other. */
 static int open_series(valencia *s) {
   const ambit_problem *p = &s->problem;
   uint32_t n = s->stages.n;

@@ -103,7 +103,8 @@ static void note_magnitudes(valencia *s, double forget) {
 
 /* -- steps */
 
-/* the interval of time [t, t + h], or up to the next instant; a step that is too short for the clock is its least one */
+/* the interval of time [t, t + h], or up to the next instant; a step that is too short for the clock is its least
+** one */
 static void set_times(valencia *s, double h) {
   double end = s->problem.time[s->next], left = end - s->t, sign = left < 0 ? -1 : 1;
   h = smaller(smaller(h, s->options.step_max), fabs(left));

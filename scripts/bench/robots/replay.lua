@@ -6,7 +6,8 @@ local session = require "ambit.session"
 local replay = {}
 local folder = (arg[0]:match ".*/" or "./") .. "robots/"
 
--- Runs a scene silently up to its first question, which `answers` (by verb) take; makers: in place of around and between.
+-- Runs a scene silently up to its first question, which `answers` (by verb) take; makers: in place of around and
+-- between.
 local function run_scene(scene, words, makers, answers)
   local own, mine, left = {}, {}, {}
   for name, f in pairs(makers) do
@@ -42,8 +43,8 @@ local function doubles(t)
   return list
 end
 
--- The scene with its tolerances: { run or report, data = { { lo, hi }, ... } in the order in which they are made, times,
--- cpu_seconds }.
+-- The scene with its tolerances: { run or report, data = { { lo, hi }, ... } in the order in which they are made,
+-- times, cpu_seconds }.
 function replay.prove(scene, words, solver, seconds)
   local made = {}
   local function keep(f)

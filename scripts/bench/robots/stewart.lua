@@ -1,5 +1,5 @@
--- stewart.lua -- a Stewart platform on six servo legs, with radii and masses within a tolerance, moves from one height to
--- another and tilts on the way.
+-- stewart.lua -- a Stewart platform on six servo legs, with radii and masses within a tolerance, moves from one height
+-- to another and tilts on the way.
 --   ambit run stewart.lua [0.1%]
 local ambit = require "ambit"
 local cos, sin, degrees = ambit.cos, ambit.sin, ambit.degrees

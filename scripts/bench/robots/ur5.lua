@@ -1,5 +1,6 @@
 -- ur5.lua -- a UR5 with a payload of 2 kg is sent from one pose to another by a PD controller. Every length, angle,
--- mass, centre of mass and moment of inertia of it is known within a tolerance: where are its joints, for every such arm?
+-- mass, centre of mass and moment of inertia of it is known within a tolerance: where are its joints, for every such
+-- arm?
 --   ambit run ur5.lua [1%] [bodies|components|payload]
 --     bodies: 27 data; components: 68, each moment of inertia, centre, gain and friction by itself; payload: only that
 local ambit = require "ambit"

@@ -104,8 +104,8 @@ local function add_verbs(found, verbs)
   end
 end
 
--- { { label, kind, range, verbs = numbers of those that needed it } } with counts = { fixed =, uncertain =, varying = };
--- each verb is told how many of its unknowns are `named` data and how many `nameless` ones.
+-- { { label, kind, range, verbs = numbers of those that needed it } } with counts = { fixed =, uncertain =, varying =
+-- }; each verb is told how many of its unknowns are `named` data and how many `nameless` ones.
 function explain.collect(mechanisms, odes, verbs)
   local found = { of = {}, seen = {} }
   for _, m in ipairs(mechanisms) do add_parts(found, m, #mechanisms > 1 and m.name .. ": " or "") end

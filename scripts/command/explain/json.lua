@@ -64,7 +64,8 @@ local function write_mechanism(tree)
 end
 
 local function write_verb(number, verb)
-  local list = { "number", number, "verb", verb.verb, "status", verb.status, "code", verb.code, "report", fields_of(verb.report, keys),
+  local list = { "number", number, "verb", verb.verb, "status", verb.status, "code", verb.code,
+    "report", fields_of(verb.report, keys),
     "graph", fields_of(verb.own, { "asked", "shared", "folded", "nodes" }), "memory", verb.resident, "peak_memory",
     verb.peak }
   if verb.settings then append(list, "settings", verb.settings) end

@@ -105,7 +105,8 @@ end
 local function one(detailed, reduced, s, settings)
   local r = criteria[settings.criterion or "difference"](detailed, reduced, s, settings)
   local proved = r.status == "proved"
-  return { name = s.name, status = r.status, code = r.code, reason = r.reason, t_reached = r.t_reached, exceeded = r.exceeded,
+  return { name = s.name, status = r.status, code = r.code, reason = r.reason, t_reached = r.t_reached,
+    exceeded = r.exceeded,
     error = proved and named(detailed, r.bound) or {}, when = proved and named(detailed, r.when) or {},
     cpu_seconds = r.cpu_seconds, steps = r.steps, solver = r.solver, arithmetic = r.arithmetic }
 end

@@ -104,7 +104,8 @@ end
 -- One run: { status, reason, t_reached, steps, value = { [instant] = { enclosure of each output } } }
 function values.one(q, how, instants)
   local with, states, track, facts = solve_carried(q, how)
-  local result = { status = facts.status, code = facts.code, reason = facts.reason, t_reached = facts.t_reached, steps = facts.steps,
+  local result = { status = facts.status, code = facts.code, reason = facts.reason,
+    t_reached = facts.t_reached, steps = facts.steps,
     value = {} }
   code.refuse_broken(facts)
   if facts.status ~= "complete" then return result end

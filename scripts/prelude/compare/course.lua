@@ -106,8 +106,8 @@ local function add_pieces(track, run, number, pieces)
   end
 end
 
--- The track { t, lo, hi, tube = { lo, hi } } from the start on, and the largest width of any state at any end of a step.
--- The tube at k holds at all times from t[k] to t[k + 1].
+-- The track { t, lo, hi, tube = { lo, hi } } from the start on, and the largest width of any state at any end of a
+-- step. The tube at k holds at all times from t[k] to t[k + 1].
 function course.track(run)
   local track, initial, start = { t = {}, lo = {}, hi = {}, tube = { lo = {}, hi = {} } }, run.initial(), {}
   for k, name in ipairs(run.states) do

@@ -106,8 +106,8 @@ function leg.to_event(base, system, initial, times, list, starts_on)
   local run, runs, x = found.run, found.runs, found.x
   local first = found.last or found.results[1]
   if not first then
-    return { status = run.status, code = run.code, reason = run.reason, t = run.t_reached, x = leg.set(base, run, system.states),
-      runs = runs }
+    return { status = run.status, code = run.code, reason = run.reason, t = run.t_reached,
+      x = leg.set(base, run, system.states), runs = runs }
   end
   local t = first.t.lo
   if found.from < t then
@@ -118,7 +118,9 @@ function leg.to_event(base, system, initial, times, list, starts_on)
       return { status = run.status, code = run.code, reason = run.reason, t = run.t_reached, runs = runs }
     end
   end
-  if found.reason then return { status = "unable", code = "unable.event", reason = found.reason, t = t, runs = runs } end
+  if found.reason then
+    return { status = "unable", code = "unable.event", reason = found.reason, t = t, runs = runs }
+  end
   return { status = "event", event = first, t = t, x = x, runs = runs }
 end
 

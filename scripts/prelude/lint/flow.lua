@@ -53,8 +53,8 @@ local function is_maker(f)
   if not makers then
     makers = {}
     local ambit = require "ambit"
-    for _, name in ipairs { "around", "number", "degrees", "derivative", "simplify", "sin", "cos", "tan", "asin", "acos",
-      "atan", "atan2", "sinh", "cosh", "tanh", "exp", "log", "sqrt", "sqr", "pow", "abs", "min", "max" } do
+    for _, name in ipairs { "around", "number", "degrees", "derivative", "simplify", "sin", "cos", "tan", "asin",
+      "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "log", "sqrt", "sqr", "pow", "abs", "min", "max" } do
       makers[ambit[name]] = true
     end
   end
@@ -161,8 +161,8 @@ end
 
 -- `x or default` tests x and writes the default into the same register in front of where it jumps to.
 local writes = {}
-for name in ("MOVE LOADI LOADF LOADK LOADTRUE LOADFALSE LOADNIL GETUPVAL GETTABUP GETTABLE GETI GETFIELD NEWTABLE UNM NOT \z
-  LEN CONCAT CALL CLOSURE"):gmatch "%S+" do writes[op[name]] = true end
+for name in ("MOVE LOADI LOADF LOADK LOADTRUE LOADFALSE LOADNIL GETUPVAL GETTABUP GETTABLE GETI GETFIELD NEWTABLE UNM \z
+  NOT LEN CONCAT CALL CLOSURE"):gmatch "%S+" do writes[op[name]] = true end
 
 local function is_default(f, pc, register)
   local last = f.code[pc + 1 + jump(f.code[pc + 1])]
@@ -197,7 +197,8 @@ step[op.GETTABUP] = function(run, f, frame, a, b, c)
 end
 step[op.GETTABLE] = function(run, _, frame, a, b, c)
   local key = frame[c]
-  if key and key.kind == "value" then frame[a] = field(run, frame[b], key.value) else frame[a] = any_field(run, frame[b]) end
+  local is_known = key and key.kind == "value"
+  if is_known then frame[a] = field(run, frame[b], key.value) else frame[a] = any_field(run, frame[b]) end
 end
 step[op.GETI] = function(run, _, frame, a, b, c) frame[a] = field(run, frame[b], c) end
 step[op.GETFIELD] = function(run, f, frame, a, b, c) frame[a] = field(run, frame[b], f.constants[c].value) end

@@ -36,7 +36,9 @@ end
 local function written(value, copy, still, states, what)
   return function(s, p, t)
     local result = value
-    if type(value) == "function" then result = formula.call(value, what, states_of(s, still, states), p, t, copy.mechanism) end
+    if type(value) == "function" then
+      result = formula.call(value, what, states_of(s, still, states), p, t, copy.mechanism)
+    end
     local e = core.expression(result, nil, what)
     if #copy.leaves == 0 then return e end
     return core.in_unit(core.substitute({ e }, copy.leaves, copy.motions)[1], (core.unit_of(e, true)))

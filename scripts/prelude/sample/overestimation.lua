@@ -1,16 +1,16 @@
 -- sample/overestimation.lua -- an enclosure held against the hull of a sample: how many times as wide it is, and
 -- whether it misses what was seen.
 --
--- The true range lies between the enclosure and the hull made smaller by the error of the samples. So the ratio of their
--- widths is never less than the true overestimation, and tends to it as the hull comes near the range; an enclosure that
--- does not contain that smaller hull is wrong.
+-- The true range lies between the enclosure and the hull made smaller by the error of the samples. So the ratio of
+-- their widths is never less than the true overestimation, and tends to it as the hull comes near the range; an
+-- enclosure that does not contain that smaller hull is wrong.
 local check = require "ambit.check"
 local core = require "ambit.core"
 
 local over = {}
 
--- A hull is a sampled range: { lo, hi, error }, made smaller by its error already (framework/lua/sampled.h); where it is
--- nothing but error, lo = hi is off by `error`.
+-- A hull is a sampled range: { lo, hi, error }, made smaller by its error already (framework/lua/sampled.h); where it
+-- is nothing but error, lo = hi is off by `error`.
 
 -- Width of the enclosure per width of the hull; nil: the hull is empty or nothing but error, so it says nothing.
 function over.factor(enclosure, hull)

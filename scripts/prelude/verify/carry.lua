@@ -43,7 +43,8 @@ function carry.of(q, conditions)
   local invariants, invariant_names = core.system_invariants(system.system)
   local carrying = setmetatable({ initial = initial }, { __index = q })
   carrying.system = setmetatable({ states = names, units = units, symbols = symbols, rates = rates,
-    system = core.system(names, units, symbols, rates, invariants, invariant_names, system.system, {}, {}, further) }, { __index = system })
+    system = core.system(names, units, symbols, rates, invariants, invariant_names, system.system, {}, {},
+      further) }, { __index = system })
   return carrying, outputs
 end
 

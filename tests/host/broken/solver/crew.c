@@ -1,5 +1,5 @@
-/* crew.c -- a solver that wants a context for each thread, checks what it gets, and lets a pool use all of them at once:
-** right for x' = 0. A step is made only if each item was done once. */
+/* crew.c -- a solver that wants a context for each thread, checks what it gets, and lets a pool use all of them at
+** once: right for x' = 0. A step is made only if each item was done once. */
 #include <ambit/pool.h>
 #include <ambit/solver.h>
 
