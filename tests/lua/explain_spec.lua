@@ -311,7 +311,7 @@ ambit.evaluate { m:position(tip), at = { q = 1 } }]]
       'label="mechanism arm \\"5\\""', 'label="1. evaluate', 'label="arithmetic\\ninterval"')
     assert.truthy(output:find 'label="idle[^\n]*class="left"[^\n]*dashed[^\n]*gray')
     assert.truthy(output:find 'label="momentum 0 of 4", class="left"')
-    assert.truthy(output:find 'label="%d solvers\\n[^\n]*gsl[^\n]*class="left"')
+    assert.truthy(output:find 'label="%d+ solvers\\n[^\n]*gsl[^\n]*class="left"')
     assert.equal("}\n", output:sub(-2))
   end)
 
