@@ -75,4 +75,6 @@ return {
     "fewer gaps are noted, and one of negative width is wider than none",
   ["plugins/solver/taylor_model/functions.c | extremum 1 | *low = larger(*low, -bound);"] =
     "the looser of two lower bounds",
+  ["plugins/solver/krawczyk/solution.c | bound 3 | span ends[2] = { { lower.hi, lower.hi }, { upper.lo, upper.lo } };"] =
+    "only the upper end of this sum is used",
 }
