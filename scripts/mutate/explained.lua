@@ -77,4 +77,8 @@ return {
     "the looser of two lower bounds",
   ["plugins/solver/krawczyk/solution.c | bound 3 | span ends[2] = { { lower.hi, lower.hi }, { upper.lo, upper.lo } };"] =
     "only the upper end of this sum is used",
+  ["plugins/solver/lohner/frame.c | logic 1 | if (!(off > NEGLIGIBLE * diagonal) || !(off < DBL_MAX)) return;"] =
+    "more sweeps: any frame serves, for how far it is from orthogonal is bounded afterwards",
+  ["plugins/solver/lohner/history.c | logic 6 | return g->level && g->direction && g->weight && g->block && g->frame && g->shape && g->size && g->sum && g->unit &&"] =
+    "memory that ran out for one array ran out for the next",
 }
