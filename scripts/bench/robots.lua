@@ -5,9 +5,8 @@
 -- largest width of the enclosures by that of the hull of samples, CPU time and memory, on one core. Samples are
 -- ordinary runs of the same scene with drawn data: at random, half of them corners, and the corners at which each state
 -- is least and greatest to first order, at each listed time. The factor counts states whose hull is wider than the
--- row's bound.
--- --row: only rows whose name has this in it; --seconds: CPU time for each run, without it as much as it takes; --marks:
--- a line for each listed time, too.
+-- row's bound. --row: only rows whose name has this in it; --seconds: CPU time for each run, without it as much as it
+-- takes; --marks: a line for each listed time, too.
 -- Exit 1 if a row is missed, or a sample or a reference is not in its enclosure: then the table says OUTSIDE.
 package.path = (arg[0]:match ".*/" or "./") .. "?.lua;" .. package.path
 local ambit = require "ambit"
@@ -164,7 +163,7 @@ local function required(row)
 end
 
 local function within(row, proof)
-  return (not row.cpu or proof.cpu_seconds <= row.cpu) and (not row.memory or not proof.memory or proof.memory <= row.memory)
+  return proof.cpu_seconds <= (row.cpu or math.huge) and (proof.memory or 0) <= (row.memory or math.huge)
 end
 
 local kinds = {}
@@ -213,7 +212,7 @@ function kinds.verify(row, proof)
   return proof.report.status, "-", proof.report.status == "proved" and within(row, proof)
 end
 
-bench.head("scene", "required", "reached", "largest factor over the hull", "solver, steps", "CPU, memory", "")
+bench.head("scene", "data", "required", "reached", "largest factor over the hull", "solver, steps", "CPU, memory", "")
 -- Is the row asked for? A name that is one row's is no part of others' names.
 local function wanted(row)
   for _, other in ipairs(rows) do
@@ -230,7 +229,7 @@ for _, row in ipairs(rows) do
     if not good then bench.missed = bench.missed + 1 end
     if text:find "OUTSIDE" then contradictions = contradictions + 1 end
     local run = proof.run
-    bench.line(("%s (`%s`)"):format(row.what, row.name), required(row), done, text,
+    bench.line(("%s (`%s`)"):format(row.what, row.name), #proof.data, required(row), done, text,
       run and ("`%s`, %d"):format(run.solver, run.step_count) or "-", cost(proof), good and "reached" or "**missed**")
     io.stdout:flush()
   end

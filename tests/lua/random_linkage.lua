@@ -76,7 +76,8 @@ local function pair_at(loop, angle, tip, ground, first, second)
   end
   local dx, dy = ground[1] - x, ground[2] - y
   local square = dx ^ 2 + dy ^ 2
-  local a = ambit.atan2(dy, dx) + loop.side * ambit.acos((first ^ 2 + square - second ^ 2) / (2 * first * ambit.sqrt(square)))
+  local inside = ambit.acos((first ^ 2 + square - second ^ 2) / (2 * first * ambit.sqrt(square)))
+  local a = ambit.atan2(dy, dx) + loop.side * inside
   return a - angle, ambit.atan2(y + first * ambit.sin(a) - ground[2], x + first * ambit.cos(a) - ground[1])
 end
 
@@ -87,7 +88,8 @@ function linkage.close(m, frames, plan, value, initial)
     local a, b = plan.bodies[loop.a], plan.bodies[loop.b]
     local first, second = value(loop.a_length, 1), value(loop.b_length, 1)
     m:close_pin { a = m:rigid_link { from = frames[loop.a], offset = { first, 0, 0 } },
-      b = loop.kind == "slider" and frames[loop.b] or m:rigid_link { from = frames[loop.b], offset = { second, 0, 0 } } }
+      b = loop.kind == "slider" and frames[loop.b]
+        or m:rigid_link { from = frames[loop.b], offset = { second, 0, 0 } } }
     initial[a.state], initial[b.state] = pair_at(loop, angle, value(a.offset, 1),
       { value(b.offset, 1), value(b.offset, 2) }, first, second)
   end

@@ -44,7 +44,8 @@ local function body(r, parent, name)
   local x, y, z = moment(b, c), moment(a, c), moment(a, b)
   local off = 0.05 * math.min(x, y, z)
   return {
-    name = name, parent = parent, mass = mass, scale = 1, centre = { r.between(-0.2, 0.2), r.between(-0.2, 0.2), r.between(-0.2, 0.2) },
+    name = name, parent = parent, mass = mass, scale = 1,
+    centre = { r.between(-0.2, 0.2), r.between(-0.2, 0.2), r.between(-0.2, 0.2) },
     entries = { x, r.between(-off, off), r.between(-off, off), y, r.between(-off, off), z },
     offset = { r.between(-0.4, 0.4), r.between(-0.4, 0.4), r.between(-0.4, 0.4) },
     turn_axis = r.one_of { "x", "y", "z" }, turn = r.chance(0.5) and r.between(-1, 1) or 0,

@@ -6,9 +6,8 @@
 -- them corners of the data, are integrated in extended precision by formulas that share nothing with Ambit's
 -- (tests/oracle/multibody.h) and must lie inside, at ends of steps and between. Needs the test module `multibody` in
 -- LUA_CPATH. Full length: --mechanisms 200 --draws 500. Without --solver each mechanism is run by the solver that
--- suits.
--- --seconds: CPU time after which a run is stopped; what it proved until then is checked. --beyond 2: data are drawn
--- from twice their tolerances, so that motions must be found outside. Exit 1 if a motion is outside.
+-- suits. --seconds: CPU time after which a run is stopped; what it proved until then is checked. --beyond 2: data are
+-- drawn from twice their tolerances, so that motions must be found outside. Exit 1 if a motion is outside.
 local ambit = require "ambit"
 local core = require "ambit.core"
 local session = require "ambit.session"
@@ -43,7 +42,8 @@ local function instants(run, r)
   local ends, list = {}, {}
   for step in run:steps() do ends[#ends + 1] = step.t end
   if #ends == 0 then return list end
-  for k = 1, math.min(#ends, 6) do list[#list + 1] = ends[1 + (k - 1) * (#ends - 1) // math.max(1, math.min(#ends, 6) - 1)] end
+  local n = math.min(#ends, 6)
+  for k = 1, n do list[k] = ends[1 + (k - 1) * (#ends - 1) // math.max(1, n - 1)] end
   for _ = 1, 6 do list[#list + 1] = run.t_reached * r.unit() end
   table.sort(list)
   local apart = {}
@@ -61,7 +61,9 @@ local function compare(enclosures, motion, mechanism)
       local value, set = motion[k][i], x[name]
       total.values = total.values + 1
       local off = math.max(set.lo - value, value - set.hi) / (1 + math.abs(value)) - mechanism.slack
-      if off > worst or off ~= off then worst, where = off, ("%s at t = %.17g is %.17g, proved %s"):format(name, x.t, value, set) end
+      if off > worst or off ~= off then
+        worst, where = off, ("%s at t = %.17g is %.17g, proved %s"):format(name, x.t, value, set)
+      end
     end
   end
   return worst, where
@@ -137,7 +139,7 @@ for k = 1, o.mechanisms do
       run and run.status or "-", run and run.t_reached or 0, run and run.cpu_seconds or 0, verdict))
   end
 end
-print(("%d mechanisms, %d complete, %d nothing proved, %d unknown to the oracle, %.0f %% of the time; %d motions, %d values: %d outside")
-  :format(o.mechanisms, total.complete, total.nothing, total.skipped, 100 * total.share / o.mechanisms, total.motions,
-    total.values, total.outside))
+print(("%d mechanisms, %d complete, %d nothing proved, %d unknown to the oracle, %.0f %% of the time; \z
+  %d motions, %d values: %d outside"):format(o.mechanisms, total.complete, total.nothing, total.skipped,
+  100 * total.share / o.mechanisms, total.motions, total.values, total.outside))
 os.exit(total.outside == 0 and 0 or 1)

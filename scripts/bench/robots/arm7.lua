@@ -16,7 +16,8 @@ local stiffness, damping = { 400, 400, 100, 100, 20, 20, 2 }, { 60, 60, 10, 15, 
 local initial = {}
 for i = 1, 7 do
   local name = "joint" .. i
-  arm:joint_torque { joint = arm.joints[name], torque = function(q, v) return stiffness[i] * (goal[i] - q) - damping[i] * v end }
+  arm:joint_torque { joint = arm.joints[name],
+    torque = function(q, v) return stiffness[i] * (goal[i] - q) - damping[i] * v end }
   initial[name], initial[name .. "'"] = pose[i], 0
 end
 

@@ -16,7 +16,8 @@ m:joint_torque { joint = rail, force = q.x + "2.6" * q["x'"] - 28 * q.theta - "5
 
 local report = ambit.verify {
   m:dynamics(), t = 10,
-  initial = { x = around(0, "0.05", "start"), theta = degrees(around(0, 2, "first angle")), ["x'"] = 0, ["theta'"] = 0 },
+  initial = { x = around(0, "0.05", "start"), theta = degrees(around(0, 2, "first angle")),
+    ["x'"] = 0, ["theta'"] = 0 },
   safe = { left = q.theta - degrees(5), right = -q.theta - degrees(5), rail = q.x ^ 2 - "0.25" },
 }
 print(report)

@@ -16,7 +16,8 @@ local mass = { crank = datum(1, "mass of the crank"), coupler = datum(2, "mass o
 local function bar(name, from)
   local at, hinge = m:revolute { from = from, axis = "z", name = name }
   local l, moment = length[name], mass[name] * length[name] ^ 2 / 12
-  m:rigid_body { at = at, mass = mass[name], centre = { l / 2, 0, 0 }, inertia = { 0, 0, 0, 0, moment, 0, 0, 0, moment } }
+  m:rigid_body { at = at, mass = mass[name], centre = { l / 2, 0, 0 },
+    inertia = { 0, 0, 0, 0, moment, 0, 0, 0, moment } }
   return m:rigid_link { from = at, offset = { l, 0, 0 } }, hinge
 end
 local tip, drive = bar("crank", m.world)

@@ -7,25 +7,28 @@ end
 
 -- A chain without uncertain data; its digits at the end, from tests/oracle/multibody_digits.c.
 local function exact(n, t, damping, digits, reference)
-  return { kind = "exact", name = "chain-" .. n, what = ("chain of %d links, exact%s"):format(n, damping and ", damped joints" or ""),
+  return { kind = "exact", name = "chain-" .. n,
+    what = ("chain of %d links, exact%s"):format(n, damping and ", damped joints" or ""),
     scene = "chain", words = { tostring(n), t, "exact", damping }, t = tonumber(t), digits = digits, cpu = 10,
     reference = reference }
 end
 
-local UR5 = "UR5 with 2 kg, PD, 27 data "
+local UR5 = "UR5 with 2 kg, PD, everything within "
 
 return {
-  row("ur5-0.1", UR5 .. "of 0.1 %", "ur5", { "0.1%" }, 5, 1e-4, 1.05, 5),
-  row("ur5-1", UR5 .. "of 1 %", "ur5", { "1%" }, 5, 1e-4, 1.2, 20),
-  row("ur5-2", UR5 .. "of 2 %", "ur5", { "2%" }, 5, 1e-4, 1.5, 60),
-  row("ur5-components", "... 68 data of 1 %", "ur5", { "1%", "components" }, 5, 1e-4, 1.3, 60, 500),
+  row("ur5-0.1", UR5 .. "0.1 %", "ur5", { "0.1%" }, 5, 1e-4, 1.05, 5),
+  row("ur5-1", UR5 .. "1 %", "ur5", { "1%" }, 5, 1e-4, 1.2, 20),
+  row("ur5-2", UR5 .. "2 %", "ur5", { "2%" }, 5, 1e-4, 1.5, 60),
+  row("ur5-components", "... 1 %, each moment of inertia, centre, gain and friction by itself", "ur5",
+    { "1%", "components" }, 5, 1e-4, 1.3, 60, 500),
   row("ur5-payload", "... payload 5 %, all else exact", "ur5", { "5%", "payload" }, 5, 1e-4, 1.05, 10),
-  row("ur5-trajectory", "UR5, computed torque along a trajectory, masses 2 %", "ur5_trajectory", { "2%" }, 2, 1e-4, 1.3, 10),
+  row("ur5-trajectory", "UR5, computed torque along a trajectory, masses 2 %", "ur5_trajectory", { "2%" }, 2, 1e-4,
+    1.3, 10),
   row("arm7", "arm of 7 joints from a URDF, PD, 1 %", "arm7", { "1%" }, 5, 1e-4, 1.3),
-  row("chain-3", "chain of 3 links, 6 data of 1 %", "chain", { "3", "1", "1%" }, 1, 1e-6, 1.3),
-  row("chain-5-1", "chain of 5 links, 10 data of 1 %", "chain", { "5", "0.6", "1%" }, 0.6, 1e-6, 1.3),
-  row("chain-5-0.1", "... of 0.1 %", "chain", { "5", "1", "0.1%" }, 1, 1e-6, 1.3),
-  row("chain-10", "chain of 10 links, 20 data of 0.1 %", "chain", { "10", "0.9", "0.1%" }, 0.9, 1e-6, 1.3),
+  row("chain-3", "chain of 3 links, 1 %", "chain", { "3", "1", "1%" }, 1, 1e-6, 1.3),
+  row("chain-5-1", "chain of 5 links, 1 %", "chain", { "5", "0.6", "1%" }, 0.6, 1e-6, 1.3),
+  row("chain-5-0.1", "chain of 5 links, 0.1 %", "chain", { "5", "1", "0.1%" }, 1, 1e-6, 1.3),
+  row("chain-10", "chain of 10 links, 0.1 %", "chain", { "10", "0.9", "0.1%" }, 0.9, 1e-6, 1.3),
   exact(20, "1", nil, 8, {
     q1 = "-1.0856778753269035104", ["q1'"] = "-0.69864659480300503029",
     q5 = "0.023270825695377309362", ["q5'"] = "0.62006164711895602271",
@@ -48,9 +51,11 @@ return {
     q49 = "0.065164521111007121603", ["q49'"] = "0.084701744946437529424",
   }),
   row("four_bar", "four-bar, lengths and masses 0.1 %, 3 turns under drive", "four_bar", { "0.1%" }, 1.9, 1e-6, 1.3),
-  row("slider_crank", "slider-crank, the same", "slider_crank", { "0.1%" }, 1.9, 1e-6, 1.3),
-  row("andrews", "Andrews' squeezer, 14 data of 0.1 %", "andrews", { "0.03", "0.1%" }, 0.03, 1e-6, 1.3),
-  row("stewart", "Stewart platform, 16 data of 0.1 %", "stewart", { "0.1%" }, 1, 1e-6, 1.3),
-  { kind = "verify", name = "cart_pole", what = "cart-pole under LQR, stays within 5 degrees for 10 s", scene = "cart_pole",
-    words = {}, cpu = 10 },
+  row("slider_crank", "slider-crank, lengths and masses 0.1 %, 3 turns under drive", "slider_crank", { "0.1%" }, 1.9,
+    1e-6, 1.3),
+  row("andrews", "Andrews' squeezer, masses and moments of inertia 0.1 %", "andrews", { "0.03", "0.1%" }, 0.03, 1e-6,
+    1.3),
+  row("stewart", "Stewart platform on servo legs, radii and masses 0.1 %", "stewart", { "0.1%" }, 1, 1e-6, 1.3),
+  { kind = "verify", name = "cart_pole", what = "cart-pole under LQR, stays within 5 degrees for 10 s",
+    scene = "cart_pole", words = {}, cpu = 10 },
 }

@@ -13,7 +13,8 @@ local mass = { crank = datum(1, "mass of the crank"), rod = datum(2, "mass of th
 local function bar(name, from)
   local at, hinge = m:revolute { from = from, axis = "z", name = name }
   local l, moment = length[name], mass[name] * length[name] ^ 2 / 12
-  m:rigid_body { at = at, mass = mass[name], centre = { l / 2, 0, 0 }, inertia = { 0, 0, 0, 0, moment, 0, 0, 0, moment } }
+  m:rigid_body { at = at, mass = mass[name], centre = { l / 2, 0, 0 },
+    inertia = { 0, 0, 0, 0, moment, 0, 0, 0, moment } }
   return m:rigid_link { from = at, offset = { l, 0, 0 } }, hinge
 end
 local tip, drive = bar("crank", m.world)
@@ -24,7 +25,8 @@ m:joint_torque { joint = drive, torque = function(_, v) return 2 * (10 - v) end 
 m:independent { "crank" }
 
 local angle = ambit.number "0.5"
-local initial = { crank = angle, rod = -angle - ambit.asin(length.crank / length.rod * ambit.sin(angle)), ["crank'"] = 10 }
+local rod = -angle - ambit.asin(length.crank / length.rod * ambit.sin(angle))
+local initial = { crank = angle, rod = rod, ["crank'"] = 10 }
 local times = { 0 }
 for k = 1, 10 do times[k + 1] = ambit.number "1.9" * k / 10 end -- 10 rad/s: three turns in 1.885 s
 local run = ambit.simulate { m:dynamics(), initial = initial, t = times }

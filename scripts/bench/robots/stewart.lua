@@ -10,7 +10,8 @@ local function datum(value, name) return ambit.around(value, tolerance, name) en
 local m = ambit.mechanism { "Stewart platform", gravity = { 0, 0, "-9.81" } }
 local plate = m:free { from = m.world, name = "plate" } -- angles plate.1 to .3, displacements plate.4 to .6
 local scale = datum(1, "inertia of the plate")
-m:rigid_body { at = plate, mass = datum(20, "plate"), inertia = { "0.5" * scale, 0, 0, 0, "0.5" * scale, 0, 0, 0, scale } }
+m:rigid_body { at = plate, mass = datum(20, "plate"),
+  inertia = { "0.5" * scale, 0, 0, 0, "0.5" * scale, 0, 0, 0, scale } }
 
 local height = ambit.number "0.8"
 local base, top = datum("0.5", "radius of the base"), datum("0.3", "radius of the plate")

@@ -2,7 +2,7 @@
 -- mass, centre of mass and moment of inertia of it is known within a tolerance: where are its joints, for every such
 -- arm?
 --   ambit run ur5.lua [1%] [bodies|components|payload]
---     bodies: 27 data; components: 68, each moment of inertia, centre, gain and friction by itself; payload: only that
+--     bodies: 27 data; components: 73, each moment of inertia, centre, gain and friction by itself; payload: only that
 local ambit = require "ambit"
 local around = ambit.around
 
@@ -35,8 +35,11 @@ local stiffness, damping = { 400, 400, 300, 40, 40, 20 }, { 60, 60, 40, 3, 3, "1
 local initial = {}
 for i, name in ipairs(joints) do
   local k, d, friction = stiffness[i], damping[i], 0
-  if what == "components" then k, d, friction = known(k, "k" .. i), known(d, "d" .. i), known("0.1", "friction" .. i) end
-  arm:joint_torque { joint = arm.joints[name], torque = function(q, v) return k * (goal[i] - q) - (d + friction) * v end }
+  if what == "components" then
+    k, d, friction = known(k, "k" .. i), known(d, "d" .. i), known("0.1", "friction" .. i)
+  end
+  arm:joint_torque { joint = arm.joints[name],
+    torque = function(q, v) return k * (goal[i] - q) - (d + friction) * v end }
   initial[name], initial[name .. "'"] = pose[i], 0
 end
 

@@ -38,6 +38,7 @@ for i, name in ipairs(joints) do
   arm:joint_torque { joint = arm.joints[name], torque = law }
 end
 
-local run = ambit.simulate { arm:dynamics(), initial = initial, t = { 0, "0.25", "0.5", "0.75", 1, "1.25", "1.5", "1.75", 2 } }
+local run = ambit.simulate { arm:dynamics(), initial = initial,
+  t = { 0, "0.25", "0.5", "0.75", 1, "1.25", "1.5", "1.75", 2 } }
 print(run)
 for _, name in ipairs(joints) do print(name, run.x[name]) end
