@@ -182,6 +182,15 @@ static uint32_t run_all(ambit_batch *batch, size_t lanes) {
   return flags;
 }
 
+/* Is something empty that goes into these lanes? Asked only where a result is. */
+static bool takes_empty(const ambit_tape *t, size_t lanes, size_t lane, const double *lo, const double *hi) {
+  for (uint32_t i = 0; i < t->nconst; i++)
+    if (!(t->lo[i] <= t->hi[i])) return true;
+  for (uint32_t i = 0; i < t->nin; i++)
+    if (!(lo[i * lanes + lane] <= hi[i * lanes + lane])) return true;
+  return false;
+}
+
 uint32_t ambit_batch_run(ambit_batch *batch, size_t lanes, const double *lo, const double *hi, const int32_t *var,
     double *rlo, double *rhi) {
   const ambit_tape *t = batch->tape;
@@ -194,11 +203,16 @@ uint32_t ambit_batch_run(ambit_batch *batch, size_t lanes, const double *lo, con
       full->set(batch->ctx, element(batch, t->nconst + i), n, lo + at, hi + at, var ? var[i] : -1);
     }
     ambit_work_evaluate(&batch->work, t->ninstr, n);
-    flags |= run_all(batch, n);
+    uint32_t own = run_all(batch, n);
+    flags |= own;
     for (uint32_t o = 0; o < t->nout; o++) {
       size_t at = o * lanes + done;
       full->bounds(batch->ctx, element(batch, t->out[o]), n, rlo + at, rhi + at);
-      for (size_t i = at; i < at + n; i++) ambit_bounds_check(full, &rlo[i], &rhi[i]);
+      for (size_t i = at; i < at + n; i++) {
+        ambit_bounds_check(full, &rlo[i], &rhi[i]);
+        if (rlo[i] > rhi[i] && !takes_empty(t, lanes, i - o * lanes, lo, hi))
+          ambit_empty_check(full, own, 0, rlo[i], rhi[i]);
+      }
     }
   }
   return flags;

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "base/meter.h"
 #include <ambit/block.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,6 +20,8 @@ struct ambit_block {
   size_t lanes, elem;
   bool initialised; /* clear() is due */
   bool metered;
+  uint32_t flags;      /* of the last run */
+  int32_t given_empty; /* was an input or a constant ever empty? */
 };
 
 static char *element(const ambit_block *block, uint32_t slot, size_t lane) {
@@ -51,9 +54,12 @@ static ambit_status allocate(ambit_block *block, ambit_failure *f) {
 }
 
 static void set_constants(ambit_block *block) {
-  for (uint32_t i = 0; i < block->tape->nconst; i++)
+  const ambit_tape *t = block->tape;
+  for (uint32_t i = 0; i < t->nconst; i++) {
+    block->given_empty |= !(t->lo[i] <= t->hi[i]);
     for (size_t lane = 0; lane < block->lanes; lane++)
-      ambit_constant_set(block->arithmetic, block->ctx, element(block, i, lane), block->tape, i);
+      ambit_constant_set(block->arithmetic, block->ctx, element(block, i, lane), t, i);
+  }
 }
 
 ambit_status ambit_block_open(
@@ -87,6 +93,7 @@ void ambit_block_close(ambit_block *block) {
 }
 
 void ambit_block_set(ambit_block *block, uint32_t in, size_t lane, ambit_interval x, int32_t var) {
+  block->given_empty |= !(x.lo <= x.hi);
   block->arithmetic->set(block->ctx, element(block, block->tape->nconst + in, lane), 1, &x.lo, &x.hi, var);
 }
 
@@ -110,7 +117,8 @@ uint32_t ambit_block_run(ambit_block *block) {
   uint32_t flags = run_all(block);
   if (full->leave) full->leave(block->ctx);
   if (block->metered) ambit_meter_leave();
-  return flags;
+  if (flags & AMBIT_F_EMPTY) ambit_empty_check(full, flags, block->given_empty, INFINITY, -INFINITY);
+  return block->flags = flags;
 }
 
 void ambit_block_run_each(ambit_block *block, uint32_t *flags) {
@@ -127,6 +135,7 @@ ambit_interval ambit_block_get(const ambit_block *block, uint32_t out, size_t la
   ambit_interval x;
   block->arithmetic->bounds(block->ctx, element(block, block->tape->out[out], lane), 1, &x.lo, &x.hi);
   ambit_bounds_check(block->arithmetic, &x.lo, &x.hi);
+  ambit_empty_check(block->arithmetic, block->flags, block->given_empty, x.lo, x.hi);
   return x;
 }
 

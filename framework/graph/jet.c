@@ -156,6 +156,18 @@ static void count_order(const ambit_jet *jet, uint32_t k) {
   work->skipped += jet->tape->ninstr * each - done;
 }
 
+static bool has_empty_constant(const ambit_tape *t) {
+  for (uint32_t i = 0; i < t->nconst; i++)
+    if (!(t->lo[i] <= t->hi[i])) return true;
+  return false;
+}
+
+/* `flags`: of all orders so far and of the centre. Inputs are never empty. */
+static void check_empty(const ambit_jet *jet, uint32_t flags) {
+  if (flags & AMBIT_F_EMPTY)
+    ambit_empty_check(jet->source.arithmetic, flags, has_empty_constant(jet->tape), INFINITY, -INFINITY);
+}
+
 /* An order builds on all below it, slopes also on the centre's. */
 static uint32_t advance(ambit_jet *jet, uint32_t k) {
   const ambit_jet *centre = jet->centre;
@@ -168,6 +180,7 @@ static uint32_t advance(ambit_jet *jet, uint32_t k) {
   jet->tails->fetched = 0;
   jet->known = k + 1;
   jet->flags = k ? jet->flags | flags : flags;
+  check_empty(jet, jet->flags | (centre ? centre->flags : 0));
   return flags;
 }
 

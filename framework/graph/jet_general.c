@@ -152,6 +152,7 @@ static uint32_t advance(void *self, uint32_t k) {
   for (uint32_t i = 0; i < s->tape->nin; i++) advance_input(s, s->tape->nconst + i, k);
   for (uint32_t i = 0; i < s->tape->ninstr; i++) advance_instruction(s, i, k);
   if (s->arithmetic->leave) s->arithmetic->leave(s->ctx);
+  s->raised = k ? s->raised | s->flags : s->flags;
   return s->flags;
 }
 
@@ -201,6 +202,7 @@ static void put(void *self, uint32_t in, uint32_t k, double mid, double rad, con
 
 static ambit_interval coefficient(const ambit_series *s, uint32_t slot, uint32_t column, uint32_t k) {
   ambit_interval x = ambit_series_bounds(s, ambit_series_at(s, ambit_series_row(s, slot, column), k));
+  ambit_empty_check(s->arithmetic, s->raised, 0, x.lo, x.hi);
   return ambit_interval_is_empty(x) ? AMBIT_ENTIRE : x; /* an operand left the domain: claim nothing */
 }
 

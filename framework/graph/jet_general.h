@@ -31,6 +31,7 @@ struct ambit_series {
   uint32_t scratch, used, room;
   uint32_t *target, *left, *right; /* [order + 1] operand lists of a run */
   uint32_t flags;                  /* of the advance in progress */
+  uint32_t raised;                 /* flags of all orders so far */
   uint32_t refused;                /* a coefficient was put above the degree of its input: nothing can be proved */
 };
 

@@ -35,8 +35,20 @@ _Noreturn void ambit_lua_error(lua_State *L, const char *format, ...) {
   raise(L, message);
 }
 
+/* A scene that catches the error ends with exit code 1 all the same. */
+static void note_broken(lua_State *L, const ambit_failure *f) {
+  if (f->status != AMBIT_BROKEN) return;
+  luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
+  if (lua_getfield(L, -1, "ambit.session") == LUA_TTABLE) {
+    lua_pushstring(L, f->code[0] ? f->code : ambit_code_of(f->status));
+    lua_setfield(L, -2, "worst");
+  }
+  lua_pop(L, 2);
+}
+
 _Noreturn void ambit_lua_raise(lua_State *L, const ambit_failure *f) {
   char message[AMBIT_MESSAGE_MAX]; /* a copy: the failure may live in something that Lua frees */
   snprintf(message, sizeof message, "%s", f->message[0] ? f->message : ambit_status_name(f->status));
+  note_broken(L, f);
   raise(L, message);
 }

@@ -50,18 +50,6 @@ static ambit_status narrow(job *j, size_t i, ambit_interval *x, ambit_failure *f
   return status == AMBIT_OK || status == AMBIT_NOMEM ? AMBIT_OK : ambit_fail(f, status, "%s", own.message);
 }
 
-static bool is_empty(double lo, double hi) { return !(lo <= hi); }
-
-/* Nothing that goes in is empty: then something may be empty only where an operation left its domain, and that says
-** PARTIAL. */
-static bool all_given(const job *j) {
-  for (uint32_t i = 0; i < j->tape->nconst; i++)
-    if (is_empty(j->tape->lo[i], j->tape->hi[i])) return false;
-  for (size_t i = 0; i < j->bound.nunknown; i++)
-    if (ambit_interval_is_empty(ambit_graph_node(j->q->graph, j->bound.unknown[i])->value)) return false;
-  return true;
-}
-
 /* Behind the run, whose results have been read. */
 static ambit_status find_partial(job *j, uint32_t *flags, ambit_failure *f) {
   const ambit_evaluate_request *q = j->q;
@@ -83,12 +71,9 @@ static ambit_status run(job *j, ambit_interval *out, uint32_t *flags, ambit_fail
   ambit_work_evaluate(&j->tally.work, j->tape->ninstr, 1);
   for (size_t i = 0; i < j->bound.nunknown; i++)
     ambit_block_set(j->block, (uint32_t)i, 0, ambit_graph_node(j->q->graph, j->bound.unknown[i])->value, (int32_t)i);
-  uint32_t left = ambit_block_run(j->block) & AMBIT_F_PARTIAL; /* its domain */
-  *flags = left;
+  *flags = ambit_block_run(j->block) & AMBIT_F_PARTIAL;
   for (size_t i = 0; i < j->q->nexpr; i++) {
     out[i] = ambit_block_get(j->block, (uint32_t)i, 0);
-    if (ambit_interval_is_empty(out[i]) && !left && all_given(j))
-      ambit_fault_note(j->context.arithmetic, AMBIT_FAULT_EMPTY, out[i].lo, out[i].hi);
     ambit_status status = narrow(j, i, &out[i], f);
     if (status != AMBIT_OK) return status;
     if (ambit_interval_is_empty(out[i]))

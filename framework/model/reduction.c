@@ -211,7 +211,10 @@ static void judge(const job *j, ambit_status said, ambit_reduction_result *resul
   const char *name = j->q->solver;
   bool known = said == AMBIT_OK || said == AMBIT_STOPPED || said == AMBIT_UNABLE;
   ambit_failure why = { 0 };
-  if (j->broken)
+  ambit_context_sound(&j->context, &why);
+  if (why.status != AMBIT_OK)
+    ; /* what a broken arithmetic gave is not believed */
+  else if (j->broken)
     ambit_fail_code(&why, AMBIT_BROKEN, AMBIT_CODE_BROKEN_RECORD, "solver `%s` is broken: it gave %s", name, j->broken);
   else if (said == AMBIT_STOPPED && !j->lease->failure.message[0])
     ambit_fail_code(

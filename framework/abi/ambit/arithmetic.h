@@ -113,4 +113,12 @@ static inline void ambit_bounds_check(const ambit_arithmetic *a, double *lo, dou
   if (!(*lo <= *hi)) ambit_fault_note(a, AMBIT_FAULT_BOUNDS, *lo, *hi);
   *lo = -infinity, *hi = infinity;
 }
+
+/* [any] The bounds of a result behind ambit_bounds_check: the empty set is a fault where neither an operation left its
+** domain (`flags` of all that led to it: AMBIT_F_PARTIAL) nor anything empty went in. */
+static inline void ambit_empty_check(
+    const ambit_arithmetic *a, uint32_t flags, int32_t given_empty, double lo, double hi) {
+  if (lo > hi && a->rigorous && !given_empty && !(flags & AMBIT_F_PARTIAL))
+    ambit_fault_note(a, AMBIT_FAULT_EMPTY, lo, hi);
+}
 #endif

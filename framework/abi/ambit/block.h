@@ -12,7 +12,9 @@ typedef struct ambit_lane {
   const ambit_arithmetic *arithmetic;
   void *ctx, *base;
   size_t elem;
-  ambit_work *work; /* or NULL */
+  ambit_work *work;    /* or NULL */
+  uint32_t flags;      /* of the last run */
+  int32_t given_empty; /* was an input or a constant ever empty? */
 } ambit_lane;
 
 static inline void *ambit_lane_at(const ambit_lane *lane, uint32_t slot) {
@@ -32,10 +34,14 @@ static inline ambit_status ambit_lane_open(
     ambit_lane *lane, const ambit_host *h, const ambit_tape *t, const ambit_arithmetic *arithmetic, void *actx) {
   lane->tape = t, lane->arithmetic = arithmetic, lane->ctx = actx, lane->elem = arithmetic->elem(actx);
   lane->work = ambit_work_open(h);
+  lane->flags = 0, lane->given_empty = 0;
   lane->base = h->alloc(h, t->nslot * lane->elem);
   if (!lane->base) return AMBIT_NOMEM;
   if (arithmetic->init && arithmetic->init(actx, lane->base, t->nslot) != AMBIT_OK) return AMBIT_NOMEM;
-  for (uint32_t i = 0; i < t->nconst; i++) ambit_constant_set(arithmetic, actx, ambit_lane_at(lane, i), t, i);
+  for (uint32_t i = 0; i < t->nconst; i++) {
+    ambit_constant_set(arithmetic, actx, ambit_lane_at(lane, i), t, i);
+    lane->given_empty |= !(t->lo[i] <= t->hi[i]);
+  }
   return AMBIT_OK;
 }
 
@@ -45,6 +51,7 @@ static inline void ambit_lane_close(ambit_lane *lane) {
 
 /* [ctx] input number `in` := [lo, hi] */
 static inline void ambit_lane_set(ambit_lane *lane, uint32_t in, double lo, double hi) {
+  lane->given_empty |= !(lo <= hi);
   lane->arithmetic->set(lane->ctx, ambit_lane_at(lane, lane->tape->nconst + in), 1, &lo, &hi, -1);
 }
 
@@ -61,12 +68,14 @@ static inline uint32_t ambit_lane_run(ambit_lane *lane) {
         a, lane->ctx, lane->base, 1, 1, run->count, t->dst + run->first, t->a + run->first, t->b + run->first);
   }
   if (a->leave) a->leave(lane->ctx);
-  return flags;
+  if (flags & AMBIT_F_EMPTY) ambit_empty_check(a, flags, lane->given_empty, __builtin_inf(), -__builtin_inf());
+  return lane->flags = flags;
 }
 
 /* [ctx] bounds of output number `out` */
 static inline void ambit_lane_get(const ambit_lane *lane, uint32_t out, double *lo, double *hi) {
   lane->arithmetic->bounds(lane->ctx, ambit_lane_at(lane, lane->tape->out[out]), 1, lo, hi);
   ambit_bounds_check(lane->arithmetic, lo, hi);
+  ambit_empty_check(lane->arithmetic, lane->flags, lane->given_empty, *lo, *hi);
 }
 #endif

@@ -76,8 +76,8 @@ static int open_room(valencia *s) {
   const ambit_tape *t = s->problem.rhs;
   const ambit_arithmetic *a = s->problem.arithmetic;
   size_t count = t->nslot + MONOMIALS + TERMS_MAX, elem = a->elem(s->problem.actx);
-  y->lane =
-      (ambit_lane) { t, a, s->problem.actx, s->host->alloc(s->host, count * elem), elem, ambit_work_open(s->host) };
+  y->lane = (ambit_lane) { t, a, s->problem.actx, s->host->alloc(s->host, count * elem), elem, ambit_work_open(s->host),
+    0, 0 };
   if (!y->lane.base || (a->init && a->init(s->problem.actx, y->lane.base, count) != AMBIT_OK)) return 0;
   y->count = count;
   for (uint32_t i = 0; i < t->nconst; i++) ambit_constant_set(a, s->problem.actx, element(s, i), t, i);
