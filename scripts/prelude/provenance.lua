@@ -118,6 +118,21 @@ function provenance.lines(lead, ending)
   return table.concat(lines)
 end
 
+-- For the end of a result that a scene prints: a list of lines.
+function provenance.tail()
+  local lines = { "provenance" }
+  for _, fact in ipairs(provenance.facts()) do lines[#lines + 1] = ("  %s: %s"):format(fact[1], fact[2]) end
+  return lines
+end
+
+local entities = { ["&"] = "&amp;", ["<"] = "&lt;", [">"] = "&gt;" }
+
+-- The text of an SVG picture, with it behind the first tag.
+function provenance.svg(text)
+  local lines = provenance.lines "":gsub("[&<>]", entities)
+  return (text:gsub("<svg[^>]*>", function(tag) return ("%s\n<metadata>\n%s</metadata>"):format(tag, lines) end, 1))
+end
+
 -- The text of a JSON object, beginning with it.
 function provenance.json(text)
   local json = require "ambit.view.json"

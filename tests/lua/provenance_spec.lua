@@ -69,7 +69,8 @@ describe("provenance", function()
 
   it("begins every report", function()
     local base = os.tmpname()
-    local words = ("compare --quick --csv %s.csv --json %s.json --html %s.html %s"):format(base, base, base, scene)
+    local words = ("compare --quick --csv %s.csv --json %s.json --html %s.html --svg %s.svg %s"):format(base, base, base,
+      base, scene)
     local _, code = shell(("'%s' %s 2>/dev/null"):format(command, words))
     assert.equal(0, code)
     assert.truthy(read(base .. ".csv"):find "^# ambit: [%d.]+, ambit compare\r\n# scene: ")
@@ -79,6 +80,10 @@ describe("provenance", function()
     assert.truthy(check_hashes(read(base .. ".json"), in_json) >= 4)
     assert.truthy(read(base .. ".html"):find('<details class="provenance">', 1, true))
     assert.truthy(read(base .. ".html"):find("solver lohner</dt><dd>[%d.]+, /[^<]+, SHA%-256 %x+"))
+    assert.truthy(read(base .. ".svg"):find("<metadata>\nambit: [%d.]+, ambit compare\n"))
+    shell(("'%s' explain --svg %s.svg %s"):format(command, base, scene))
+    assert.truthy(read(base .. ".svg"):find("<metadata>\nambit: [%d.]+, ambit explain\n"))
+    assert.truthy(check_hashes(read(base .. ".svg"):match "<metadata>(.-)</metadata>", in_text) >= 4)
     shell(("'%s' view --quiet %s -o %s.html"):format(command, scene, base))
     assert.truthy(read(base .. ".html"):find('"provenance":{"ambit"', 1, true))
     assert.truthy(read(base .. ".html"):find("element revolute</dt><dd>[%d.]+, /[^<]+, SHA%-256 %x+"))
@@ -100,6 +105,40 @@ describe("provenance", function()
       outputs = { "x" }, error = { x = "0.1" } }
     assert.truthy(c:json():find '^{"provenance":{"ambit":"[%d.]+"')
     assert.truthy(check_hashes(c:json(), in_json) >= 3)
+  end)
+
+  it("ends what a scene prints of a certificate, a reduction and a verification, and is in pictures", function()
+    local picture = os.tmpname()
+    local text, code = shell(("cat <<'E' | '%s' run --quiet /dev/stdin 2>&1\n"):format(command) .. ([[
+local ambit = require "ambit"
+local function decay(k) return ambit.ode { states = { "x" }, equations = function(s) return { x = -k * s.x - 0.001 * s.x ^ 3 } end } end
+local q = { t = { 0, 1 }, initial = { x = 1 }, outputs = { "x" }, error = { x = "0.1" } }
+local function asked(...)
+  local t = { ... }
+  for key, value in pairs(q) do t[key] = value end
+  return t
+end
+local c = ambit.certify(asked(decay(ambit.around(1, "1%%")), decay(1)))
+print(c)
+print "==="
+c:picture("%s", { draws = 10 })
+print(ambit.reduce(asked(decay(1))))
+print "==="
+print(ambit.verify { decay(1), t = { 0, 1 }, initial = { x = 1 }, safe = function(s) return s.x - 2 end })
+E]]):format(picture))
+    assert.equal(0, code, text)
+    local count = 0
+    for part in (text .. "===\n"):gmatch "(.-)===\n" do
+      count = count + 1
+      assert.truthy(part:find("provenance\n%s+ambit: [%d.]+, ambit run\n"), part)
+      assert.truthy(part:find("solver lohner: ", 1, true), part)
+      assert.truthy(check_hashes(part:gsub("scene: [^\n]*\n", ""), in_text) >= 3, part)
+    end
+    assert.equal(3, count)
+    local svg = read(picture)
+    os.remove(picture)
+    assert.truthy(svg:find("<metadata>\nambit: [%d.]+, ambit run\n"), svg:sub(1, 400))
+    assert.truthy(check_hashes(svg:match "<metadata>(.-)</metadata>":gsub("scene: [^\n]*\n", ""), in_text) >= 3)
   end)
 
   it("tells who takes the place of Ambit's own, and which folders are trusted", function()

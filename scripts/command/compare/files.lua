@@ -61,7 +61,7 @@ local function write_svg(list, name, file)
   if left_out > 0 then
     io.stderr:write(("note: the picture shows the first %d comparisons of %d\n"):format(#list - left_out, #list))
   end
-  outputs.write(name, draw(script))
+  outputs.write(name, provenance.svg(draw(script)))
 end
 
 local function write_html(list, name, file) outputs.write(name, require "ambit.page.compare".of(list, file)) end

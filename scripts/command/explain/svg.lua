@@ -47,7 +47,8 @@ function explain.styled(svg, tips)
   svg = svg:gsub("<title>(.-)</title>", function(name)
     return tips[name] and "<title>" .. escaped(tips[name]) .. "</title>" or ""
   end)
-  return (svg:gsub("(<svg[^>]*>)", function(tag) return tag .. "\n" .. style end, 1))
+  svg = svg:gsub("(<svg[^>]*>)", function(tag) return tag .. "\n" .. style end, 1)
+  return require "ambit.provenance".svg(svg)
 end
 
 -- Writes the picture; nil, or what went wrong.

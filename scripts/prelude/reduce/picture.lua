@@ -6,6 +6,7 @@ local check = require "ambit.check"
 local compare_picture = require "ambit.compare.picture"
 local json = require "ambit.reduce.json"
 local number = require "ambit.reduce.report_number"
+local provenance = require "ambit.provenance"
 local proof = require "ambit.certify.proof"
 local sample = require "ambit.reduce.sample"
 local svg = require "ambit.reduce.picture_svg"
@@ -130,7 +131,7 @@ function picture.write(self, file, options, what)
   json.writable(file, what)
   local sampled = sample.of(self, options, what)
   local curves = proof.curve(self.detailed, self.model, self.given, self.settings).scenarios
-  json.save(file, picture.text(self, curves, sampled), what)
+  json.save(file, provenance.svg(picture.text(self, curves, sampled)), what)
 end
 
 return picture

@@ -1,8 +1,8 @@
 -- reduce/report_text.lua -- a reduction as text: the reduced equations, what was cut and kept, the proved errors, the
 -- certificate. Errors are rounded up where digits are cut, so that what is printed is proved too.
-local core = require "ambit.core"
 local judge = require "ambit.reduce.report_judge"
 local number = require "ambit.reduce.report_number"
+local provenance = require "ambit.provenance"
 local scenarios = require "ambit.reduce.report_scenario"
 local compare_table = require "ambit.compare.table"
 
@@ -261,7 +261,7 @@ local function certificate(self, width)
   if self.criterion == "bounds" then add("nodes", tostring(self.settings.nodes)) end
   if self.ranking then search_lines(self, add) end
   add("time", time_text(self))
-  add("version", "Ambit " .. core.version)
+  append(lines, provenance.tail(), "  ")
   return lines
 end
 

@@ -5,6 +5,7 @@ local check = require "ambit.check"
 local code = require "ambit.code"
 local core = require "ambit.core"
 local instant = require "ambit.instant"
+local provenance = require "ambit.provenance"
 
 local report = {}
 
@@ -158,6 +159,7 @@ Report.__index = Report
 function Report.__tostring(self)
   local lines = { ("%s after %d run%s"):format(self.status, self.refinements + 1, self.refinements == 0 and "" or "s") }
   for _, c in ipairs(self.list) do lines[#lines + 1] = tostring(c) end
+  for _, line in ipairs(provenance.tail()) do lines[#lines + 1] = line end
   return table.concat(lines, "\n")
 end
 
