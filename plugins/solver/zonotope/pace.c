@@ -11,7 +11,8 @@
 #define REFINE 4
 #define BESIDE_SET 1e-5     /* share of the set that truncation may add in a step */
 #define BESIDE_MOTION 1e-13 /* of the state's size, where it has data; */
-#define EXACT 1e-15         /* where it has none */
+#define EXACT 1e-15         /* where it has none: */
+#define NARROW 1e-10        /* its set is narrower than this share of it */
 
 /* rate of each state from z->r, z->rr_out */
 static void find_rates(const zono *z, double *rate) {
@@ -38,19 +39,38 @@ static void find_sizes(const zono *z, uint32_t i, double length, double *size, d
   }
 }
 
+/* share of the state's size that a step may add */
+static double share_of(const zono *z, double size, double set) {
+  double share = z->options.tolerance;
+  if (share == 0) share = set > NARROW * size ? BESIDE_MOTION : EXACT;
+  return fmax(share, EXACT);
+}
+
+/* Is what is added to the state rounding? Then half the step adds as much of what the state is by then: the state is of
+** some order in time, and so is what is added. From rest that is more than EXACT of it, however short the step. */
+static int is_rounding(const zono *z, uint32_t i, double length, double rate, double half) {
+  double size, set, size_half;
+  find_sizes(z, i, length, &size, &set);
+  if (set > NARROW * size) return 0;
+  find_sizes(z, i, 0.5 * length, &size_half, &set);
+  return rate * size_half <= 2 * half * size;
+}
+
 /* 1: short enough; start: rates over a step of length 0 */
 static int fits(zono *z, double length, const double *start) {
   const proof *p = z->proof;
-  double *rate = p->grow;
+  double *rate = p->grow, *half = p->zeta_new;
+  int known = 0; /* half */
   if (!defect_evaluate(z, length)) return 0;
   find_rates(z, rate);
   for (uint32_t i = 0; i < z->nx; i++) {
-    double size, set, share = z->options.tolerance;
+    double size, set;
     find_sizes(z, i, length, &size, &set);
-    if (share == 0) share = set > 1e-10 * size ? BESIDE_MOTION : EXACT;
-    share = fmax(share, EXACT);
-    double allowed = share * size + BESIDE_SET * set;
-    if (!(length * rate[i] <= GROWTH * length * start[i] + allowed)) return 0;
+    double allowed = share_of(z, size, set) * size + BESIDE_SET * set;
+    if (length * rate[i] <= GROWTH * length * start[i] + allowed) continue;
+    if (!known && !defect_evaluate(z, 0.5 * length)) return 0;
+    if (!known) find_rates(z, half), known = 1;
+    if (!is_rounding(z, i, length, rate[i], half[i])) return 0;
   }
   return 1;
 }
