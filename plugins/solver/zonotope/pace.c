@@ -79,7 +79,8 @@ double zono_choose_step(zono *z, double h_most) {
   proof *p = z->proof;
   double *start = p->zeta, most = fabs(h_most), length = most, above = 0;
   defect_prepare(z);
-  p->prepared = 1;
+  p->prepared = 1, p->rho_before = 0;
+  if (p->patience > 0) p->patience--;
   for (uint32_t i = 0; i < z->nx; i++) {
     double size, set;
     find_sizes(z, i, 0, &size, &set);

@@ -69,6 +69,8 @@ typedef struct proof {
   double *spread;         /* [nx] sizes of states' sets, for weights */
   double *unit;           /* [nx] of the states, for norms */
   double *work;           /* [4 nx + na] */
+  double rho_before;      /* of a longer step that was tried; 0: none */
+  uint32_t patience;      /* steps that are not halved for it */
   int prepared;           /* total and drop are those of the rows */
   double *boxes;          /* [ORIGINS x nx] what goes into the box */
   uint8_t *origin, *from; /* of columns, of z->G */

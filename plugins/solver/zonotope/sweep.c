@@ -10,6 +10,9 @@
 #define TURNS 12
 #define POWERS 6
 #define MOST_RHO 0.9
+#define GOOD_RHO 0.1 /* above it a shorter step is tried, */
+#define GAIN 0.7     /* and again as long as half of the step makes rho less than this share; */
+#define PATIENCE 20  /* if not, not for so many steps */
 
 static double *adjoint(const sweeps *w, uint32_t slot) { return proof_form(w, w->adjoint, slot); }
 static double *entry(const zono *z, const sweeps *w, double *matrix, uint32_t i, uint32_t j) {
@@ -216,6 +219,17 @@ static int close_series(const zono *z, const double *unit, double most) {
   return 1;
 }
 
+/* Should the step be halved because rho is large? What rho has from time goes with the step, what it has from the data
+** does not. */
+static int is_worth_less(zono *z, double worst) {
+  proof *p = z->proof;
+  if (p->patience > 0 || (z->guess > 0 && fabs(z->h) < 0.6 * z->guess && p->rho_before == 0)) return 0;
+  int gains = p->rho_before == 0 || worst <= GAIN * p->rho_before;
+  p->rho_before = worst;
+  if (!gains) p->patience = PATIENCE;
+  return gains;
+}
+
 /* (I - rho)^-1 <= sum of powers of rho: p->close := rho (I - rho)^-1 for all targets; 0: rho is not small */
 static int close_rows(zono *z) {
   proof *p = z->proof;
@@ -237,6 +251,7 @@ static int close_rows(zono *z) {
     if (!(sum / unit[i] <= worst)) worst = sum / unit[i], z->culprit = i;
   }
   if (!(worst * ABOVE < MOST_RHO)) return z->why = WHY_PIVOT, 0;
+  if (worst > GOOD_RHO && is_worth_less(z, worst)) return z->why = WHY_GROWTH, 0;
   return close_series(z, unit, worst * ABOVE);
 }
 
