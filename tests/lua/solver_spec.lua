@@ -138,3 +138,17 @@ describe("a jump of an angle within the set", function()
     end)
   end
 end)
+
+describe("every solver in time", function()
+  -- The middle of these ranges is a double, half their width is none.
+  it("starts from all values of a range", function()
+    for _, solver in ipairs { "lohner", "stiff", "taylor_model", "valencia" } do
+      for k = 1, 40 do
+        local lo, hi = -k * 1e-18, 0.5 + 3 * k * 0x1p-53
+        local run = ambit.simulate { ode(function(x) return 0 * x end), solver = solver,
+          initial = { x = ambit.between(lo, hi) }, t = { 0, 1 } }
+        assert.is_true(run.x.x:contains(ambit.interval(lo, hi)), solver)
+      end
+    end
+  end)
+end)
