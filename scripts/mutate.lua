@@ -51,14 +51,17 @@ local function wanted(area)
   return math.ceil(settings.count * area.share / share)
 end
 
--- The next mutations to try, the files in turn: as many as are wanted still, since some do not build.
+-- The next mutations to try, file by file: those that survived before, and as many new ones as are wanted still, since
+-- some do not build.
 local function next_of(drawn, known, count)
   local list = {}
   for _, mutation in ipairs(drawn) do
     local found = known[mutation.key]
-    if count <= 0 then break end
-    if not record.is_settled(mutation.key, found) and not mutation.tried then list[#list + 1] = mutation end
-    if not found or found[1] ~= "unbuilt" then count = count - 1 end
+    if found and found[1] ~= "unbuilt" then count = count - 1 end
+    if found and not record.is_settled(mutation.key, found) and not mutation.tried then list[#list + 1] = mutation end
+  end
+  for _, mutation in ipairs(drawn) do
+    if count > 0 and not known[mutation.key] then list[#list + 1], count = mutation, count - 1 end
   end
   table.sort(list, function(a, b) return a.file < b.file or a.file == b.file and a.line < b.line end)
   return list
