@@ -9,6 +9,10 @@ local suggest = {}
 local STIFF_PER_STEP = 100 -- e-folds of the fastest decay in one step of an ordinary stiff method
 local STIFF_IN_ALL = 1000  -- and over the run: below, a series solver needs a few hundred steps at most
 local BEND = 1e-4          -- part of a state's size by which one datum bends the solution away from a linear map
+local MANY = 5             -- data ...
+local LARGE = 12           -- ... or states from which on polynomials in the data alone are too large, and linear maps ...
+local BENT = 1e-7          -- ... with so much bend, or width where the bend was not seen, lose what the data share
+local SEEN = 0.5           -- part of the run up to which ordinary runs must come to tell the bend
 
 -- In order; each names its solver and says why, or nil.
 local rules = {
@@ -20,6 +24,14 @@ local rules = {
     return f.kinks == 0 and per_step > STIFF_PER_STEP and f.decay > STIFF_IN_ALL and
       ("stiff: the fastest motion decays by a factor of e %.2g times, where %d steps follow the solution"):format(
         f.decay, f.steps)
+  end },
+  { "zonotope", function(f)
+    local bent = f.bend > BENT or f.seen < SEEN and f.width > BENT
+    if f.unknowns == 0 and f.states >= 2 * LARGE and f.seen < SEEN then
+      return ("%d states with large equations"):format(f.states)
+    end
+    return bent and (f.unknowns >= MANY or f.unknowns > 0 and f.states >= LARGE) and
+      ("%d uncertain data and %d states: what they have in common is kept"):format(f.unknowns, f.states)
   end },
   { "taylor_model", function(f)
     return f.bend > BEND * f.unknowns ^ 2 and f.invariants == 0 and -- polynomials grow with the number of data

@@ -53,6 +53,34 @@ describe("without a solver, simulate takes", function()
     assert.equal("lohner", (chosen { rubbing, initial = { x = 0, v = 1 }, t = 1 })) -- on one side of it
   end)
 
+  it("zonotope for many data that bend the solution", function()
+    local function chain(n)
+      local m = ambit.mechanism { "chain", gravity = { 0, "-9.81", 0 } }
+      local at, initial = m.world, {}
+      for i = 1, n do
+        at = m:rigid_link { from = m:revolute { from = at, axis = "z", name = "q" .. i },
+          offset = { ambit.around("0.5", "0.1%"), 0, 0 } }
+        m:point_mass { at = at, mass = ambit.around(1, "0.1%") }
+        initial["q" .. i], initial["q" .. i .. "'"] = 0, 0
+      end
+      return m:dynamics(), initial
+    end
+    local m, initial = chain(3) -- six data
+    local solver, why = chosen { m, initial = initial, t = "0.1" }
+    assert.equal("zonotope", solver)
+    assert.matches("6 uncertain data and 6 states", why)
+    m, initial = chain(1)
+    assert.not_equal("zonotope", (chosen { m, initial = initial, t = "0.1" }))
+    local linear, start = {}, {} -- never bends
+    for i = 1, 6 do linear[i], start["x" .. i] = "x" .. i, ambit.between(1, 2) end
+    local decay = ode(linear, function(s)
+      local rate = {}
+      for _, name in ipairs(linear) do rate[name] = -s[name] end
+      return rate
+    end)
+    assert.equal("lohner", (chosen { decay, initial = start, t = 1 }))
+  end)
+
   it("lohner for closed loops", function()
     local m = ambit.mechanism { "loop", gravity = { 0, -9.81, 0 } }
     local bar = m:rigid_link { from = m:revolute { from = m.world, axis = "z", name = "a" }, offset = { 1, 0, 0 } }

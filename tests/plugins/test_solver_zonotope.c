@@ -4,7 +4,7 @@
 static void passes_the_kit(void **unused) {
   (void)unused;
   static const ambit_option option[] = { { "time_order", "0" }, { "time_order", "4" }, { "time_order", "24" },
-    { "history", "2" }, { "history", "200" }, { "tolerance", "1e-300" }, { "tolerance", "1e-6" },
+    { "generators", "2" }, { "generators", "200" }, { "tolerance", "1e-300" }, { "tolerance", "1e-6" },
     { "step_max", "0.02" } };
   solver_case c;
   case_open(&c, "zonotope", "interval");
@@ -15,7 +15,7 @@ static void passes_the_kit(void **unused) {
 static void bad_options_are_refused_by_name(void **unused) {
   (void)unused;
   static const case_option bad[] = { { "time_order", -1 }, { "time_order", 2 }, { "time_order", 41 },
-    { "time_order", NAN }, { "history", -1 }, { "history", 1 }, { "history", NAN }, { "tolerance", -1 },
+    { "time_order", NAN }, { "generators", -1 }, { "generators", 1 }, { "generators", NAN }, { "tolerance", -1 },
     { "tolerance", NAN }, { "step_max", 0 }, { "step_max", NAN }, { "step_min", -1 }, { "step_min", NAN },
     { "width_max", -1 }, { "width_max", NAN } };
   solver_case c;

@@ -149,7 +149,7 @@ static ambit_status refuse(const ambit_host *h, const char *option, const char *
 static ambit_status choose(const ambit_host *h, const double *option, options *o) {
   double order = option[0], history = option[1];
   if (!(order == 0 || (order >= 3 && order <= ORDER_MOST))) return refuse(h, "time_order", "0, or 3 to 40", order);
-  if (!(history == 0 || (history >= 2 && history <= 1000))) return refuse(h, "history", "0, or 2 to 1000", history);
+  if (!(history == 0 || (history >= 2 && history <= 1000))) return refuse(h, "generators", "0, or 2 to 1000", history);
   if (!(option[2] >= 0)) return refuse(h, "tolerance", "0 or more", option[2]);
   if (!(option[3] > 0)) return refuse(h, "step_max", "more than 0", option[3]);
   if (!(option[4] >= 0)) return refuse(h, "step_min", "0 or more", option[4]);

@@ -3,7 +3,7 @@
 
 static const ambit_param param[] = {
   { "time_order", "1", "integer", "0", "order of the series in time, 3 to 40; 0: by need" },
-  { "history", "1", "integer", "0",
+  { "generators", "1", "integer", "0",
       "generators that are kept, in multiples of the number of states, 2 to 1000; 0: 60" },
   { "tolerance", "1", "", "0",
       "truncation error that one step may add to a state, relative to the state's size; 0: chosen from the width of "
