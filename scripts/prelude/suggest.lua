@@ -12,6 +12,7 @@ local BEND = 1e-4          -- part of a state's size by which one datum bends th
 local MANY = 5             -- data ...
 local LARGE = 12           -- ... or states from which on polynomials in the data alone are too large, and linear maps ...
 local BENT = 1e-7          -- ... with so much bend, or width where the bend was not seen, lose what the data share
+local LOOPS = 0.015        -- width of data up to which closed loops are as good without their constraints at each step
 local SEEN = 0.5           -- part of the run up to which ordinary runs must come to tell the bend
 
 -- In order; each names its solver and says why, or nil.
@@ -30,6 +31,7 @@ local rules = {
     if f.unknowns == 0 and f.states >= 2 * LARGE and f.seen < SEEN then
       return ("%d states with large equations"):format(f.states)
     end
+    if f.invariants > 0 and f.width > LOOPS then return nil end
     return bent and (f.unknowns >= MANY or f.unknowns > 0 and f.states >= LARGE) and
       ("%d uncertain data and %d states: what they have in common is kept"):format(f.unknowns, f.states)
   end },

@@ -1,6 +1,6 @@
 /* Phase 1 of the zonotope solver against arithmetic of its own: products of rows against products of lists of monomials
-** in long double, what products drop, and the rows of random tapes, with equations that are solved for unknowns, against
-** the relations that the bounds of phase 2 rely on (zonotope.h). */
+** in long double, what products drop, and the rows of random tapes, with equations that are solved for unknowns,
+** against the relations that the bounds of phase 2 rely on (zonotope.h). */
 #include "oracle.h"
 #include "solver/zonotope/implicit.h"
 #include <setjmp.h>

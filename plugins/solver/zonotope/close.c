@@ -2,8 +2,8 @@
 **
 ** x(h) = Y(xi) + Y_eps eps + sum_j xi_j Y_j eps + z(h). Old generators move with Y_eps / E; what the mixed terms do to
 ** them is bounded column by column and put into a box, with rounding. Each lump is two new generators (kernel.c): one
-** symbol for all states. What K and C vary by besides goes into the box. Then generators are reduced [Girard 2005]: in units
-** of the states' sizes, the columns that are nearest to an axis, or shortest, become a box.
+** symbol for all states. What K and C vary by besides goes into the box. Then generators are reduced [Girard 2005]: in
+** units of the states' sizes, the columns that are nearest to an axis, or shortest, become a box.
 */
 #include "proof.h"
 
@@ -99,8 +99,8 @@ static double times(const zono *z, const double *matrix, uint32_t i, const doubl
   return sum;
 }
 
-/* Two more columns, for the integrals of theta and of theta (2 tau - 1), which is at most half of the bound of the first:
-** h size mean c, h / 2 size tilt c. Returns their number. */
+/* Two more columns, for the integrals of theta and of theta (2 tau - 1), which is at most half of the bound of the
+** first: h size mean c, h / 2 size tilt c. Returns their number. */
 static uint32_t add_lump(zono *z, uint32_t at, double size, const double *c, const sums *sum, enum origin from) {
   proof *p = z->proof;
   uint32_t nx = z->nx;

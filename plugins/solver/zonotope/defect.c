@@ -1,8 +1,8 @@
 /* defect.c -- by how much each operation fails along the polynomials of phase 1: one number for each, over the step.
 **
 ** op(V_a(s), V_b(s)) = V_j(s) + tau_j,  |tau_j| <= r_j  for all s in [0, h], xi, eps in their boxes. Order by order,
-** `drop` bounds what a product left out (row_dropped: monomials that rows do not hold) and its rounding; orders beyond K
-** are bounded by sizes of rows. For functions that solve a differential equation, the difference u from the true
+** `drop` bounds what a product left out (row_dropped: monomials that rows do not hold) and its rounding; orders beyond
+** K are bounded by sizes of rows. For functions that solve a differential equation, the difference u from the true
 ** function solves it too, with what was dropped as its right-hand side. Quotients and roots are tested afterwards:
 ** their rows are multiplied out again. Proofs: docs/numerics/zonotope.md, section 4.
 */
@@ -43,7 +43,7 @@ typedef struct product {
   uint32_t u, v;
 } product;
 
-/* what is left of  sum_n scale_n u_n v_n - linear  (weighted: of sum_n scale_n u_n' v_n - linear', over k) at each order,
+/* what is left of sum_n scale_n u_n v_n - linear (weighted: of sum_n scale_n u_n' v_n - linear', over k) at each order,
 ** its rounding, and what its products dropped; constant: added at order 0 */
 static void test(zono *z, double *drop, uint32_t count, uint32_t n, const product *p, uint32_t linear, double constant,
     int weighted) {

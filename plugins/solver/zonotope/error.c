@@ -1,8 +1,8 @@
 /* error.c -- the exact error equation, and the proof that its solution stays small.
 **
-** z' = J z + sum_j C_j theta_j, z(0) = 0 for the distance z from the polynomials to the solution with the same xi and rho;
-** |theta_j| <= rr_j as long as |z| <= zeta. If the bound of z that follows is below zeta, it holds over the whole step, and
-** the solution exists there (docs/numerics/zonotope.md, section 5).
+** z' = J z + sum_j C_j theta_j, z(0) = 0 for the distance z from the polynomials to the solution with the same xi and
+** rho; |theta_j| <= rr_j as long as |z| <= zeta. If the bound of z that follows is below zeta, it holds over the whole
+** step, and the solution exists there (docs/numerics/zonotope.md, section 5).
 */
 #include "proof.h"
 

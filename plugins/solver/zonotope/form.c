@@ -39,8 +39,8 @@ void form_product(const forms *f, double *to, double scale, const double *a, con
   to[4 + f->n] += 1;
 }
 
-/* With u = (x - c) / c, |u| <= q < 1 and w = sqrt(1 - q^2): 1 / (1 + u) lies between the chord 1 / w^2 - u / w^2 and the
-** parallel tangent 2 / w - 1 / w^2 - u / w^2. */
+/* With u = (x - c) / c, |u| <= q < 1 and w = sqrt(1 - q^2): 1 / (1 + u) lies between the chord 1 / w^2 - u / w^2 and
+** the parallel tangent 2 / w - 1 / w^2 - u / w^2. */
 int form_inverse(const forms *f, double *to, const double *a, double more) {
   double c = a[0], q = (form_moving(f, a) + more) / fabs(c) * ABOVE;
   if (!(q < 1) || !isfinite(1 / c)) return 0;

@@ -2,8 +2,8 @@
 **
 ** A form is  c | l [n] | rad | norm | mass | seen:  norm >= sum |l_v| (up to date after form_close()), mass a bound of
 ** what was added up so far, for rounding. A form encloses a function of (xi, eps, s): for each of their values, the
-** function's value minus the linear part is within rad. All sums that bound are of numbers >= 0, in round-to-nearest; the last user adds
-** 1e-9 of them (docs/numerics/zonotope.md).
+** function's value minus the linear part is within rad. All sums that bound are of numbers >= 0, in round-to-nearest;
+** the last user adds 1e-9 of them (docs/numerics/zonotope.md).
 */
 #ifndef ZONOTOPE_FORM_H
 #define ZONOTOPE_FORM_H

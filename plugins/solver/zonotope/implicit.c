@@ -1,7 +1,7 @@
 /* implicit.c -- M_0 column by column, its factors L U in the order of pivots, and the solution at one order.
 **
-** All of it is arithmetic in the ring of rows, where the inverse of a row with a constant part is exact: what is left of
-** R_k is rounding only.
+** All of it is arithmetic in the ring of rows, where the inverse of a row with a constant part is exact: what is left
+** of R_k is rounding only.
 */
 #include "implicit.h"
 

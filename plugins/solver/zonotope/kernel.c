@@ -1,11 +1,11 @@
 /* kernel.c -- how a lump acts on the state at the end of the step: K(s) = e^(J (h - s)), J the middle of the slopes.
 **
 ** With T_k = (J h)^k / k! and tau = (h - s) / h, K = sum_k T_k tau^k. In Legendre polynomials on [0, 1],
-** tau^k = 1 / (k + 1) + b_k (2 tau - 1) + rest,  b_k = 3 k / ((k + 1) (k + 2)), and the integral of |rest| is at most the
-** root of that of its square, 1 / (2 k + 1) - 1 / (k + 1)^2 - b_k^2 / 3. So mean = sum T_k / (k + 1), tilt = sum b_k T_k;
-** reach, the integral of |K|, is at most |h| sum |T_k| / (k + 1), and wobble, that of |K - mean - tilt (2 tau - 1)|, at
-** most |h| sum |T_k| times that root. Rounding is bounded by powers of |J h|; what is beyond the last power by its norm
-** in units in which J h is small.
+** tau^k = 1 / (k + 1) + b_k (2 tau - 1) + rest, b_k = 3 k / ((k + 1) (k + 2)), and the integral of |rest| is at most
+** the root of that of its square, 1 / (2 k + 1) - 1 / (k + 1)^2 - b_k^2 / 3. So mean = sum T_k / (k + 1), tilt = sum
+** b_k T_k; reach, the integral of |K|, is at most |h| sum |T_k| / (k + 1), and wobble, that of |K - mean - tilt (2
+** tau - 1)|, at most |h| sum |T_k| times that root. Rounding is bounded by powers of |J h|; what is beyond the last
+** power by its norm in units in which J h is small.
 */
 #include "proof.h"
 

@@ -1,7 +1,7 @@
 /* pace.c -- the length of a step and the order in time, by need.
 **
-** What the lumps add to each state per second, weighed with coefficients at the set's centre, is rate_i(h). It starts from
-** what rows drop at order 0 and grows with h. A step is the longest over which it at most doubles, but for what is
+** What the lumps add to each state per second, weighed with coefficients at the set's centre, is rate_i(h). It starts
+** from what rows drop at order 0 and grows with h. A step is the longest over which it at most doubles, but for what is
 ** negligible beside the state's motion and beside its set. No proof depends on anything here.
 */
 #include "proof.h"

@@ -1,8 +1,9 @@
 /* proof.h -- what the files of phase 2 share.
 **
-** A lump is a function of (xi, eps, s) of which only a bound is known: lump j of each slot, |theta_j| <= rr_j, and one of
-** each output. A target is a component of alpha (what a is off by) or an x'_i that is neither a state nor an unknown;
-** sweeps give the coefficient of every lump in every target, as a centre and a half width over the set and the step.
+** A lump is a function of (xi, eps, s) of which only a bound is known: lump j of each slot, |theta_j| <= rr_j, and one
+** of each output. A target is a component of alpha (what a is off by) or an x'_i that is neither a state nor an
+** unknown; sweeps give the coefficient of every lump in every target, as a centre and a half width over the set and the
+** step.
 */
 #ifndef ZONOTOPE_PROOF_H
 #define ZONOTOPE_PROOF_H

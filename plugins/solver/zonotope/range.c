@@ -1,8 +1,8 @@
 /* range.c -- bounds of the set at the end of a step, and of the states over the step.
 **
 ** The highest value of a polynomial of degree 2 over the cube: a datum in which it is monotone over what is left of the
-** cube is put to its end, which changes the linear parts of the others; again and again. What is left: linear and square
-** terms of each datum exactly, terms of two data by size. Terms of degree 3 by size throughout.
+** cube is put to its end, which changes the linear parts of the others; again and again. What is left: linear and
+** square terms of each datum exactly, terms of two data by size. Terms of degree 3 by size throughout.
 */
 #include "proof.h"
 

@@ -1,11 +1,12 @@
-/* row.h -- rows: polynomials with point coefficients, of degree 3 in xi [m], 1 in eps [nx], and 1 in each of xi and eps.
+/* row.h -- rows: polynomials with point coefficients, of degree 3 in xi [m], 1 in eps [nx], and 1 in each of xi and
+** eps.
 **
 ** A row is  c | xi [m] | eps [nx] | xi xi | xi eps | norms | xi xi xi:  pairs xi_i xi_j of i <= j, row by row,
-** j < reach[i] only; xi_j eps_i for j < mixed, j-major; triples of i <= j <= k < cubic, in the same order. Rows of orders
-** in time from `cubed` on hold no triples: what they would add is small, for it has a power of the step before it. Data
-** are numbered by how much they matter, so that what is left out is at the end. A monomial that a row does not hold is
-** dropped from every sum and product. Norms are sums of absolute values: of each part, and of the linear terms and pairs
-** that have no triples (FAR).
+** j < reach[i] only; xi_j eps_i for j < mixed, j-major; triples of i <= j <= k < cubic, in the same order. Rows of
+** orders in time from `cubed` on hold no triples: what they would add is small, for it has a power of the step before
+** it. Data are numbered by how much they matter, so that what is left out is at the end. A monomial that a row does not
+** hold is dropped from every sum and product. Norms are sums of absolute values: of each part, and of the linear terms
+** and pairs that have no triples (FAR).
 */
 #ifndef ZONOTOPE_ROW_H
 #define ZONOTOPE_ROW_H

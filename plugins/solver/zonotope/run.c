@@ -1,8 +1,8 @@
 /* run.c -- from step to step, and what a run that could not go on has to say.
 **
-** A step is: rows of the flow over the set (series.c), a length (pace.c), what every operation fails by over that length
-** (defect.c), how far solutions can be from the rows (zono_prove), and the set at the end (zono_finish). Where the proof
-** fails the step is made shorter with the same rows.
+** A step is: rows of the flow over the set (series.c), a length (pace.c), what every operation fails by over that
+** length (defect.c), how far solutions can be from the rows (zono_prove), and the set at the end (zono_finish). Where
+** the proof fails the step is made shorter with the same rows.
 */
 #include "proof.h"
 #include <ambit/code.h>

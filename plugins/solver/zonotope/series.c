@@ -1,7 +1,8 @@
 /* series.c -- phase 1: rows of all slots, order by order, instruction by instruction.
 **
 ** At order k, slots that do not depend on the unknowns a come first. Then, stage by stage, the equations are evaluated
-** with a_k = 0, solved for a_k, and everything that depends on it is made again: of a product, only the part that is new.
+** with a_k = 0, solved for a_k, and everything that depends on it is made again: of a product, only the part that is
+** new.
 */
 #include "implicit.h"
 
@@ -26,7 +27,8 @@ static void put_branch(zono *z, uint32_t i, uint32_t k) {
       &z->shape, row_at(z, t->dst[i], k), absolute ? z->branch[i] : 1, coefficient(z, from, k), has_triples(z, k));
 }
 
-/* terms of order k of a b, with (last) or without those that have order k of an operand that depends on stage `level` */
+/* terms of order k of a b, with (last) or without those that have order k of an operand that depends on stage
+** `level` */
 static void add_convolution(const zono *z, terms *sum, uint32_t a, uint32_t b, uint32_t k, uint32_t level, int inner) {
   const shape *s = &z->shape;
   int skip_a = !inner && z->program.level[a] == level, skip_b = !inner && z->program.level[b] == level;

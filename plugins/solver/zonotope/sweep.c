@@ -1,9 +1,10 @@
 /* sweep.c -- coefficients of the error equation, by reverse sweeps in linear forms.
 **
-** 0 = W_x z + W_a alpha + sum_j W_j theta_j + V_R,  W the adjoints of the equations R. inverse.c finds forms near the rows
-** of -W_a^-1. A sweep that is seeded with such a row on all equations, and with 1 on an x'_i, gives coefficients C of all
-** lumps and of z in this target: what cancels between equations cancels in the sweep. What it leaves at the unknowns a is
-** by how much the row fails, rho; the true coefficients are C + rho C_a (close_rows), C_a those of the unknowns.
+** 0 = W_x z + W_a alpha + sum_j W_j theta_j + V_R, W the adjoints of the equations R. inverse.c finds forms near the
+** rows of -W_a^-1. A sweep that is seeded with such a row on all equations, and with 1 on an x'_i, gives coefficients C
+** of all lumps and of z in this target: what cancels between equations cancels in the sweep. What it leaves at the
+** unknowns a is by how much the row fails, rho; the true coefficients are C + rho C_a (close_rows), C_a those of the
+** unknowns.
 */
 #include "proof.h"
 

@@ -1,7 +1,7 @@
 /* zonotope.h -- what the files of the zonotope solver share.
 **
-** The set at time t is { P(xi) + G rho : xi in [-1, 1]^m, rho in [-1, 1]^ngen }: P a polynomial of degree 3 in the data,
-** G generators. For one step (G rho)_i is written E_i eps_i, |eps_i| <= 1.
+** The set at time t is { P(xi) + G rho : xi in [-1, 1]^m, rho in [-1, 1]^ngen }: P a polynomial of degree 3 in the
+** data, G generators. For one step (G rho)_i is written E_i eps_i, |eps_i| <= 1.
 **
 ** Phase 1 (series.c, implicit.c, functions.c) finds rows V_jk, k <= K, for every slot j of the tape, such that
 ** V_j(s) = sum_k V_jk s^k nearly satisfies the equations. It is plain arithmetic in doubles and proves nothing. Phase 2
@@ -22,9 +22,9 @@
 **                             - sum_{1 <= j < k} j z_j (*) q_(k-j)) (*) i_0
 **   ABS MIN MAX    a copy (ABS: perhaps negated), chosen by `branch`
 ** and for k = 0 of a function the Taylor polynomial of degree 3 about the constant of its operand.
-** Each coefficient of a sum of n products is got by at most 10 n + 14 operations in doubles, in any order, contracted or
-** not; the divisions by k and factors j are among them. i_0 is inverse_at(): b_0 (*) i_0 = 1 but for rounding.
-** No value from before the solution of the implicit equations is left in them: nothing cancels that is not in the rows.
+** Each coefficient of a sum of n products is got by at most 10 n + 14 operations in doubles, in any order, contracted
+** or not; the divisions by k and factors j are among them. i_0 is inverse_at(): b_0 (*) i_0 = 1 but for rounding. No
+** value from before the solution of the implicit equations is left in them: nothing cancels that is not in the rows.
 ** Slots of degree 0 (constant in time) have row 0 only, the others K + 1, zero above the slot's degree.
 */
 #ifndef ZONOTOPE_H
