@@ -14,7 +14,8 @@
 #include <ambit/work.h>
 
 #define PIECES_MAX 16
-#define LOHNER_WIDTH 10 /* times its magnitude: how wide a state may get, if `width_max` says nothing */
+/* times what it is to first order: how wide a state may get, if `width_max` says nothing */
+#define LOHNER_WIDTH 10
 
 /* Generators w_c d_c, oldest first, in groups of n columns; a group has a level (history.c). */
 typedef struct history {

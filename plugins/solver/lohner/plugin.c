@@ -25,9 +25,8 @@ static const ambit_param param[] = {
       "shortest step that is tried before the run gives up; 0: 2^-40 of the time span, and over wide sets also when "
       "steps shrink so fast that the end is out of reach" },
   { "width_max", "1", "", "0",
-      "the run ends when a state is wider than this times its initial magnitude (at least times 1); 0: than 10 times "
-      "the "
-      "largest magnitude that its midpoint has had (at least 10)" },
+      "the run ends when a state is wider than this times its initial magnitude (at least times 1); 0: when all "
+      "are wider than 10 times what they are to first order, midpoint and movement with the data" },
   { NULL, NULL, NULL, NULL, NULL },
 };
 

@@ -37,8 +37,25 @@ static int32_t emit(lohner *s, ambit_sink *sink, double t_from) {
 /* -- steps */
 
 static int is_good(const lohner *s, uint32_t i) {
-  return s->hi[i] - s->lo[i] <= s->limit[i] && s->lo[i] > -INFINITY && s->hi[i] < INFINITY &&
-         s->tube_lo[i] > -INFINITY && s->tube_hi[i] < INFINITY && s->tube_lo[i] <= s->tube_hi[i];
+  int narrow = s->options.width_max == 0 || s->hi[i] - s->lo[i] <= s->limit[i];
+  return narrow && s->lo[i] > -INFINITY && s->hi[i] < INFINITY && s->tube_lo[i] > -INFINITY &&
+         s->tube_hi[i] < INFINITY && s->tube_lo[i] <= s->tube_hi[i];
+}
+
+/* How wide a state may get if nobody says: some multiple of what it is to first order, its midpoint and how far it moves
+** with the data. What a linear flow makes of the data is no reason to stop, in whatever units; what wraps around it is.
+** Nothing is learnt from a set that is mostly the latter: midpoints of an exploding set are not to be trusted. A set
+** explodes when all states do: one that starts at zero may be nothing to first order for a while. */
+static int explodes(lohner *s) {
+  int all = 1, some = 0;
+  for (uint32_t i = 0; i < s->nx; i++) {
+    double linear = fabs(s->centre[i]), width = s->hi[i] - s->lo[i];
+    for (uint32_t j = 0; j < s->nc; j++) linear += fabs(s->column[(size_t)i * s->nc + j]);
+    if (s->radius[i] <= 2 * linear) s->limit[i] = larger(s->limit[i], LOHNER_WIDTH * linear);
+    if (!(width <= s->limit[i])) s->culprit = i, some = 1;
+    all &= width > s->limit[i] || width == 0;
+  }
+  return all && some;
 }
 
 static enum why advance(lohner *s) {
@@ -49,10 +66,8 @@ static enum why advance(lohner *s) {
   lohner_move(s);
   lohner_hull(s);
   if (lohner_contract(s, s->t_next, s->pieces) != WHY_NOTHING) return WHY_APART;
+  if (s->options.width_max == 0 && explodes(s)) return WHY_WIDE;
   for (uint32_t i = 0; i < s->nx; i++) {
-    /* speeds that start from zero are large by nature; midpoints of an exploding set are not to be trusted */
-    if (s->options.width_max == 0 && s->radius[i] <= fabs(s->centre[i]))
-      s->limit[i] = larger(s->limit[i], LOHNER_WIDTH * fabs(s->centre[i]));
     s->size[i] = larger(FORGET * s->size[i], larger(fabs(s->lo[i]), fabs(s->hi[i])));
     s->culprit = i;
     if (!is_good(s, i)) return WHY_WIDE;

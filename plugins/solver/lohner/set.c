@@ -23,7 +23,8 @@ static double curvature(const lohner *s, uint32_t j) {
   for (uint32_t i = 0; i < s->nx; i++) {
     size_t at = (size_t)i * s->ndir + j;
     double varies = (rad[at] - s->slope_excess[at]) * reach;
-    double size = s->radius[i] + ROUNDED * s->unit[i]; /* of a state that is known exactly, too */
+    /* of a state that is known exactly, too: it is as wide as the step makes it */
+    double size = (s->radius[i] > 0 ? s->radius[i] : s->grown[i]) + ROUNDED * s->unit[i];
     if (varies > most * size) most = varies / size;
   }
   return most;

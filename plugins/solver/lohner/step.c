@@ -255,7 +255,7 @@ static double bend(const lohner *s) {
       whole += sum * weight;
       first += rad[n] * s->step.length * weight;
     }
-  return whole / first - 1;
+  return first > 0 ? whole / first - 1 : 0; /* 0: slopes are constant but for rounding */
 }
 
 static void plan_next(lohner *s, int cut_short, double length, double ratio, double slope_ratio) {
