@@ -6,7 +6,8 @@
 
 #define TOLERANCE 1e-2
 #define FLOOR 1e-3 /* of a state's size: parts that do not matter */
-#define POWERS 8   /* iterations towards the dominant subspace */
+#define NOISE AMBIT_PROBE_NOISE
+#define POWERS 8 /* iterations towards the dominant subspace */
 #define STEPS_MAX 8192
 
 struct ambit_probe {
@@ -111,10 +112,20 @@ static bool rate(ambit_probe *b, double t, const double *x, double *f) {
   return true;
 }
 
-/* Differences one sqrt(epsilon) of the state's size apart; f0 is the rate at x. */
+/* in which the fastest state changes by a tenth of its size; at most the time span */
+static double quick_time(const ambit_probe *b) {
+  double fastest = 0, span = fabs(b->p->time[b->p->ntime - 1] - b->p->time[0]);
+  for (uint32_t i = 0; i < b->nx; i++)
+    if (b->size[i] > 0) fastest = fmax(fastest, fabs(b->f0[i]) / b->size[i]);
+  return fastest > 0 ? fmin(span, 0.1 / fastest) : span;
+}
+
+/* Differences one sqrt(epsilon) of the state's size apart, of a state that is zero of what it is soon, in whatever units;
+** f0 is the rate at x. */
 static bool differentiate(ambit_probe *b) {
   for (uint32_t j = 0; j < b->nx; j++) {
-    double x = b->x[j], d = 0x1p-26 * (b->size[j] > 0 ? b->size[j] : 1);
+    double size = b->size[j] > 0 ? b->size[j] : fabs(b->f0[j]) * quick_time(b);
+    double x = b->x[j], d = 0x1p-26 * (size > 0 ? size : 1);
     b->x[j] = x + d;
     d = b->x[j] - x;
     bool good = d != 0 && rate(b, b->t, b->x, b->f1);
@@ -132,14 +143,24 @@ static bool differentiate(ambit_probe *b) {
 
 /* -- small linear algebra */
 
+/* of row i from column k on: pivots are chosen relative to it, or units of states would choose them */
+static double row_size(const double *w, uint32_t n, uint32_t i, uint32_t k) {
+  double most = 0;
+  for (uint32_t j = k; j < n; j++) most = fmax(most, fabs(w[i * n + j]));
+  return most;
+}
+
 static bool factor(ambit_probe *b, double hd) {
   uint32_t n = b->nx;
   double *w = b->w;
   for (uint32_t i = 0; i < n * n; i++) w[i] = (i % (n + 1) == 0) - hd * b->jacobian[i];
   for (uint32_t k = 0; k < n; k++) {
     uint32_t best = k;
-    for (uint32_t i = k + 1; i < n; i++)
-      if (fabs(w[i * n + k]) > fabs(w[best * n + k])) best = i;
+    double share = fabs(w[k * n + k]) / row_size(w, n, k, k);
+    for (uint32_t i = k + 1; i < n && !(share >= 0.5); i++) {
+      double other = fabs(w[i * n + k]) / row_size(w, n, i, k);
+      if (!(other <= share)) best = i, share = other;
+    }
     b->pivot[k] = best;
     if (!(fabs(w[best * n + k]) > 0)) return false;
     for (uint32_t j = 0; best != k && j < n; j++) {
@@ -236,21 +257,13 @@ static double try_step(ambit_probe *b, double h) {
   for (uint32_t i = 0; i < n; i++)
     b->k3[i] = b->f2[i] - e * (b->k2[i] - b->f1[i]) - 2 * (b->k1[i] - b->f0[i]) + h * d * b->ft[i];
   solve(b, b->k3);
-  double worst = 0;
+  double worst = 0, most = 0;
+  for (uint32_t i = 0; i < n; i++) most = fmax(most, fabs(b->next[i]));
   for (uint32_t i = 0; i < n; i++) {
-    double size = fmax(fmax(fabs(b->x[i]), fabs(b->next[i])), FLOOR * fmax(b->size[i], FLOOR));
-    worst = fmax(worst, fabs(h / 6 * (b->k1[i] - 2 * b->k2[i] + b->k3[i])) / (TOLERANCE * size));
+    double size = fmax(fmax(fabs(b->x[i]), fabs(b->next[i])), fmax(FLOOR * b->size[i], NOISE * most));
+    if (size > 0) worst = fmax(worst, fabs(h / 6 * (b->k1[i] - 2 * b->k2[i] + b->k3[i])) / (TOLERANCE * size));
   }
   return isfinite(worst) ? worst : -1;
-}
-
-static double first_step(const ambit_probe *b, double span) {
-  double fastest = 0;
-  for (uint32_t i = 0; i < b->nx; i++) {
-    double size = fmax(b->size[i], FLOOR);
-    fastest = fmax(fastest, fabs(b->f0[i]) / size);
-  }
-  return fastest > 0 ? fmin(fabs(span), 0.1 / fastest) : fabs(span);
 }
 
 static void take(ambit_probe *b, double t, double decay, double swing) {
@@ -268,7 +281,7 @@ static void take(ambit_probe *b, double t, double decay, double swing) {
 /* Tries steps of its own until one is good enough; its end, or NaN if there is none. */
 static double choose(ambit_probe *b, double end) {
   double direction = end < b->t ? -1 : 1;
-  if (b->h == 0) b->h = first_step(b, end - b->t);
+  if (b->h == 0) b->h = quick_time(b);
   for (;;) {
     double left = fabs(end - b->t), h = b->h < 0.9 * left ? b->h : left; /* no sliver remains */
     if (!(h > 0x1p-50 * fabs(b->t))) return NAN;

@@ -13,6 +13,9 @@
 #include <ambit/solver.h>
 #include <stdbool.h>
 
+/* A state below this share of the largest one is rounding, whatever the units of both. */
+#define AMBIT_PROBE_NOISE 0x1p-80
+
 typedef struct ambit_probe_facts {
   uint32_t steps;
   double reached; /* s; as far as the work allowed */

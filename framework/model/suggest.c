@@ -67,12 +67,15 @@ static double relative(double x, double size) { return x == 0 ? 0 : size > 0 ? x
 static void compare(const looker *l, ambit_suggest_facts *facts) {
   const ambit_problem *p = &l->problem;
   if (!p->nu) return;
+  double noise = 0;
+  for (uint32_t i = 0; i < p->nx; i++) noise = fmax(noise, AMBIT_PROBE_NOISE * l->size[i]);
   for (uint32_t i = 0; i < p->nx; i++)
     facts->width = fmax(facts->width, relative(p->x0_hi[i] - p->x0_lo[i], l->size[i]));
   for (uint32_t i = 0; i < p->np; i++)
     facts->width = fmax(facts->width, relative(p->p_hi[i] - p->p_lo[i], fmax(fabs(p->p_lo[i]), fabs(p->p_hi[i]))));
   for (uint32_t k = 0; k < l->seen; k++)
     for (uint32_t i = 0; i < p->nx; i++) {
+      if (l->size[i] <= noise) continue;
       size_t at = (size_t)k * p->nx + i;
       double middle = l->trace[0][at], least = l->trace[1][at], most = l->trace[2][at];
       facts->spread = fmax(facts->spread, relative(fabs(most - least), l->size[i]));

@@ -90,6 +90,12 @@ add_test(NAME lua.event_zeros COMMAND ambit run --quiet tests/lua/event_zeros.lu
 set_tests_properties(lua.event_zeros PROPERTIES TIMEOUT 600 ENVIRONMENT "${lua_environment}"
   PASS_REGULAR_EXPRESSION "160 systems, [0-9]+ zeros: [^\n]* 0 lost\n")
 
+# Linear systems in any units. `ambit run tests/lua/linear_systems.lua 1000` is its full length.
+add_test(NAME lua.linear_systems COMMAND ambit run --quiet tests/lua/linear_systems.lua 200
+  WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+set_tests_properties(lua.linear_systems PROPERTIES TIMEOUT 600 ENVIRONMENT "${lua_environment}"
+  PASS_REGULAR_EXPRESSION "200 linear systems, 0 failed\n")
+
 # Motions of random mechanisms. Full length: `ambit run tests/lua/random_mechanisms.lua --mechanisms 200 --draws 500`.
 function(ambit_random_mechanisms name expected)
   add_test(NAME lua.random_mechanisms.${name} COMMAND ambit run --quiet tests/lua/random_mechanisms.lua --joints 4 --data 6

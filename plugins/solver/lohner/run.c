@@ -52,8 +52,9 @@ static int explodes(lohner *s) {
     double linear = fabs(s->centre[i]), width = s->hi[i] - s->lo[i];
     for (uint32_t j = 0; j < s->nc; j++) linear += fabs(s->column[(size_t)i * s->nc + j]);
     if (s->radius[i] <= 2 * linear) s->limit[i] = larger(s->limit[i], LOHNER_WIDTH * linear);
-    if (!(width <= s->limit[i])) s->culprit = i, some = 1;
-    all &= width > s->limit[i] || width == 0;
+    int over = s->limit[i] > 0 && !(width <= s->limit[i]); /* 0: at zero, and moved by rounding alone */
+    if (over) s->culprit = i, some = 1;
+    all &= over || width == 0;
   }
   return all && some;
 }

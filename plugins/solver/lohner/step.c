@@ -20,7 +20,8 @@
 #define BLUNT 0.5 /* slopes limit the step to this share of what the centre allows: raise their order */
 #define SHARP 1.5 /* lower it */
 #define BEND 0.3
-#define TINY 0x1p-1000  /* so that zero is its own proof */
+#define TINY 0x1p-1000 /* so that zero is its own proof */
+#define GUESSES_OF_NOTHING 0x1p20
 #define SLOPPY 0x1p-10  /* most that the excess of slopes may add to the set in a step, relative, ... */
 #define NEAT 0x1p-13    /* the same where data would lose little else, because slopes hardly vary over the set */
 #define MANY_STEPS 64   /* ... in a run of so many steps; of longer runs less, so that the sum stays bounded */
@@ -194,10 +195,12 @@ static double bluntness(lohner *s, const double *added) {
   double worst = 0, share = lohner_share_of_time(s);
   share *= s->nc == 0 ? SLOPPY : smaller(SLOPPY, larger(NEAT, s->varies));
   lohner_choose_grown(s);
+  double nothing = TINY; /* what guesses of TINY for the slopes make of the set, beside a state that is zero */
+  for (uint32_t j = 0; j < s->ndir; j++) nothing += GUESSES_OF_NOTHING * TINY * lohner_reach(s, j);
   for (uint32_t i = 0; i < s->nx; i++) {
     double allowed = s->options.tolerance * (s->lenient ? s->unit[i] : s->size[i]);
     if (s->lenient) allowed += lohner_noise(s, i);
-    double ratio = added[i] / (share * s->grown[i] + allowed + TINY);
+    double ratio = added[i] / (share * s->grown[i] + allowed + nothing);
     if (!(ratio <= worst)) worst = ratio; /* NaN too */
   }
   return worst >= 0 ? worst : INFINITY;

@@ -111,7 +111,8 @@ typedef struct flow {
   int put_off;     /* piece 0 is alone and goes on in spite of its truncation */
   uint32_t next;   /* the instant ahead */
   double t, t_to;
-  uint32_t failed; /* the piece that ended the run */
+  uint32_t failed;  /* the piece that ended the run */
+  _Atomic int stop; /* the receiver wants no more: pieces on the way give up */
   /* -- the record */
   double *lo, *hi, *tube_lo, *tube_hi; /* [nx] */
   struct dense *dense;                 /* NULL: not wished for */

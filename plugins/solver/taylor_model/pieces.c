@@ -138,7 +138,12 @@ enum why flow_go_back(flow *f) {
 
 static AMBIT_WORKER void advance(worker *w, piece *p) {
   p->why = WHY_NOTHING;
-  while (p->t != w->flow->t_to && p->why == WHY_NOTHING) p->why = flow_step(w, p, w->flow->t_to);
+  flow *f = w->flow;
+  while (p->t != f->t_to && p->why == WHY_NOTHING) {
+    p->why = flow_step(w, p, f->t_to);
+    if (!f->pool && flow_ask(f)) f->stop = 1; /* with a pool its owner asks meanwhile */
+    if (f->stop) p->why = WHY_STOPPED;
+  }
   p->done = p->why == WHY_NOTHING;
   if (p->done) flow_hull(w, p);
 }
@@ -151,14 +156,18 @@ static ambit_status job(void *user, uint32_t item, uint32_t number) {
   return AMBIT_OK;
 }
 
-static int32_t meanwhile(void *user) { return flow_ask(user); }
+static int32_t meanwhile(void *user) {
+  flow *f = user;
+  if (flow_ask(f)) f->stop = 1;
+  return f->stop;
+}
 
 /* every item, by the pool or one after the other; nonzero: stop */
 static int run_round(flow *f, uint32_t count) {
-  if (f->pool) return f->pool_service->run(f->pool, count, job, f, meanwhile) != AMBIT_OK;
+  if (f->pool) return f->pool_service->run(f->pool, count, job, f, meanwhile) != AMBIT_OK || f->stop;
   for (uint32_t i = 0; i < count; i++) {
     job(f, i, 0);
-    if (meanwhile(f)) return 1;
+    if (f->stop) return 1;
   }
   return 0;
 }

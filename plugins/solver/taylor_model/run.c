@@ -186,7 +186,7 @@ static ambit_status explain(const flow *f, enum why why) {
 
 ambit_status flow_run(void *self, ambit_sink *sink) {
   flow *f = self;
-  f->sink = sink;
+  f->sink = sink, f->stop = 0;
   ambit_rounding outside = ambit_round_up();
   enum why why = work(f);
   ambit_rounding_restore(outside);
