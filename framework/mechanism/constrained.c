@@ -169,7 +169,7 @@ ambit_status ambit_constrained_outline(
     status = ambit_loops_build(m, arena, loops, &own);
     if (status == AMBIT_OK) status = closed_variables(loops, arena, &v);
   }
-  if (status == AMBIT_OK) status = ambit_dynamics_of(ambit_mechanism_graph(m), &v, NULL, arena, system, &own);
+  if (status == AMBIT_OK) status = ambit_dynamics_states(ambit_mechanism_graph(m), &v, arena, system, &own);
   if (status == AMBIT_OK) status = add_invariants(loops ? &loops->constraints : &c, arena, system, &own);
   if (status == AMBIT_OK) status = ambit_implicit_offer(m, loops, form, arena, system, &own);
   return status == AMBIT_OK ? status : ambit_fail(f, status, "%s", own.message);

@@ -4,7 +4,7 @@
 ** physical masses.
 */
 #include "mechanism/dynamics.h"
-#include "mechanism/constrained.h"
+#include "mechanism/constraints.h"
 #include "mechanism/affine_in.h"
 #include "mechanism/factor.h"
 #include "mechanism/pivot.h"
@@ -194,26 +194,19 @@ ambit_status ambit_motion_accelerations(
 
 /* -- the system */
 
-ambit_status ambit_dynamics_of(ambit_graph *g, const ambit_variables *v, const ambit_expr *du, ambit_arena *arena,
-    ambit_system *system, ambit_failure *f) {
+ambit_status ambit_dynamics_states(
+    ambit_graph *g, const ambit_variables *v, ambit_arena *arena, ambit_system *system, ambit_failure *f) {
   size_t nc = v->ncoordinate, nx = nc + v->n;
   const char **name = ambit_arena_alloc(arena, nx * sizeof *name), **unit = ambit_arena_alloc(arena, nx * sizeof *unit);
-  ambit_expr *state = ambit_expressions(arena, nx), *rate = ambit_expressions(arena, nx);
-  if (!name || !unit || !state || !rate) return no_memory(f);
+  ambit_expr *state = ambit_expressions(arena, nx);
+  if (!name || !unit || !state) return no_memory(f);
   for (size_t i = 0; i < nx; i++) {
     bool speed = i >= nc;
     name[i] = ambit_arena_text(arena, speed ? v->speed[i - nc].name : v->coordinate[i].name);
     unit[i] = ambit_arena_text(arena, speed ? v->speed[i - nc].unit : v->coordinate[i].unit);
     state[i] = speed ? v->speed[i - nc].u : v->coordinate[i].q;
-    if (du) rate[i] = speed ? du[i - nc] : v->coordinate[i].rate;
     if (!name[i] || !unit[i]) return no_memory(f);
   }
-  *system =
-      (ambit_system) { .graph = g, .nx = nx, .name = name, .unit = unit, .state = state, .rate = du ? rate : NULL };
+  *system = (ambit_system) { .graph = g, .nx = nx, .name = name, .unit = unit, .state = state };
   return AMBIT_OK;
-}
-
-ambit_status ambit_dynamics_system(
-    ambit_mechanism *m, uint32_t form, ambit_arena *arena, ambit_system *system, ambit_failure *f) {
-  return ambit_constrained_system(m, form, arena, system, f);
 }

@@ -29,10 +29,7 @@ ambit_status ambit_motion_accelerations(
 #define AMBIT_FORM_AUTO 0u
 #define AMBIT_FORM_MASS_MATRIX 1u
 #define AMBIT_FORM_ARTICULATED 2u
-/* states q, then u: names "beta1", "beta2", "beta1'", "beta2'" */
-ambit_status ambit_dynamics_system(
-    ambit_mechanism *m, uint32_t form, ambit_arena *arena, ambit_system *system, ambit_failure *f);
-/* The system of these variables whose accelerations are du[n]; du NULL: without right-hand sides. */
-ambit_status ambit_dynamics_of(ambit_graph *g, const ambit_variables *v, const ambit_expr *du, ambit_arena *arena,
-    ambit_system *system, ambit_failure *f);
+/* A system without right-hand sides, of these variables: states q, then u: names "beta1", "beta2", "beta1'", "beta2'" */
+ambit_status ambit_dynamics_states(
+    ambit_graph *g, const ambit_variables *v, ambit_arena *arena, ambit_system *system, ambit_failure *f);
 #endif

@@ -216,12 +216,15 @@ static void expect_energy_balance(robot r) {
   ambit_failure f = { 0 };
   ambit_forward forward = forward_of(&r, AMBIT_FORM_ARTICULATED, arena);
   ambit_system system;
-  check(ambit_dynamics_of(r.graph, &forward.variables, forward.du, arena, &system, &f), &f);
+  check(ambit_dynamics_states(r.graph, &forward.variables, arena, &system, &f), &f);
+  ambit_expr *rate = ambit_expressions(arena, system.nx);
+  for (size_t j = 0; j < forward.variables.ncoordinate; j++) rate[j] = forward.variables.coordinate[j].rate;
+  memcpy(rate + forward.variables.ncoordinate, forward.du, forward.variables.n * sizeof *rate);
   const ambit_expr *energy = ambit_mechanism_pull(r.mechanism, AMBIT_NOWHERE, AMBIT_ENERGY, &f);
   const ambit_expr *power = ambit_mechanism_pull(r.mechanism, AMBIT_NOWHERE, AMBIT_POWER, &f);
   if (!energy || !power) fail_msg("%s", f.message);
   ambit_expr total = ambit_graph_op(r.graph, AMBIT_OP_ADD, energy[0], energy[1]), given = *power;
-  ambit_expr pair[2] = { ambit_graph_time_derivative(r.graph, total, system.nx, system.state, system.rate, &f) };
+  ambit_expr pair[2] = { ambit_graph_time_derivative(r.graph, total, system.nx, system.state, rate, &f) };
   const ambit_variables *v = &forward.variables;
   check(ambit_graph_substitute(r.graph, 1, &given, v->n, v->du, forward.du, &f), &f);
   for (size_t i = 0; i < v->n; i++)

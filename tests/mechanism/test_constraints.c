@@ -185,7 +185,7 @@ static void the_states_are_positions_and_independent_speeds(void **state) {
   ambit_failure f = { 0 };
   four_bar(&s, "2.5,0,0", "2,0,0");
   ambit_system system;
-  if (ambit_dynamics_system(s.mechanism, AMBIT_FORM_AUTO, arena, &system, &f) != AMBIT_OK) fail_msg("%s", f.message);
+  if (ambit_constrained_system(s.mechanism, AMBIT_FORM_AUTO, arena, &system, &f) != AMBIT_OK) fail_msg("%s", f.message);
   assert_int_equal(system.nx, 4);
   assert_string_equal(system.name[0], "beta");
   assert_string_equal(system.name[3], "beta'");
@@ -273,7 +273,7 @@ static void expect_refusal(machine *s, const char *part_of_message, const char *
   ambit_arena *arena = ambit_arena_open();
   ambit_failure f = { 0 };
   ambit_system system;
-  assert_int_equal(ambit_dynamics_system(s->mechanism, AMBIT_FORM_AUTO, arena, &system, &f), AMBIT_INVALID);
+  assert_int_equal(ambit_constrained_system(s->mechanism, AMBIT_FORM_AUTO, arena, &system, &f), AMBIT_INVALID);
   if (!strstr(f.message, part_of_message) || !strstr(f.message, name)) fail_msg("%s", f.message);
   ambit_arena_close(arena);
 }
@@ -326,7 +326,7 @@ static void singular_references_are_named(void **state) {
   assert_int_equal(ambit_loops_refer(s.mechanism, 3, flat, upright, &f), AMBIT_OK);
   ambit_arena *arena = ambit_arena_open();
   ambit_system system;
-  assert_int_equal(ambit_dynamics_system(s.mechanism, AMBIT_FORM_AUTO, arena, &system, &f), AMBIT_OK);
+  assert_int_equal(ambit_constrained_system(s.mechanism, AMBIT_FORM_AUTO, arena, &system, &f), AMBIT_OK);
   ambit_arena_close(arena);
   machine_close(&s);
 }

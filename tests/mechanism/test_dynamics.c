@@ -1,5 +1,5 @@
 /* Equations of motion: closed forms, an independent Newton-Euler in doubles, energy, and what is refused. */
-#include "mechanism/dynamics.h"
+#include "mechanism/constrained.h"
 #include "mechanism/machine.h"
 #include "num/random.h"
 #include <math.h>
@@ -34,7 +34,7 @@ static ambit_motion motion_of(bench *s) {
 static ambit_system system_of(bench *s) {
   ambit_system system;
   ambit_failure f = { 0 };
-  if (ambit_dynamics_system(s->machine.mechanism, AMBIT_FORM_AUTO, s->arena, &system, &f) != AMBIT_OK)
+  if (ambit_constrained_system(s->machine.mechanism, AMBIT_FORM_AUTO, s->arena, &system, &f) != AMBIT_OK)
     fail_msg("%s", f.message);
   return system;
 }
@@ -411,7 +411,8 @@ static void uncertain_masses(void **state) {
 static void expect_no_dynamics(bench *s, const char *message) {
   ambit_system system;
   ambit_failure f = { 0 };
-  assert_int_equal(ambit_dynamics_system(s->machine.mechanism, AMBIT_FORM_AUTO, s->arena, &system, &f), AMBIT_INVALID);
+  assert_int_equal(
+      ambit_constrained_system(s->machine.mechanism, AMBIT_FORM_AUTO, s->arena, &system, &f), AMBIT_INVALID);
   if (!strstr(f.message, message)) fail_msg("`%s` instead of `%s`", f.message, message);
 }
 
