@@ -1,8 +1,8 @@
 /* dimension.h -- the dimension of a quantity, and what operations make of it.
 **
 ** KNOWN is what a unit said, and then it is checked. A number without a unit is BARE: as a term it takes the unit of
-** the others, as a factor it is a number. Beside a state or a coordinate it may be a coefficient of any unit, though (100
-** in -100 * x is 100 1/s^2), so that product is OPEN: of a unit that nobody knows, which fits everything; of_state
+** the others, as a factor it is a number. Beside a state or a coordinate it may be a coefficient of any unit, though
+** (100 in -100 * x is 100 1/s^2), so that product is OPEN: of a unit that nobody knows, which fits everything; of_state
 ** tells which those are. SOFT has a unit that is not insisted on: what a force law is called with, since -x may stand
 ** for -1 N/m * x; and pi and sines of open numbers, which are plain numbers as factors and anything as terms.
 **

@@ -38,8 +38,8 @@ end
 
 scene.explain = explain
 
--- os.exit for a command: the exit code is what finish(wish) says, wish being what was asked for. The system keeps 8 bits:
--- a multiple of 256 would become 0, which nobody asked for.
+-- os.exit for a command: the exit code is what finish(wish) says, wish being what was asked for. The system keeps 8
+-- bits: a multiple of 256 would become 0, which nobody asked for.
 function scene.leave_by(finish)
   return function(wish)
     if wish == nil or wish == true then wish = 0 elseif wish == false then wish = 1 end

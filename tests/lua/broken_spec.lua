@@ -30,7 +30,8 @@ describe("a plugin that gives no enclosures", function()
   -- Every verb that computes with the arithmetic: bounds of results, of operands that the kernel fills in, of series.
   local setting = [[
     local a = { "liar", lie = "%s" }
-    local f = ambit.ode { states = { "x" }, equations = function(s) return { x = -ambit.sin(s.x) + ambit.between(0, "0.1") } end }
+    local f = ambit.ode { states = { "x" },
+      equations = function(s) return { x = -ambit.sin(s.x) + ambit.between(0, "0.1") } end }
     local start = { ambit.between(1, 2) }
     local function run(verb, t)
       t.initial, t.t, t.arithmetic, t.solver = start, { 0, 1 }, a, t.solver or "lohner"
@@ -39,7 +40,7 @@ describe("a plugin that gives no enclosures", function()
     local good, r = pcall(function() return %s end)
     print(good and r.status, good and r.code or r)]]
   for name, text in pairs {
-    roots = "ambit.roots { function(s) return s.x ^ 2 - ambit.between(1, 2) end, box = { x = { 0, 3 } }, arithmetic = a }",
+    roots = "ambit.roots { function(s) return s.x ^ 2 - start[1] end, box = { x = { 0, 3 } }, arithmetic = a }",
     equilibria = "ambit.equilibria { f, box = { x = { -1, 1 } }, arithmetic = a }",
     evaluate = "ambit.evaluate { { ambit.sin(start[1]) }, arithmetic = a }",
     sample = "ambit.sample { { ambit.sin(start[1]) }, arithmetic = a }",

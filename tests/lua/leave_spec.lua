@@ -120,7 +120,9 @@ describe("ambit repl", function()
     return code, output
   end
   local faulty = [[drift = ambit.ode { states = { "x" }, equations = function() return { x = 1 } end }
-    function faulty(fault) return ambit.simulate { drift, initial = { 0 }, t = { 0, 1 }, solver = "faulty", fault = fault } end
+    function faulty(fault)
+      return ambit.simulate { drift, initial = { 0 }, t = { 0, 1 }, solver = "faulty", fault = fault }
+    end
     ]]
 
   it("fed by a pipe ends with the exit code of its verbs", function()

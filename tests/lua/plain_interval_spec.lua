@@ -91,7 +91,7 @@ describe("a plain interval", function()
     end
     for _, value in ipairs { interval(-1, 1), "[-1, 1]" } do
       refused(function() ambit.certify(ask { u = value }) end, "certify: `u`: the plain interval")
-      refused(function() ambit.certify(ask(nil, { { inputs = { u = value } } })) end, "certify: `u`: the plain interval")
+      refused(function() ambit.certify(ask(nil, { { inputs = { u = value } } })) end, "certify: `u`: the plain")
       refused(function() ambit.reduce(without_second(ask { u = value })) end, "reduce: `u`: the plain interval")
     end
     refused(function() ambit.certify(ask { u = function(t) return t * interval(0, 1) end }) end, "certify: `u`")

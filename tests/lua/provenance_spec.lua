@@ -69,8 +69,7 @@ describe("provenance", function()
 
   it("begins every report", function()
     local base = os.tmpname()
-    local words = ("compare --quick --csv %s.csv --json %s.json --html %s.html --svg %s.svg %s"):format(base, base, base,
-      base, scene)
+    local words = ("compare --quick --csv B.csv --json B.json --html B.html --svg B.svg "):gsub("B", base) .. scene
     local _, code = shell(("'%s' %s 2>/dev/null"):format(command, words))
     assert.equal(0, code)
     assert.truthy(read(base .. ".csv"):find "^# ambit: [%d.]+, ambit compare\r\n# scene: ")
@@ -111,7 +110,9 @@ describe("provenance", function()
     local picture = os.tmpname()
     local text, code = shell(("cat <<'E' | '%s' run --quiet /dev/stdin 2>&1\n"):format(command) .. ([[
 local ambit = require "ambit"
-local function decay(k) return ambit.ode { states = { "x" }, equations = function(s) return { x = -k * s.x - 0.001 * s.x ^ 3 } end } end
+local function decay(k)
+  return ambit.ode { states = { "x" }, equations = function(s) return { x = -k * s.x - 0.001 * s.x ^ 3 } end }
+end
 local q = { t = { 0, 1 }, initial = { x = 1 }, outputs = { "x" }, error = { x = "0.1" } }
 local function asked(...)
   local t = { ... }

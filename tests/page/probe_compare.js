@@ -63,7 +63,8 @@ function told(what, marks, [x, y]) {
   const box = by("tip").getBoundingClientRect(), said = by("tip").textContent;
   check(!by("tip").hidden, `${what} shows no tip`);
   const near = marks.filter(mark => Math.hypot(middle(mark)[0] - x, middle(mark)[1] - y) < 1);
-  check(near.some(mark => said.includes(mark.getAttribute("aria-label").split(": ")[0])), `${what}: the tip says ${said}`);
+  const labels = near.map(mark => mark.getAttribute("aria-label").split(": ")[0]);
+  check(labels.some(label => said.includes(label)), `${what}: the tip says ${said}`);
   check(box.left >= 0 && box.right <= innerWidth, `${what}: the tip leaves the window`);
 }
 

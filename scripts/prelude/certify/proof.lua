@@ -148,8 +148,8 @@ end
 
 -- What is left of a proof of which a run broke its contract.
 function proof.broken(outcome)
-  return { status = outcome.status, code = outcome.code, reason = outcome.reason, t_reached = outcome.t_reached, error = {},
-    when = {}, scenarios = {}, cpu_seconds = 0 }
+  return { status = outcome.status, code = outcome.code, reason = outcome.reason, t_reached = outcome.t_reached,
+    error = {}, when = {}, scenarios = {}, cpu_seconds = 0 }
 end
 
 -- The detailed model alone over one scenario, box by box of the data: { name, status, cpu_seconds, steps }

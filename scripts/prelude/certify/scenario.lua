@@ -75,7 +75,7 @@ function scenario.symbols(t, what)
   return symbols
 end
 
--- unit: that of what the value stands for; nil: not known. An input varies: a plain interval for one says too little, and
+-- unit: that of what the value stands for; nil: not known. An input varies: a plain interval for one says too little;
 -- for a parameter it is a datum.
 local function value_of(value, unit, is_input, what)
   if type(value) == "function" then value = formula.call(value, what, core.time()) end
@@ -144,7 +144,8 @@ local function read(t, entry, number, count, m, what)
     if value == nil then value = default_of(m, key) end
     local n = #s.leaves + 1
     s.leaves[n] = m.varied[key]
-    s.values[n] = value_of(value, core.unit_of(default_of(m, key)), is_input or false, ("%s: `%s`"):format(where, tostring(key)))
+    local name = ("%s: `%s`"):format(where, tostring(key))
+    s.values[n] = value_of(value, core.unit_of(default_of(m, key)), is_input or false, name)
     core.name_data({ s.values[n] }, tostring(key))
     s.by_key[key] = s.values[n]
   end
