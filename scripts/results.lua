@@ -1,6 +1,6 @@
 -- results.lua: measures anew what the pages of results quote: lua5.4 scripts/results.lua BUILD [WORD ...]
 -- A block between <!-- run: COMMAND --> and <!-- end --> becomes what the command prints; with `run text:` it is
--- fenced. COMMAND starts with `ambit` or `bench/NAME`, both of the folder BUILD, or is a script for
+-- fenced. COMMAND starts with `ambit`, `bench/NAME` or `tests/NAME`, all of the folder BUILD, or is a script for
 -- `ambit run --quiet`. With words, only blocks whose command contains one of them. Pages are written after each block,
 -- so nothing is lost by Ctrl-C; a command that prints nothing leaves its block as it was. Exit 1 if one failed or
 -- missed a figure.
@@ -32,7 +32,7 @@ end
 
 local function full(command)
   if command:find "^ambit " then return build .. "/" .. command end
-  if command:find "^bench/" then return build .. "/" .. command end
+  if command:find "^bench/" or command:find "^tests/" then return build .. "/" .. command end
   return ("%s/ambit run --quiet %s"):format(build, command)
 end
 

@@ -442,8 +442,8 @@ function ambit.evaluate(t) end
 ---@field ended_by string? name of the event that ended the run
 ---@field x table<string, ambit.enclosure> the last enclosure, by state name
 local run = {}
----@param t number|string
----@return table<string, ambit.enclosure> # tight at ends of steps and with dense = true, else that of the whole step around t
+---@param t number|string|ambit.enclosure an enclosure, such as step.t: of the states at all its times within the run
+---@return table<string, ambit.enclosure> # tight at ends of steps and with dense = true, else that of the whole step
 function run:at(t) end
 ---@return fun(): ambit.step?
 function run:steps() end

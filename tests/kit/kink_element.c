@@ -1,5 +1,5 @@
 /* kink_element.c -- an element with kinks, which conforms: in a joint, a spring that acts beyond a stop only, and
-** friction with the square of the rate against it.
+** friction with the square of the rate against it, which beyond a rate grows with that only.
 */
 #include <ambit/spatial.h>
 
@@ -10,7 +10,7 @@ static const ambit_port ports[] = { { "joint", AMBIT_PORT_JOINT, AMBIT_ROLE_IN, 
 static const ambit_param params[] = {
   { "stiffness", "N m/rad|N/m", "", NULL, "of the stop" },
   { "stop", "rad|m", "", "0", "where it begins" },
-  { "drag", "1", "", "0.5", "friction for each square of the rate" },
+  { "drag", "1", "", "0.5", "friction for each square of the rate, up to 0.5" },
   { NULL, NULL, NULL, NULL, NULL },
 };
 
@@ -25,7 +25,8 @@ static ambit_status express(ambit_build *b, uint32_t port, uint32_t quantity, am
   const ambit_expr *u = q ? b->get(b, JOINT, AMBIT_RATE) : NULL;
   if (!u) return AMBIT_INVALID;
   ambit_expr pressed = b->op(b, AMBIT_OP_MAX, ambit_subtract(b, *q, stop), zero);
-  ambit_expr friction = ambit_multiply(b, drag, ambit_multiply(b, *u, b->op(b, AMBIT_OP_ABS, *u, *u)));
+  ambit_expr rate = b->op(b, AMBIT_OP_MIN, b->op(b, AMBIT_OP_ABS, *u, *u), b->num(b, "0.5"));
+  ambit_expr friction = ambit_multiply(b, drag, ambit_multiply(b, *u, rate));
   if (effort) *out = ambit_negate(b, ambit_add(b, ambit_multiply(b, k, pressed), friction));
   if (power) *out = ambit_negate(b, ambit_multiply(b, friction, *u));
   if (energy) {
@@ -37,4 +38,4 @@ static ambit_status express(ambit_build *b, uint32_t port, uint32_t quantity, am
 
 static const ambit_element element = { sizeof element, 1, ports, params, express, NULL };
 
-AMBIT_ELEMENT_ENTRY("kink", "1.0", "A stop and quadratic friction in a joint: formulas with max and abs.", element)
+AMBIT_ELEMENT_ENTRY("kink", "1.0", "A stop and quadratic friction in a joint: max, abs and min.", element)

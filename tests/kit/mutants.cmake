@@ -20,7 +20,12 @@ target_include_directories(run_mutants PRIVATE ${PROJECT_SOURCE_DIR}/tests)
 target_link_options(run_mutants PRIVATE LINKER:--no-as-needed)
 target_link_libraries(run_mutants PRIVATE ambit_flags libambit ${CMAKE_DL_LIBS})
 add_dependencies(run_mutants service_conformance_kit)
+# The program with its words, for the test and for `./dev bench`.
+string(REPLACE ";" " " mutant_text "${mutant_words}")
+file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/tests/kit_mutants
+  CONTENT "#!/bin/sh\nexec $<TARGET_FILE:run_mutants> $<TARGET_FILE:service_conformance_kit> ${mutant_text} \"$@\"\n"
+  FILE_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE)
 if(AMBIT_ONCE)
-  add_test(NAME kit.mutants COMMAND run_mutants $<TARGET_FILE:service_conformance_kit> ${mutant_words})
+  add_test(NAME kit.mutants COMMAND ${PROJECT_BINARY_DIR}/tests/kit_mutants)
   set_tests_properties(kit.mutants PROPERTIES TIMEOUT 900 ENVIRONMENT "${AMBIT_TEST_ENVIRONMENT}")
 endif()

@@ -1,11 +1,9 @@
 /* flow_mutant.c -- solvers that advance in time, each with one fault: in its records, in what it takes from the
 ** problem, in the series that it builds on, or in its conduct. */
-#include "kit/mutants/mutant.h"
 #include "kit/mutants/mutant_conduct.h"
+#include "kit/mutants/solver_mutant.h"
 #include <ambit/jet.h>
-#include <ambit/solver.h>
 #include <math.h>
-#include <stdarg.h>
 
 enum { ROOM = 16384, STATES = 12 };
 
@@ -38,11 +36,6 @@ typedef struct fault {
   const char *base;                           /* NULL: lohner */
   const char *word;                           /* what the sink or run() does, by name */
 } fault;
-
-typedef struct host_of { /* lends series that lie */
-  ambit_host host;
-  const ambit_host *outer;
-} host_of;
 
 typedef struct selection {
   fault f;
@@ -449,45 +442,15 @@ static int32_t progress(ambit_sink *s, double done, const char *message) {
   return speaks("deaf to progress") ? 0 : stop;
 }
 
-static const void *service(const ambit_host *h, const char *id) {
-  const host_of *own = (const host_of *)(const void *)h;
-  if (strcmp(id, AMBIT_JET_SERVICE) == 0) return &chosen->lying;
-  return own->outer->service(own->outer, id);
+static const void *service(const ambit_host *outer, const char *id) {
+  return strcmp(id, AMBIT_JET_SERVICE) == 0 ? &chosen->lying : outer->service(outer, id);
 }
-
-static void *alloc(const ambit_host *h, size_t bytes) {
-  const host_of *own = (const host_of *)(const void *)h;
-  return own->outer->alloc(own->outer, bytes);
-}
-
-/* the last failure only: a wrapper cannot pass `...` on */
-static ambit_status fail(const ambit_host *h, ambit_status status, const char *format, ...) {
-  const host_of *own = (const host_of *)(const void *)h;
-  char text[400];
-  va_list arguments;
-  va_start(arguments, format);
-  vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return speaks("no reason") ? status : own->outer->fail(own->outer, status, "%s", text);
-}
-
-static ambit_status fail_code(const ambit_host *h, ambit_status status, const char *code, const char *format, ...) {
-  const host_of *own = (const host_of *)(const void *)h;
-  char text[400];
-  va_list arguments;
-  va_start(arguments, format);
-  vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return speaks("no reason") ? status : own->outer->fail_code(own->outer, status, code, "%s", text);
-}
-
-static void note(const ambit_host *h, const char *format, ...) { (void)h, (void)format; }
 
 static ambit_status open_liar(const ambit_host *h, const ambit_problem *p, const double *option, void **self) {
   liar *l = h->alloc(h, sizeof *l);
-  host_of *own = h->alloc(h, sizeof *own);
+  mutant_host *own = mutant_lend(h);
   if (!l || !own) return AMBIT_NOMEM;
-  *own = (host_of) { { sizeof own->host, h->abi, alloc, fail, note, service, fail_code }, h };
+  own->service = service, own->is_mute = speaks("no reason");
   if (!chosen->honest) chosen->honest = h->service(h, AMBIT_JET_SERVICE);
   chosen->lying = *chosen->honest;
   chosen->answers++;
@@ -522,22 +485,15 @@ static void close_liar(void *self) { chosen->base.close(((liar *)self)->inner); 
 
 __attribute__((constructor)) static void choose(void);
 
-static ambit_solver *solver;
-static const void *get(const char *id) { return strcmp(id, AMBIT_SOLVER) == 0 ? solver : NULL; }
-
 static void choose(void) {
   const char *wanted = mutant_wanted();
   chosen = calloc(1, sizeof *chosen);
-  solver = calloc(1, sizeof *solver);
   for (size_t i = 0; i < FAULTS; i++)
     if (strcmp(faults[i].name, wanted) == 0) chosen->f = faults[i];
   chosen->conduct = conduct_of(wanted);
-  const ambit_solver *base = mutant_base(chosen->f.base ? chosen->f.base : "lohner", AMBIT_SOLVER);
-  if (!base) exit(1);
-  memcpy(&chosen->base, base, base->size < sizeof *base ? base->size : sizeof *base);
-  *solver = chosen->base;
-  solver->open = open_liar, solver->run = run, solver->close = close_liar;
+  mutant_wrap(chosen->f.base ? chosen->f.base : "lohner", &chosen->base,
+      &(ambit_solver) { .open = open_liar, .run = run, .close = close_liar });
 }
 
 AMBIT_EXPORT const ambit_plugin ambit_entry = { sizeof ambit_entry, AMBIT_ABI, "solver.flow_mutant", "1.0",
-  "A solver with one fault.", get };
+  "A solver with one fault.", mutant_get };

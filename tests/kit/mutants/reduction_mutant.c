@@ -1,10 +1,8 @@
 /* reduction_mutant.c -- strategies of model reduction with one fault: in what they decide, in what they have proved, in
 ** how they stop, or in their conduct. */
-#include "kit/mutants/mutant.h"
 #include "kit/mutants/mutant_conduct.h"
-#include <ambit/solver.h>
+#include "kit/mutants/solver_mutant.h"
 #include <math.h>
-#include <stdarg.h>
 
 enum { CANDIDATES = 512 };
 
@@ -21,11 +19,6 @@ typedef struct liar {
   int32_t stopped;
   void *inner;
 } liar;
-
-typedef struct host_of {
-  ambit_host host;
-  const ambit_host *outer;
-} host_of;
 
 typedef struct selection {
   const char *name;
@@ -136,40 +129,10 @@ static int32_t progress(ambit_sink *s, double done, const char *message) {
 
 /* -- the plugin */
 
-static const void *service(const ambit_host *h, const char *id) {
-  const host_of *own = (const host_of *)(const void *)h;
-  return own->outer->service(own->outer, id);
-}
-static void *alloc(const ambit_host *h, size_t bytes) {
-  const host_of *own = (const host_of *)(const void *)h;
-  return own->outer->alloc(own->outer, bytes);
-}
-static ambit_status fail(const ambit_host *h, ambit_status status, const char *format, ...) {
-  const host_of *own = (const host_of *)(const void *)h;
-  char text[400];
-  va_list arguments;
-  va_start(arguments, format);
-  vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return own->outer->fail(own->outer, status, "%s", text);
-}
-
-static ambit_status fail_code(const ambit_host *h, ambit_status status, const char *code, const char *format, ...) {
-  const host_of *own = (const host_of *)(const void *)h;
-  char text[400];
-  va_list arguments;
-  va_start(arguments, format);
-  vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return own->outer->fail_code(own->outer, status, code, "%s", text);
-}
-static void note(const ambit_host *h, const char *format, ...) { (void)h, (void)format; }
-
 static ambit_status open_liar(const ambit_host *h, const ambit_problem *p, const double *option, void **self) {
   liar *l = h->alloc(h, sizeof *l);
-  host_of *own = h->alloc(h, sizeof *own);
+  mutant_host *own = mutant_lend(h);
   if (!l || !own) return AMBIT_NOMEM;
-  *own = (host_of) { { sizeof own->host, h->abi, alloc, fail, note, service, fail_code }, h };
   *self = l;
   chosen->runs++;
   l->host = h, l->problem = *p, l->theirs = p->reduction, l->own = *p->reduction;
@@ -221,21 +184,13 @@ const char *ambit_mutant_name(size_t i) {
   return i < FAULTS ? faults[i] : i < FAULTS + CONDUCT_FAULTS ? conduct_faults[i - FAULTS].name : NULL;
 }
 
-static ambit_solver *solver;
-static const void *get(const char *id) { return strcmp(id, AMBIT_SOLVER) == 0 ? solver : NULL; }
-
 __attribute__((constructor)) static void choose(void);
 static void choose(void) {
   chosen = calloc(1, sizeof *chosen);
-  solver = calloc(1, sizeof *solver);
   chosen->name = strdup(mutant_wanted());
   chosen->conduct = conduct_of(chosen->name);
-  const ambit_solver *base = mutant_base("reduction", AMBIT_SOLVER);
-  if (!base) exit(1);
-  memcpy(&chosen->base, base, base->size < sizeof *base ? base->size : sizeof *base);
-  *solver = chosen->base;
-  solver->open = open_liar, solver->run = run, solver->close = close_liar;
+  mutant_wrap("reduction", &chosen->base, &(ambit_solver) { .open = open_liar, .run = run, .close = close_liar });
 }
 
 AMBIT_EXPORT const ambit_plugin ambit_entry = { sizeof ambit_entry, AMBIT_ABI, "solver.reduction_mutant", "1.0",
-  "A strategy of reduction with one fault.", get };
+  "A strategy of reduction with one fault.", mutant_get };
