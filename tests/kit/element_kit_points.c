@@ -1,16 +1,23 @@
 /* element_kit_points.c -- at random points, with enclosures: what must vanish contains 0 everywhere, and is narrow at
-** one point at least (a point may be close to a singular position of the element, and says little then).
+** one point at least (a point may be close to a singular position of the element, and says little then). Then at points
+** close to each kink (abs, min, max), on both sides of it.
 */
-#include "graph/tape.h"
-#include "kit/element_kit_inside.h"
 #include "graph/hull.h"
+#include "graph/kink.h"
+#include "graph/tape.h"
+#include "graph/walk.h"
+#include "kit/element_kit_inside.h"
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define POINTS 5
 #define CLOSE 2        /* of these lie close to rest, */
 #define REST 0x1p-12   /* within this, of either sign */
 #define TOLERANCE 1e-8 /* of residuals of numbers of ordinary size */
+#define SWITCHES 16    /* kinks that are looked for */
+#define TRIES 20       /* of random points, for one on each side of a kink */
+#define HALVINGS 30    /* of the way between them */
 #define NORM_MAX 16
 #define NORM_SLACK 0x1p-51 /* a normalised vector of doubles is that close to a unit one, in each component */
 
@@ -66,15 +73,85 @@ static void compare(element_kit *k, const ambit_tape *tape, const ambit_interval
   }
 }
 
+/* -- kinks */
+
+/* What changes its sign at a kink: the operand of abs, the difference of those of min and max. */
+static size_t find_switches(element_kit *k, ambit_expr *e) {
+  ambit_walk walk;
+  size_t n = 0;
+  if (!ambit_walk_open(k->graph, k->nresidual, k->residual, NULL, &walk)) return 0;
+  for (size_t i = 0; i < walk.count && n < SWITCHES; i++) {
+    const ambit_node x = *ambit_graph_node(k->graph, walk.node[i]);
+    if (ambit_op_has_kink(x.op)) e[n++] = x.op == AMBIT_OP_ABS ? x.a : kit_subtract(k, x.a, x.b);
+  }
+  ambit_walk_close(&walk);
+  return n;
+}
+
+typedef struct search {
+  element_kit *k;
+  const ambit_tape *tape;
+  size_t n; /* leaves */
+  const ambit_expr *leaf;
+  ambit_interval *in, *slot, *side[2]; /* side: points below and above a kink */
+} search;
+
+/* -1, 1: the sign of output `out` at s->in; 0: not known */
+static int sign_at(const search *s, size_t out) {
+  ambit_hull(s->tape, s->in, s->slot);
+  ambit_interval x = s->slot[s->tape->out[out]];
+  return x.hi < 0 ? -1 : x.lo > 0 ? 1 : 0;
+}
+
+static bool find_sides(search *s, size_t out) {
+  bool has[2] = { false, false };
+  for (int i = 0; i < TRIES && !(has[0] && has[1]); i++) {
+    choose_point(s->k, s->n, s->leaf, s->in, 1);
+    int sign = sign_at(s, out);
+    if (sign == 0) continue;
+    memcpy(s->side[sign > 0], s->in, s->n * sizeof *s->in);
+    has[sign > 0] = true;
+  }
+  return has[0] && has[1];
+}
+
+/* Halves the way between the sides, then compares on both. */
+static void try_kink(search *s, size_t out, bool *narrow) {
+  if (!find_sides(s, out)) return;
+  for (int i = 0; i < HALVINGS; i++) {
+    for (size_t j = 0; j < s->n; j++) {
+      double v = 0.5 * s->side[0][j].lo + 0.5 * s->side[1][j].lo;
+      s->in[j] = (ambit_interval) { v, v };
+    }
+    put_on_norms(s->k, s->n, s->leaf, s->in);
+    int sign = sign_at(s, out);
+    if (sign == 0) break;
+    memcpy(s->side[sign > 0], s->in, s->n * sizeof *s->in);
+  }
+  for (int i = 0; i < 2; i++) {
+    ambit_hull(s->tape, s->side[i], s->slot);
+    compare(s->k, s->tape, s->slot, narrow);
+  }
+}
+
+static void try_kinks(search *s, size_t count, bool *narrow) {
+  for (int i = 0; i < 2; i++) s->side[i] = calloc(s->n + 1, sizeof *s->side[i]);
+  for (size_t i = 0; i < count; i++) try_kink(s, s->k->nresidual + i, narrow);
+  for (int i = 0; i < 2; i++) free(s->side[i]);
+}
+
 void element_kit_evaluate(element_kit *k) {
   ambit_failure f = { 0 };
   ambit_arena *arena = ambit_arena_open();
   const ambit_tape *tape;
-  size_t n = ambit_graph_leaves(k->graph, k->nresidual, k->residual, 0, NULL);
+  ambit_expr all[ELEMENT_KIT_RESIDUALS + SWITCHES];
+  size_t nswitch = find_switches(k, all + k->nresidual), nall = k->nresidual + nswitch;
+  memcpy(all, k->residual, k->nresidual * sizeof *all);
+  size_t n = ambit_graph_leaves(k->graph, nall, all, 0, NULL);
   ambit_expr *leaf = calloc(n + 1, sizeof *leaf);
   ambit_interval *in = calloc(n + 1, sizeof *in);
-  ambit_graph_leaves(k->graph, k->nresidual, k->residual, n, leaf);
-  if (ambit_tape_seal(k->graph, arena, k->nresidual, k->residual, n, leaf, 0, 0, &tape, &f) != AMBIT_OK)
+  ambit_graph_leaves(k->graph, nall, all, n, leaf);
+  if (ambit_tape_seal(k->graph, arena, nall, all, n, leaf, 0, 0, &tape, &f) != AMBIT_OK)
     element_kit_complain(k, "%s", f.message);
   ambit_interval *slot = f.status == AMBIT_OK ? calloc(tape->nslot + 1, sizeof *slot) : NULL;
   bool *narrow = calloc(k->nresidual + 1, sizeof *narrow);
@@ -83,6 +160,8 @@ void element_kit_evaluate(element_kit *k) {
     ambit_hull(tape, in, slot);
     compare(k, tape, slot, narrow);
   }
+  search s = { .k = k, .tape = tape, .n = n, .leaf = leaf, .in = in, .slot = slot };
+  if (slot && nswitch) try_kinks(&s, nswitch, narrow);
   for (size_t i = 0; slot && i < k->nresidual; i++)
     if (!narrow[i]) element_kit_complain(k, "%s cannot be checked: the difference is never narrow", k->about[i]);
   free(narrow);

@@ -27,6 +27,11 @@ static ambit_status express(ambit_build *b, uint32_t port, uint32_t quantity, am
   ambit_expr pressed = b->op(b, AMBIT_OP_MAX, ambit_subtract(b, *q, stop), zero);
   ambit_expr rate = b->op(b, AMBIT_OP_MIN, b->op(b, AMBIT_OP_ABS, *u, *u), b->num(b, "0.5"));
   ambit_expr friction = ambit_multiply(b, drag, ambit_multiply(b, *u, rate));
+#ifdef KINK_FAULT /* for tests of the kit: a force within 1e-6 of the stop that energy knows nothing of */
+  ambit_expr off = ambit_subtract(b, *q, stop);
+  off = ambit_subtract(b, b->num(b, "1e-6"), b->op(b, AMBIT_OP_ABS, off, off));
+  if (effort) pressed = ambit_add(b, pressed, ambit_multiply(b, b->num(b, "1e5"), b->op(b, AMBIT_OP_MAX, off, zero)));
+#endif
   if (effort) *out = ambit_negate(b, ambit_add(b, ambit_multiply(b, k, pressed), friction));
   if (power) *out = ambit_negate(b, ambit_multiply(b, friction, *u));
   if (energy) {
@@ -38,4 +43,7 @@ static ambit_status express(ambit_build *b, uint32_t port, uint32_t quantity, am
 
 static const ambit_element element = { sizeof element, 1, ports, params, express, NULL };
 
-AMBIT_ELEMENT_ENTRY("kink", "1.0", "A stop and quadratic friction in a joint: max, abs and min.", element)
+#ifndef KINK_NAME
+#define KINK_NAME "kink"
+#endif
+AMBIT_ELEMENT_ENTRY(KINK_NAME, "1.0", "A stop and quadratic friction in a joint: max, abs and min.", element)

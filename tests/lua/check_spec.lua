@@ -110,6 +110,12 @@ describe("ambit check", function()
     has(stdout, "balances of power closed", "conforms: ")
   end)
 
+  it("looks at elements on both sides of their kinks", function()
+    local code, stdout = run("check " .. build .. "/tests/plugins/element/kink_fault.so")
+    assert.equal(3, code, stdout)
+    has(stdout, "power", "BROKEN: ")
+  end)
+
   it("passes options on", function()
     local code, stdout = run "check gsl method=rk4"
     assert.equal(0, code, stdout)
