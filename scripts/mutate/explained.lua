@@ -81,4 +81,10 @@ return {
     "more sweeps: any frame serves, for how far it is from orthogonal is bounded afterwards",
   ["plugins/solver/lohner/history.c | logic 6 | return g->level && g->direction && g->weight && g->block && g->frame && g->shape && g->size && g->sum && g->unit &&"] =
     "memory that ran out for one array ran out for the next",
+  ["plugins/solver/lohner/start.c | relation 2 | return i < s->nx ? o->rad[i] > THIN * fabs(o->mid[i]) + 0x1p-1000 : o->rad[i] > 0;"] =
+    "the radius of a state without a column of its own goes to the rest of the set: both hold it",
+  ["plugins/solver/lohner/step.c | sign 1 | for (uint32_t i = 0; i < s->nx; i++) s->box_excess[i] = H * s->tail_out[i] / (q + 1.0);"] =
+    "a larger bound of the excess",
+  ["plugins/solver/lohner/step.c | guard 1 | if (by_slopes < BLUNT * by_centre && s->slope_order < o->slope_order_max) s->next_slope_order++;"] =
+    "the order of slopes stays lower: wider slopes, the same proof",
 }
