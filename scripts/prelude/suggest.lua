@@ -10,8 +10,8 @@ local STIFF_PER_STEP = 100 -- e-folds of the fastest decay in one step of an ord
 local STIFF_IN_ALL = 1000  -- and over the run: below, a series solver needs a few hundred steps at most
 local BEND = 1e-4          -- part of a state's size by which one datum bends the solution away from a linear map
 local MANY = 5             -- data ...
-local LARGE = 12           -- ... or states from which on polynomials in the data alone are too large, and linear maps ...
-local BENT = 1e-7          -- ... with so much bend, or width where the bend was not seen, lose what the data share
+local LARGE = 12           -- ... or states from which on polynomials without generators are too large, and linear maps
+local BENT = 1e-7          -- with so much bend, or width where the bend was not seen, lose what the data share
 local LOOPS = 0.015        -- width of data up to which closed loops are as good without their constraints at each step
 local SEEN = 0.5           -- part of the run up to which ordinary runs must come to tell the bend
 

@@ -124,7 +124,8 @@ static void tell_origins(const zono *z, char *text, size_t room) {
   if (!(most > 0.005)) at = 0, text[0] = 0;
   if (at <= 0 || (size_t)at + 2 >= room) return;
   origin_text(z, worst, text + at, room - (size_t)at - 1);
-  strcat(text, ")");
+  size_t end = strlen(text);
+  memcpy(text + end, ")", 2);
 }
 
 static ambit_status explain(const zono *z) {
