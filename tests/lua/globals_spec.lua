@@ -16,7 +16,7 @@ local function run(scene)
   file:close()
   local output, code = shell(("'%s' run --quiet %s 2>&1"):format(command, name))
   os.remove(name)
-  output = output:gsub("[%d.]+ [mµ]+s", "TIME"):gsub(name, "SCENE")
+  output = output:gsub("[%d.]+ [mµ]+s", "TIME"):gsub(name, "SCENE"):gsub("SCENE, SHA%-256 %x+", "SCENE")
   return output, code
 end
 
