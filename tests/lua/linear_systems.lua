@@ -2,8 +2,8 @@
 --
 -- x' = A x of 1 to 5 states from a box, about zero or not, some states known exactly, some zero and at rest; saddles,
 -- oscillators, decays of 50 e-folds and growth as much; t from 0, -3 or 1e9 s. The set at the end has the widths
--- |e^(A t)| (hi - lo), and the default run must end there within 1.05 of them, or of what lohner lets a run add to a set
--- while it was larger. Again with each state, and time, in units that are 2^-20 to 2^20 as large.
+-- |e^(A t)| (hi - lo), and the default run must end there within 1.05 of them, or of what lohner lets a run add to a
+-- set while it was larger. Again with each state, and time, in units that are 2^-20 to 2^20 as large.
 local ambit = require "ambit"
 local systems, first = tonumber(arg[1] or 1000), tonumber(arg[2] or 1)
 local EXCESS, ROUNDING = 1.05, 1e-12 -- of the true width; of the largest that the state could be

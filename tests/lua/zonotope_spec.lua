@@ -1,5 +1,5 @@
--- Everything that stands on a flow, with the solver `zonotope`: each answer is compared with a formula, not with another
--- solver of Ambit.
+-- Everything that stands on a flow, with the solver `zonotope`: each answer is compared with a formula, not with
+-- another solver of Ambit.
 local ambit = require "ambit"
 local between = ambit.between
 
