@@ -109,3 +109,7 @@ ambit_random_mechanisms(taylor_model "2 mechanisms, 2 complete, [^\n]* 0 outside
   --joints 3 --solver taylor_model)
 ambit_random_mechanisms(suited "6 mechanisms, [1-9][0-9]* complete, [^\n]* 0 outside\n" --mechanisms 6)
 ambit_random_mechanisms(beyond "motions, [0-9]+ values: [1-9][0-9]* outside\n" --mechanisms 6 --solver lohner --beyond 2)
+
+# Does any solution of random equations leave what was proved? At length: --systems 2000 --draws 50
+add_test(NAME lua.random_equations COMMAND ambit run ${CMAKE_CURRENT_LIST_DIR}/random_equations.lua --systems 60 --draws 6)
+set_tests_properties(lua.random_equations PROPERTIES TIMEOUT 300 ENVIRONMENT "${lua_environment}")
