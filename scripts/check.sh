@@ -6,6 +6,8 @@ mapfile -t sources < <(git ls-files 'framework/*.[ch]' 'plugins/*.[ch]' 'tests/*
   grep -v elementary_tables.h) # generated
 clang-format --dry-run -Werror "${sources[@]}"
 echo "format: ${#sources[@]} files"
+git ls-files '*.md' '*.lua' '*.c' | xargs lua5.4 scripts/wrap.lua --check # headers: a few comments are still longer
+echo "lines: at most 120 columns"
 cmake --preset clang -DAMBIT_TESTS=OFF >/dev/null
 mapfile -t units < <(git ls-files 'framework/*.c' 'plugins/*.c')
 printf '%s\n' "${units[@]}" | xargs -P "$(nproc)" -n 4 clang-tidy -p build/clang --quiet 2>/dev/null

@@ -120,8 +120,8 @@ static double quick_time(const ambit_probe *b) {
   return fastest > 0 ? fmin(span, 0.1 / fastest) : span;
 }
 
-/* Differences one sqrt(epsilon) of the state's size apart, of a state that is zero of what it is soon, in whatever units;
-** f0 is the rate at x. */
+/* Differences one sqrt(epsilon) of the state's size apart, of a state that is zero of what it is soon, in whatever
+** units; f0 is the rate at x. */
 static bool differentiate(ambit_probe *b) {
   for (uint32_t j = 0; j < b->nx; j++) {
     double size = b->size[j] > 0 ? b->size[j] : fabs(b->f0[j]) * quick_time(b);

@@ -225,7 +225,9 @@ end
 local function until_interrupted(job, f)
   local good, status, reason = pcall(f, job)
   if good then return status, reason end
-  if core.interrupted() and tostring(status):find("interrupted", 1, true) then return "stopped", "stopped on request" end
+  if core.interrupted() and tostring(status):find("interrupted", 1, true) then
+    return "stopped", "stopped on request"
+  end
   error(status, 0)
 end
 
@@ -277,8 +279,8 @@ local function finish(job, result)
   for _, name in ipairs(result.outputs) do
     if result.error[name] then errors[#errors + 1], errors[#errors + 2] = name, result.error[name] end
   end
-  session.finish("reduce", { status = result.status, code = result.code, reason = result.reason, cpu_seconds = result.cpu_seconds,
-    t_reached = times[#times] }, job.settings.report,
+  session.finish("reduce", { status = result.status, code = result.code, reason = result.reason,
+    cpu_seconds = result.cpu_seconds, t_reached = times[#times] }, job.settings.report,
     { "criterion", result.criterion, "solver", result.settings.solver, "options", result.settings.options, "ranking",
       result.ranking, "strategy", result.strategy, "cluster", result.cluster, "give_up", result.give_up, "error",
       errors, "terms_before", result.terms_before, "terms_after", result.terms_after, "proofs", result.proofs })

@@ -1,5 +1,5 @@
-/* May atan2 cross its cut over a box? It jumps between points (x, y) of x < 0 with y < 0 and with y >= 0. All boxes with
-** corners of small integers, each against its own points. */
+/* May atan2 cross its cut over a box? It jumps between points (x, y) of x < 0 with y < 0 and with y >= 0. All boxes
+** with corners of small integers, each against its own points. */
 #include "graph/hull.h"
 #include "kit/tape_builder.h"
 #include <setjmp.h>

@@ -1,5 +1,6 @@
 -- random_equations.lua -- does any solution of random equations leave what was proved about it?
---   ambit run tests/lua/random_equations.lua [--solver NAME] [--systems N] [--draws N] [--seed N] [--beyond X] [--verbose]
+--   ambit run tests/lua/random_equations.lua [--solver NAME] [--systems N] [--draws N] [--seed N] [--beyond X]
+--     [--verbose]
 --
 -- Systems of 1 to 8 states and 1 to 10 data of .01 to 10 %, of every operation that a tape may hold, forwards and
 -- backwards in time; solutions for drawn data and initial values, most of them corners, are integrated in extended

@@ -1,6 +1,6 @@
 /* Linear equations A x = -b from inside: a set with a singular matrix is never called regular, however it rounds, and
-** the enclosure of all solutions holds those of the corners, which MPFR solves; none is in a gap. Matrices about the identity have their
-** extreme solutions there, so that little more would be too wide. */
+** the enclosure of all solutions holds those of the corners, which MPFR solves; none is in a gap. Matrices about the
+** identity have their extreme solutions there, so that little more would be too wide. */
 #include "solver/krawczyk/krawczyk.h"
 #include "host/services.h"
 #include "num/random.h"

@@ -1,5 +1,5 @@
-/* Pieces of parameters' ranges, from inside: where no parameter moves the root nothing is cut, and every box stays as it
-** is. */
+/* Pieces of parameters' ranges, from inside: where no parameter moves the root nothing is cut, and every box stays as
+** it is. */
 #define krawczyk_newton seen_newton
 #include "solver/krawczyk/prove.c"
 #include <setjmp.h>

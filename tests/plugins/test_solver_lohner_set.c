@@ -1,5 +1,5 @@
-/* What slopes beyond their midpoints add to a move, from inside: sum_j (S_j - M_j) x_j for every S within its radius, and
-** x in the piece or within the rest, is within the bounds, and some corner reaches them. MPFR is the judge. */
+/* What slopes beyond their midpoints add to a move, from inside: sum_j (S_j - M_j) x_j for every S within its radius,
+** and x in the piece or within the rest, is within the bounds, and some corner reaches them. MPFR is the judge. */
 #include "solver/lohner/lohner.h"
 #include "num/random.h"
 #include <mpfr.h>

@@ -42,10 +42,10 @@ static int is_good(const lohner *s, uint32_t i) {
          s->tube_hi[i] < INFINITY && s->tube_lo[i] <= s->tube_hi[i];
 }
 
-/* How wide a state may get if nobody says: some multiple of what it is to first order, its midpoint and how far it moves
-** with the data. What a linear flow makes of the data is no reason to stop, in whatever units; what wraps around it is.
-** Nothing is learnt from a set that is mostly the latter: midpoints of an exploding set are not to be trusted. A set
-** explodes when all states do: one that starts at zero may be nothing to first order for a while. */
+/* How wide a state may get if nobody says: some multiple of what it is to first order, its midpoint and how far it
+** moves with the data. What a linear flow makes of the data is no reason to stop, in whatever units; what wraps around
+** it is. Nothing is learnt from a set that is mostly the latter: midpoints of an exploding set are not to be trusted. A
+** set explodes when all states do: one that starts at zero may be nothing to first order for a while. */
 static int explodes(lohner *s) {
   int all = 1, some = 0;
   for (uint32_t i = 0; i < s->nx; i++) {

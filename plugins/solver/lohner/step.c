@@ -92,12 +92,13 @@ static int within(size_t n, const double *a, const double *b) {
   return 1;
 }
 
-/* The first guess is a multiple of what eps = 0 gave, the next ones of what the last guess gave: as in the power method,
-** they come to fit how states feed each other, whatever units these are measured in (a force of 1e-8 N and a wheel speed
-** of 50 rad/s in one loop). Where that is not enough, because components are zero whose own derivatives vanish at this
-** order, more and more of the largest is added: they learn from the others, even from far ones. Where states are of very
-** different size (angles and their rates of 1 kHz) that is far too much for some: what none of these guesses proves is
-** tried once more with floors in units of each state, direction by direction. eps [nx x n], a column for each direction.
+/* The first guess is a multiple of what eps = 0 gave, the next ones of what the last guess gave: as in the power
+** method, they come to fit how states feed each other, whatever units these are measured in (a force of 1e-8 N and a
+** wheel speed of 50 rad/s in one loop). Where that is not enough, because components are zero whose own derivatives
+** vanish at this order, more and more of the largest is added: they learn from the others, even from far ones. Where
+** states are of very different size (angles and their rates of 1 kHz) that is far too much for some: what none of these
+** guesses proves is tried once more with floors in units of each state, direction by direction. eps [nx x n], a column
+** for each direction.
 */
 static void guess_plainly(int attempt, size_t n, const double *excess, double *eps) {
   for (size_t k = 0; k < n; k++) eps[k] = (attempt ? AGAIN : GUESS) * excess[k] + TINY;

@@ -192,7 +192,8 @@ function report.of(job)
   end
   local status, whole_code = overall(list)
   local self = setmetatable({ list = list, conditions = by_name, status = status, code = whole_code,
-    reason = reasons(list), refinements = job.runs - 1, cpu_seconds = core.cpu() - job.start, report = job.report }, Report)
+    reason = reasons(list), refinements = job.runs - 1, cpu_seconds = core.cpu() - job.start,
+    report = job.report }, Report)
   for _, c in ipairs(list) do
     if c.status == self.status and not self.bound then self.bound, self.counterexample = c.bound, c.counterexample end
   end

@@ -1,4 +1,5 @@
-/* solver_mutant.h -- the frame of mutants that wrap a solver: the host that they lend to it, the solver that they export.
+/* solver_mutant.h -- the frame of mutants that wrap a solver: the host that they lend to it, the solver that they
+** export.
  */
 #ifndef AMBIT_SOLVER_MUTANT_H
 #define AMBIT_SOLVER_MUTANT_H
