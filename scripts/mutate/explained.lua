@@ -87,4 +87,8 @@ return {
     "a larger bound of the excess",
   ["plugins/solver/lohner/step.c | guard 1 | if (by_slopes < BLUNT * by_centre && s->slope_order < o->slope_order_max) s->next_slope_order++;"] =
     "the order of slopes stays lower: wider slopes, the same proof",
+  ["plugins/solver/stiff/collocation.c | logic 9 | return q->x && q->Z && q->c && q->size && q->least && q->unit && q->scale && q->A && q->residual && q->J && q->f &&"] =
+    "memory that ran out for one array ran out for the next",
+  ["plugins/solver/stiff/collocation.c | guard 1 | if (!(now < 1e6)) return 0;"] =
+    "Newton's method goes on; its result is a guess, which is proved afterwards",
 }
