@@ -34,7 +34,7 @@ static void pieces_are_followed_in_upward_mode(void **unused) {
   for (size_t k = 0; k < sizeof own / sizeof *own; k++) {
     piece p = { .t = 0 };
     uint32_t todo = 0;
-    flow f = { .t_to = 1, .piece = &p, .todo = &todo };
+    flow f = { .t_to = 1, .piece = &p, .todo = &todo, .pool = (ambit_pool *)&todo }; /* whose owner asks */
     worker w = { .flow = &f };
     f.worker = &w, modes[0] = modes[1] = -1;
     fesetround(own[k]);
