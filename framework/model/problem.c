@@ -292,8 +292,13 @@ static ambit_status seal_jacobian(
       entry[i * nx + j] = ambit_graph_derivative(b->graph, e[i], b->input[j], &why);
       if (entry[i * nx + j] != AMBIT_NO_EXPR) continue;
       if (why.status == AMBIT_OK || why.status == AMBIT_NOMEM) return no_memory(b);
+      char when[80] = "";
+      if (b->q->ntime) snprintf(when, sizeof when, "at t = %.9g s, before it begins, ", b->q->time[0]);
       return ambit_fail_code(b->f, AMBIT_UNABLE, AMBIT_CODE_UNABLE_KINK,
-          "the solver needs the Jacobian, but the %s `%s` has no derivative: %s", what, whose[i], why.message);
+          "%sthe solver needs the Jacobian, but the %s `%s` has no derivative: %s; name another `solver`, or put a "
+          "smooth "
+          "law in its place",
+          when, what, whose[i], why.message);
     }
   return ambit_tape_seal(b->graph, b->arena, n * nx, entry, count_inputs(b), b->input, nx, b->q->seal, tape, b->f);
 }

@@ -2,6 +2,7 @@
 ** in long double, what products drop, and the rows of random tapes, with equations that are solved for unknowns,
 ** against the relations that the bounds of phase 2 rely on (zonotope.h). */
 #include "oracle.h"
+#include "num/service.h"
 #include "solver/zonotope/implicit.h"
 #include <setjmp.h>
 #include <stdarg.h>
@@ -26,8 +27,8 @@ static void *lend(const ambit_host *h, size_t bytes) {
 }
 
 static const void *service(const ambit_host *h, const char *id) {
-  (void)id;
-  return h; /* phase 1 asks for one, but calls nothing of it */
+  (void)h;
+  return strcmp(id, AMBIT_NUM_SERVICE) == 0 ? &ambit_num_service_v1 : NULL;
 }
 
 static const ambit_host host = { .size = sizeof host, .abi = AMBIT_ABI, .alloc = lend, .service = service };

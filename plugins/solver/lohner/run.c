@@ -3,7 +3,8 @@
 #include <ambit/code.h>
 #include <stdio.h>
 
-#define FORGET 0.9 /* per step: how fast a state's size is forgotten */
+#define FORGET 0.9               /* per step: how fast a state's size is forgotten */
+#define NEXT_TO_NOTHING 0x1p-900 /* states so small, or at zero, are moved by rounding alone */
 
 /* -- records */
 
@@ -52,7 +53,7 @@ static int explodes(lohner *s) {
     double linear = fabs(s->centre[i]), width = s->hi[i] - s->lo[i];
     for (uint32_t j = 0; j < s->nc; j++) linear += fabs(s->column[(size_t)i * s->nc + j]);
     if (s->radius[i] <= 2 * linear) s->limit[i] = larger(s->limit[i], LOHNER_WIDTH * linear);
-    int over = s->limit[i] > 0 && !(width <= s->limit[i]); /* 0: at zero, and moved by rounding alone */
+    int over = s->limit[i] > NEXT_TO_NOTHING && !(width <= s->limit[i]);
     if (over) s->culprit = i, some = 1;
     all &= over || width == 0;
   }

@@ -7,6 +7,7 @@
 ** their rows are multiplied out again. Proofs: docs/numerics/zonotope.md, section 4.
 */
 #include "proof.h"
+#include "value.h"
 
 /* a coefficient of a sum of n products: 10 n + 14 operations (zonotope.h) */
 static double rounding(double n) { return (10 * n + 16) * UNIT; }
@@ -83,7 +84,7 @@ static double remainder_of(const zono *z, uint32_t a, double g0, double g1, doub
 static double angle_remainder(const zono *z, uint32_t a, uint32_t b) {
   const shape *s = &z->shape;
   const double *y = row_at(z, a, 0), *x = row_at(z, b, 0);
-  double A = row_moving(s, x) + row_moving(s, y), r = hypot(x[0], y[0]) * (1 - 4 * UNIT), near = r - A;
+  double A = row_moving(s, x) + row_moving(s, y), r = length_of(x[0], y[0]) * (1 - 8 * UNIT), near = r - A;
   if (!(near > 0)) return INFINITY;
   double lost = 0.5 * (row_dropped(s, x, x, 1) + row_dropped(s, y, y, 1)) + row_dropped(s, x, y, 1);
   double far = A - (row_l(s, x) + row_l(s, y)) + x[s->norms + NORM_L_FAR] + y[s->norms + NORM_L_FAR] + 8 * UNIT * A;
@@ -94,19 +95,22 @@ static double angle_remainder(const zono *z, uint32_t a, uint32_t b) {
 
 static double order0(const zono *z, uint32_t i) {
   const ambit_tape *t = z->program.tape;
-  uint32_t a = t->a[i];
+  uint32_t op = t->op[i], a = t->a[i];
   const double *x = row_at(z, a, 0);
-  double A = row_moving(&z->shape, x), c = x[0], near = c - A, e = exp(c), h = cosh(c), n = 1 / c;
-  switch (t->op[i]) {
-  case AMBIT_OP_SIN: return remainder_of(z, a, 1, 1, fabs(sin(c)) + 4 * UNIT, 1, 1);
-  case AMBIT_OP_COS: return remainder_of(z, a, 1, 1, fabs(cos(c)) + 4 * UNIT, 1, 1);
-  case AMBIT_OP_EXP: return remainder_of(z, a, e, e, e, e, exp(c + A));
+  double A = row_moving(&z->shape, x), c = x[0], near = c - A, n = 1 / c, v;
+  switch (op) {
+  case AMBIT_OP_SIN:
+  case AMBIT_OP_COS: return remainder_of(z, a, 1, 1, fabs(value_of(z, op, c, 0)) + 8 * UNIT, 1, 1);
+  case AMBIT_OP_EXP: v = value_of(z, op, c, 0); return remainder_of(z, a, v, v, v, v, value_of(z, op, c + A, 0));
   case AMBIT_OP_SINH:
-  case AMBIT_OP_COSH: return remainder_of(z, a, h, h, h, h, cosh(fabs(c) + A));
+  case AMBIT_OP_COSH:
+    v = value_of(z, AMBIT_OP_COSH, c, 0);
+    return remainder_of(z, a, v, v, v, v, value_of(z, AMBIT_OP_COSH, fabs(c) + A, 0));
   case AMBIT_OP_ATAN: return remainder_of(z, a, 2, 1, 1, 2, 6);
   case AMBIT_OP_LOG:
     if (!(near > 0)) return INFINITY;
-    return remainder_of(z, a, fabs(log(c)), n, n * n, 2 * n * n * n, 6 / (near * near * near * near));
+    v = fabs(value_of(z, op, c, 0));
+    return remainder_of(z, a, v, n, n * n, 2 * n * n * n, 6 / (near * near * near * near));
   case AMBIT_OP_ATAN2: return angle_remainder(z, a, t->b[i]);
   default: return 0;
   }
@@ -192,8 +196,8 @@ static double turning(const zono *z, uint32_t i, double length) {
   const ambit_tape *t = z->program.tape;
   uint32_t dst = t->dst[i], other = t->aux[i];
   const double *d = drop_at(z, dst), *e = drop_at(z, other);
-  double sum = hypot(tail(z, t->a[i], other, 1), tail(z, t->a[i], dst, 1)), power = 1;
-  for (uint32_t k = 0; k <= last(z, dst); k++, power *= length) sum += hypot(d[k], e[k]) * power;
+  double sum = length_of(tail(z, t->a[i], other, 1), tail(z, t->a[i], dst, 1)), power = 1;
+  for (uint32_t k = 0; k <= last(z, dst); k++, power *= length) sum += length_of(d[k], e[k]) * power;
   return sum;
 }
 
@@ -209,7 +213,7 @@ static double growing(const zono *z, uint32_t i, double length) {
   uint32_t dst = t->dst[i], other = t->op[i] == AMBIT_OP_EXP ? dst : t->aux[i], a = t->a[i];
   double sum = polynomial(drop_at(z, dst), last(z, dst), length) + tail(z, a, other, 1);
   if (other != dst) sum += polynomial(drop_at(z, other), last(z, other), length) + tail(z, a, dst, 1);
-  return sum * exp(2 * motion(z, a));
+  return sum * value_of(z, AMBIT_OP_EXP, 2 * motion(z, a), 0);
 }
 
 /* q = 1 + a^2 or a^2 + b^2: how far the aux slot is off; near: a lower bound of the true q */

@@ -5,6 +5,7 @@
 ** step, and the solution exists there (docs/numerics/zonotope.md, section 5).
 */
 #include "proof.h"
+#include "value.h"
 
 #define TRIES 8
 #define STEADY 0.1
@@ -67,11 +68,14 @@ static move move_of(zono *z, uint32_t i, double da, double db) {
   case AMBIT_OP_SQRT:
     return near > 0 ? (move) { da / (2 * sqrt(low[a])), da * da / (8 * near * sqrt(near)) } : no_move();
   case AMBIT_OP_LOG: return near > 0 ? (move) { da / low[a], da * da / (2 * near * near) } : no_move();
-  case AMBIT_OP_EXP: return (move) { (high[dst] + r) * da, 0.5 * (high[dst] + r) * exp(da) * da * da };
+  case AMBIT_OP_EXP:
+    return (move) { (high[dst] + r) * da, 0.5 * (high[dst] + r) * value_of(z, AMBIT_OP_EXP, da, 0) * da * da };
   case AMBIT_OP_SIN:
   case AMBIT_OP_COS: return (move) { fmin(1, high[t->aux[i]] + r) * da, 0.5 * da * da };
   case AMBIT_OP_SINH:
-  case AMBIT_OP_COSH: return (move) { (high[t->aux[i]] + z->r[t->aux[i]]) * da, 0.5 * cosh(high[a] + da) * da * da };
+  case AMBIT_OP_COSH:
+    return (
+        move) { (high[t->aux[i]] + z->r[t->aux[i]]) * da, 0.5 * value_of(z, AMBIT_OP_COSH, high[a] + da, 0) * da * da };
   case AMBIT_OP_ATAN: return (move) { da, 0.5 * da * da };
   case AMBIT_OP_ATAN2: return move_angle(z, i, da + db);
   case AMBIT_OP_ABS: return near > 0 ? (move) { da, 0 } : no_move();

@@ -1,5 +1,6 @@
 /* functions.c -- rows of quotients, roots and elementary functions. */
 #include "implicit.h"
+#include "value.h"
 
 typedef struct instr {
   uint32_t op, dst, a, b, aux, k;
@@ -29,7 +30,7 @@ static void put_angle(const zono *z, const instr *n, double *to) {
   terms_moving(s, &sum, -1, w);
   terms_sum(s, &sum, square, 1); /* w^2 - u^2 / 3 - w */
   terms_clear(&sum);
-  sum.c = atan2(y[0], x[0]);
+  sum.c = value_of(z, AMBIT_OP_ATAN2, y[0], x[0]);
   terms_moving(s, &sum, 1, u), terms_outer(s, &sum, 1, u, square);
   terms_sum(s, &sum, to, 1);
 }
@@ -46,20 +47,34 @@ static void put_quotient(zono *z, uint32_t i, const instr *n, double *to) {
 
 static void set(double g[4], double g0, double g1, double g2, double g3) { g[0] = g0, g[1] = g1, g[2] = g2, g[3] = g3; }
 
+/* sin, cos, sinh or cosh, and the derivative, sin and sinh being first */
+static void set_pair(const zono *z, uint32_t op, double c, double g[4]) {
+  int turns = op == AMBIT_OP_SIN || op == AMBIT_OP_COS, first = op == AMBIT_OP_SIN || op == AMBIT_OP_SINH;
+  double a = value_of(z, turns ? AMBIT_OP_SIN : AMBIT_OP_SINH, c, 0), sign = turns ? -1 : 1;
+  double b = value_of(z, turns ? AMBIT_OP_COS : AMBIT_OP_COSH, c, 0);
+  if (first)
+    set(g, a, b, sign * a, sign * b);
+  else
+    set(g, b, sign * a, sign * b, a);
+}
+
 /* value and derivatives at c; 0: undefined */
-static int derivatives(uint32_t op, double c, double g[4]) {
-  double i = 1 / c, q = 1 / (1 + c * c), root = c > 0 ? sqrt(c) : 0, e = exp(c);
+static int derivatives(const zono *z, uint32_t op, double c, double g[4]) {
+  double i = 1 / c, q = 1 / (1 + c * c), v;
   switch (op) {
-  case AMBIT_OP_SQRT: set(g, root, 0.5 * root * i, -0.25 * root * i * i, 0.375 * root * i * i * i); return c > 0;
-  case AMBIT_OP_EXP: set(g, e, e, e, e); return 1;
-  case AMBIT_OP_LOG:
-    if (c > 0) set(g, log(c), i, -i * i, 2 * i * i * i);
+  case AMBIT_OP_SQRT:
+    v = c > 0 ? sqrt(c) : 0;
+    set(g, v, 0.5 * v * i, -0.25 * v * i * i, 0.375 * v * i * i * i);
     return c > 0;
-  case AMBIT_OP_SIN: set(g, sin(c), cos(c), -sin(c), -cos(c)); return 1;
-  case AMBIT_OP_COS: set(g, cos(c), -sin(c), -cos(c), sin(c)); return 1;
-  case AMBIT_OP_SINH: set(g, sinh(c), cosh(c), sinh(c), cosh(c)); return 1;
-  case AMBIT_OP_COSH: set(g, cosh(c), sinh(c), cosh(c), sinh(c)); return 1;
-  case AMBIT_OP_ATAN: set(g, atan(c), q, -2 * c * q * q, (6 * c * c - 2) * q * q * q); return 1;
+  case AMBIT_OP_EXP: v = value_of(z, op, c, 0), set(g, v, v, v, v); return 1;
+  case AMBIT_OP_LOG:
+    if (c > 0) set(g, value_of(z, op, c, 0), i, -i * i, 2 * i * i * i);
+    return c > 0;
+  case AMBIT_OP_SIN:
+  case AMBIT_OP_COS:
+  case AMBIT_OP_SINH:
+  case AMBIT_OP_COSH: set_pair(z, op, c, g); return 1;
+  case AMBIT_OP_ATAN: set(g, value_of(z, op, c, 0), q, -2 * c * q * q, (6 * c * c - 2) * q * q * q); return 1;
   default: return 0;
   }
 }
@@ -76,7 +91,7 @@ int zono_function_order0(zono *z, uint32_t i) {
     if (a[0] == 0 && row_at(z, n.b, 0)[0] == 0) return 0;
     return put_angle(z, &n, to), 1;
   }
-  if (!derivatives(n.op, a[0], g)) return 0;
+  if (!derivatives(z, n.op, a[0], g)) return 0;
   row_function(&z->shape, to, a, g);
   return 1;
 }

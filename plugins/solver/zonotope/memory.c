@@ -106,6 +106,7 @@ static int open_states(zono *z) {
 int zono_open_proof(zono *z) {
   proof *p = z->proof = z->host->alloc(z->host, sizeof *p);
   if (!p || !open_slots(z) || !open_targets(z) || !open_states(z)) return 0;
+  slope_open(p->gap);
   if ((z->problem.wish & AMBIT_WISH_DENSE) && z->nx && !dense_open(z)) return 0;
   return !(z->problem.wish & AMBIT_WISH_SET) || !z->nx || set_open(z);
 }

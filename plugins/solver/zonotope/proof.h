@@ -44,6 +44,7 @@ typedef struct proof {
   double *total, *drop, *scaled; /* [nrow] size of each row; what order k of an operation drops; total |h|^k */
   double *high, *low;            /* [nslot] bounds of |V| over the step; low 0 where it may vanish */
   double *delta;                 /* [nslot] |v* - V| */
+  double gap[TIME_ORDERS];       /* of each power of time from its chord, at most; slope.c */
   uint32_t *slope_at;            /* [nslot] its first derivative form, or AMBIT_NO_SLOT */
   uint32_t *order;               /* [na] unknowns in the order of elimination */
   uint32_t ntarget, nslope;
@@ -95,6 +96,7 @@ int inverse_find(zono *z, const sweeps *w);
 /* origin.c: the shares of the origins in E_i, largest first: "third order in the data 60 %, ..." */
 void origin_text(const zono *z, uint32_t i, char *text, size_t room);
 /* slope.c: forms of slots and of derivatives */
+void slope_open(double gaps[TIME_ORDERS]);
 int slope_forms(zono *z, const sweeps *w, double h);
 /* set.c, dense.c; 0: no memory */
 int set_open(zono *z);

@@ -6,7 +6,16 @@
 */
 #include "proof.h"
 
-static double gap(uint32_t k) { return k < 2 ? 0 : (1 - 1.0 / k) * pow(k, -1 / (k - 1.0)) * (1 + 4 * UNIT); }
+/* At least the most of tau - tau^k over [0, 1]: the tangent at any point lies above it, so pow need not be right. */
+static double gap(uint32_t k) {
+  double tau = fmin(fmax(pow(k, -1 / (k - 1.0)), 0), 1), below = 1; /* tau^(k-1) */
+  for (uint32_t j = 1; j < k; j++) below *= tau;
+  return tau - tau * below + fabs(1 - k * below) + 4 * k * UNIT;
+}
+
+void slope_open(double gaps[TIME_ORDERS]) {
+  for (uint32_t k = 0; k < TIME_ORDERS; k++) gaps[k] = k < 2 ? 0 : gap(k);
+}
 
 /* of slot j; w->forms.n is m + nx + 1, or 0 with h = 0: the centre of the set at the start of the step */
 static void slot_form(const zono *z, const sweeps *w, uint32_t j, double h, double *to) {
@@ -24,7 +33,7 @@ static void slot_form(const zono *z, const sweeps *w, uint32_t j, double h, doub
   for (uint32_t k = 1; k < count && f->n; k++) {
     const double *row = row_at(z, j, k);
     power *= h;
-    double half = 0.5 * power, g = gap(k) * power, sizes = fabs(power);
+    double half = 0.5 * power, g = z->proof->gap[k] * power, sizes = fabs(power);
     for (uint32_t v = 1; v <= n; v++) to[v] += half * row[v];
     time += row[0] * power;
     to[0] -= 0.5 * g * row[0];
