@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #define FORGET 0.9               /* per step: how fast a state's size is forgotten */
+#define BENT 0.5                 /* by how much slopes may vary, relative, where first order says something */
 #define NEXT_TO_NOTHING 0x1p-900 /* states so small, or at zero, are moved by rounding alone */
 
 /* -- records */
@@ -46,18 +47,21 @@ static int is_good(const lohner *s, uint32_t i) {
 /* How wide a state may get if nobody says: some multiple of what it is to first order, its midpoint and how far it
 ** moves with the data. What a linear flow makes of the data is no reason to stop, in whatever units; what wraps around
 ** it is. Nothing is learnt from a set that is mostly the latter: midpoints of an exploding set are not to be trusted. A
-** set explodes when all states do: one that starts at zero may be nothing to first order for a while. */
+** set explodes when all states do: one that starts at zero may be nothing to first order for a while. Where slopes vary
+** over the set by as much as they are, there is no first order: one state that is wider than its midpoint has been
+** large, or than 1, will do. */
 static int explodes(lohner *s) {
-  int all = 1, some = 0;
+  int all = 1, some = 0, bent = s->varies > BENT;
   for (uint32_t i = 0; i < s->nx; i++) {
     double linear = fabs(s->centre[i]), width = s->hi[i] - s->lo[i];
-    for (uint32_t j = 0; j < s->nc; j++) linear += fabs(s->column[(size_t)i * s->nc + j]);
-    if (s->radius[i] <= 2 * linear) s->limit[i] = larger(s->limit[i], LOHNER_WIDTH * linear);
-    int over = s->limit[i] > NEXT_TO_NOTHING && !(width <= s->limit[i]);
-    if (over) s->culprit = i, some = 1;
+    for (uint32_t j = 0; j < s->nc && !bent; j++) linear += fabs(s->column[(size_t)i * s->nc + j]);
+    if (s->radius[i] <= (bent ? 1 : 2) * linear) s->limit[i] = larger(s->limit[i], LOHNER_WIDTH * linear);
+    double limit = bent ? larger(s->limit[i], LOHNER_WIDTH) : s->limit[i];
+    int over = limit > NEXT_TO_NOTHING && !(width <= limit);
+    if (over) s->culprit = i, s->limit[i] = limit, some = 1;
     all &= over || width == 0;
   }
-  return all && some;
+  return some && (all || bent);
 }
 
 static enum why advance(lohner *s) {
