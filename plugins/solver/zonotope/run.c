@@ -25,7 +25,7 @@ static int set_end(zono *z, double h) {
   int at_goal = !(fabs(h) < fabs(goal - z->t) * (1 - 0x1p-40));
   z->t_next = at_goal ? goal : z->t + h;
   z->h = z->t_next - z->t;
-  z->h_error = 0x1p-52 * fabs(z->h); /* a difference is rounded by half of that */
+  z->h_error = 0x1p-52 * fabs(z->h); /* a difference is rounded by half of that; bounds over [0, h] hold for it, too */
   return at_goal;
 }
 
