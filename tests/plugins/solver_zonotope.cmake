@@ -1,4 +1,6 @@
-# Phase 1 is tested from inside: its files are linked into the test.
+# Tests from inside: the files of the solver are linked into them.
 file(GLOB zonotope_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/plugins/solver/zonotope/*.c)
 list(REMOVE_ITEM zonotope_sources ${PROJECT_SOURCE_DIR}/plugins/solver/zonotope/plugin.c)
-target_sources(test.plugins.solver_zonotope_rows PRIVATE ${zonotope_sources})
+foreach(part rows defects slopes step)
+  target_sources(test.plugins.solver_zonotope_${part} PRIVATE ${zonotope_sources})
+endforeach()

@@ -1,41 +1,7 @@
 /* Phase 1 of the zonotope solver against arithmetic of its own: products of rows against products of lists of monomials
 ** in long double, what products drop, and the rows of random tapes, with equations that are solved for unknowns,
 ** against the relations that the bounds of phase 2 rely on (zonotope.h). */
-#include "oracle.h"
-#include "num/service.h"
-#include "solver/zonotope/implicit.h"
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdlib.h>
-#include <cmocka.h>
-
-static uint64_t seed = 17;
-static double draw(double lo, double hi) { return oracle_uniform(&seed, lo, hi); }
-static uint32_t pick(uint32_t n) { return (uint32_t)(oracle_random(&seed) >> 33) % n; }
-
-/* -- a host that keeps what it lent */
-
-static void *lent[20000];
-static size_t nlent;
-
-static void *lend(const ambit_host *h, size_t bytes) {
-  (void)h;
-  assert_true(nlent < sizeof lent / sizeof *lent);
-  size_t size = (bytes + 127) / 64 * 64;
-  return memset(lent[nlent++] = aligned_alloc(64, size), 0, size);
-}
-
-static const void *service(const ambit_host *h, const char *id) {
-  (void)h;
-  return strcmp(id, AMBIT_NUM_SERVICE) == 0 ? &ambit_num_service_v1 : NULL;
-}
-
-static const ambit_host host = { .size = sizeof host, .abi = AMBIT_ABI, .alloc = lend, .service = service };
-
-static void give_back(void) {
-  while (nlent) free(lent[--nlent]);
-}
+#include "zonotope_case.h"
 
 /* -- monomials of a shape: up to three variables, the data, then eps; NONE for no variable */
 
@@ -122,25 +88,6 @@ static long double multiply(
   return dropped;
 }
 
-static void fill(const shape *s, double *x, int kind) {
-  memset(x, 0, s->stride * sizeof *x);
-  x[0] = kind & 1 ? draw(-2, 2) : 0;
-  uint32_t to = kind & 2 ? s->norms : kind & 4 ? s->pair[0] : 1;
-  for (uint32_t i = 1; i < to; i++) x[i] = draw(-1, 1) / 4;
-  for (uint32_t i = 0; i < s->triples && (kind & 8); i++) x[s->cube + i] = draw(-1, 1) / 4;
-  row_norms_all(s, x);
-}
-
-static void thin_out(shape *s) {
-  for (uint32_t i = 0, last = s->m; i < s->m; i++) {
-    uint32_t less = pick(3);
-    last = last > less ? last - less : 0;
-    s->reach[i] = last;
-  }
-  s->mixed = pick(s->m + 1), s->cubic = pick(s->m + 1);
-  shape_place(s);
-}
-
 static void products_are_those_of_polynomials(void **unused) {
   (void)unused;
   static shape shapes[24];
@@ -187,115 +134,6 @@ static void products_are_those_of_polynomials(void **unused) {
     }
   }
   give_back();
-}
-
-/* -- random tapes */
-
-#define SLOTS 200
-#define UNKNOWNS 3
-
-typedef struct maker {
-  ambit_tape tape;
-  uint32_t op[SLOTS], dst[SLOTS], a[SLOTS], b[SLOTS], aux[SLOTS], degree[SLOTS], out[16];
-  double lo[4], hi[4];
-} maker;
-
-static uint32_t put(maker *k, uint32_t op, uint32_t a, uint32_t b) {
-  uint32_t n = k->tape.ninstr++, slot = k->tape.nconst + k->tape.nin + n;
-  assert_true(slot < SLOTS);
-  k->op[n] = op, k->dst[n] = slot, k->a[n] = a, k->b[n] = b, k->aux[n] = AMBIT_NO_SLOT;
-  k->degree[slot] = AMBIT_DEGREE_ANY;
-  if (k->degree[a] == 0 && k->degree[b] == 0) k->degree[slot] = 0;
-  return slot;
-}
-
-static uint32_t put_pair(maker *k, uint32_t first, uint32_t second, uint32_t a) {
-  uint32_t n = k->tape.ninstr, s = put(k, first, a, a), c = put(k, second, a, a);
-  k->aux[n] = c, k->aux[n + 1] = s;
-  return pick(2) ? s : c;
-}
-
-/* a slot in (1, 3) or so */
-static uint32_t positive(maker *k, uint32_t a) {
-  uint32_t sine = put_pair(k, AMBIT_OP_SIN, AMBIT_OP_COS, a);
-  return put(k, AMBIT_OP_ADD, sine, 2);
-}
-
-static uint32_t any(maker *k, uint32_t from) {
-  uint32_t n = k->tape.nconst + k->tape.nin + k->tape.ninstr - from;
-  return from + pick(n);
-}
-
-/* one more operation on what there is; results stay of moderate size */
-static uint32_t grow(maker *k, uint32_t a, uint32_t b) {
-  uint32_t small = put_pair(k, AMBIT_OP_SIN, AMBIT_OP_COS, a), n;
-  switch (pick(12)) {
-  case 0: return put(k, AMBIT_OP_ADD, small, b);
-  case 1: return put(k, AMBIT_OP_SUB, a, small);
-  case 2: return put(k, AMBIT_OP_MUL, small, b);
-  case 3: return put(k, AMBIT_OP_SQR, small, small);
-  case 4: return put(k, AMBIT_OP_DIV, b, positive(k, a));
-  case 5:
-    return put(k, AMBIT_OP_SQRT, positive(k, a), positive(k, a)), k->tape.nconst + k->tape.nin + k->tape.ninstr - 1;
-  case 6: return put(k, AMBIT_OP_EXP, small, small);
-  case 7: n = positive(k, b); return put(k, AMBIT_OP_LOG, n, n);
-  case 8: return put_pair(k, AMBIT_OP_SINH, AMBIT_OP_COSH, small);
-  case 9:
-    n = put(k, AMBIT_OP_SQR, a, a), n = put(k, AMBIT_OP_ADD, n, 0);
-    small = put(k, AMBIT_OP_ATAN, a, a), k->aux[k->tape.ninstr - 1] = n;
-    return small;
-  case 10: {
-    uint32_t y = small, x = positive(k, b);
-    n = put(k, AMBIT_OP_ADD, put(k, AMBIT_OP_SQR, y, y), put(k, AMBIT_OP_SQR, x, x));
-    small = put(k, AMBIT_OP_ATAN2, y, x), k->aux[k->tape.ninstr - 1] = n;
-    return small;
-  }
-  default:
-    return put(k, AMBIT_OP_ABS, positive(k, b), 0),
-           k->b[k->tape.ninstr - 1] = k->a[k->tape.ninstr - 1], k->tape.nconst + k->tape.nin + k->tape.ninstr - 1;
-  }
-}
-
-/* x [nx], a [na], p [2], t; two stages, the second with what the first found */
-static void make(maker *k, uint32_t nx, uint32_t na) {
-  memset(k, 0, sizeof *k);
-  k->tape = (ambit_tape) { .size = sizeof k->tape,
-    .flags = AMBIT_TAPE_SERIES,
-    .nconst = 3,
-    .nin = nx + na + 3,
-    .nout = nx + na,
-    .op = k->op,
-    .dst = k->dst,
-    .a = k->a,
-    .b = k->b,
-    .aux = k->aux,
-    .lo = k->lo,
-    .hi = k->hi,
-    .out = k->out,
-    .degree = k->degree };
-  k->lo[0] = k->hi[0] = 1, k->lo[1] = k->hi[1] = -0.5, k->lo[2] = k->hi[2] = 2.25;
-  for (uint32_t i = 0; i < nx + na; i++) k->degree[3 + i] = AMBIT_DEGREE_ANY;
-  k->degree[3 + nx + na + 2] = 1;
-  uint32_t x = 3, a = 3 + nx, known[12], n = 0;
-  for (uint32_t i = 0; i < nx; i++) known[n++] = x + i;
-  for (uint32_t i = 0; i < 3; i++) known[n++] = a + na + i;
-  for (uint32_t i = 0; i < 3; i++) known[n - 1 - i] = grow(k, known[pick(n)], known[pick(n)]);
-  for (uint32_t e = 0; e < na; e++) {
-    if (e == 2) known[pick(n)] = grow(k, a, a + 1); /* nonlinear in what stage 1 found */
-    uint32_t from = e < 2 ? 0 : 2, to = e < 2 ? (na < 2 ? na : 2) : na, sum = known[pick(n)];
-    for (uint32_t j = from; j < to; j++) {
-      uint32_t factor = j == e ? put(k, AMBIT_OP_ADD, positive(k, known[pick(n)]), 2)
-                               : put_pair(k, AMBIT_OP_SIN, AMBIT_OP_COS, known[pick(n)]);
-      uint32_t term = pick(4)  ? put(k, AMBIT_OP_MUL, factor, a + j)
-                      : j == e ? put(k, AMBIT_OP_DIV, a + j, factor)
-                               : put(k, AMBIT_OP_MUL, a + j, 1);
-      sum = put(k, pick(2) ? AMBIT_OP_ADD : AMBIT_OP_SUB, sum, term);
-    }
-    k->out[nx + e] = sum;
-  }
-  for (uint32_t i = 0; i < nx; i++)
-    k->out[i] = i == 0 ? x + 1 : grow(k, na ? a + pick(na) : any(k, 3), any(k, 3 + nx + na));
-  k->tape.nslot = 3 + k->tape.nin + k->tape.ninstr;
 }
 
 /* -- the relations */
@@ -362,32 +200,6 @@ static void check(checker *c, uint32_t i, uint32_t k) {
   is_zero(c, op, k);
 }
 
-static void open_case(zono *z, maker *k, uint32_t nx, uint32_t na, int thin) {
-  static const uint32_t stage_end[2] = { 2, UNKNOWNS };
-  static const uint32_t pivot[UNKNOWNS] = { 1, 0, 2 };
-  make(k, nx, na);
-  *z = (zono) { .host = &host, .nx = nx, .na = na, .np = 2, .m = 4, .K = 6, .K_max = 6, .t = 0.25 };
-  z->program = (program) { &k->tape, nx, na, 2, 1,
-    na > 2 ? 2
-    : na   ? 1
-           : 0,
-    na > 1 ? stage_end : &z->na, na > 1 ? pivot : pivot + 1, NULL, NULL, NULL, NULL };
-  assert_true(shape_open(&host, &z->shape, z->m, nx));
-  if (thin) thin_out(&z->shape);
-  assert_true(zono_open_rows(z) && zono_open_implicit(z));
-  z->P = lend(&host, nx * z->shape.stride * 8), z->E = lend(&host, nx * 8);
-  for (uint32_t i = 0; i < nx; i++) {
-    double *x = z->P + i * z->shape.stride;
-    fill(&z->shape, x, 3);
-    for (uint32_t j = 1; j < z->shape.norms; j++)
-      x[j] *= j < z->shape.eps || (j >= z->shape.pair[0] && j < z->shape.mix) ? 0.1 : 0;
-    row_norms(&z->shape, x);
-    x[z->shape.norms + NORM_C] = 0;
-    z->E[i] = draw(0, 1e-3);
-  }
-  for (uint32_t i = 0; i < 2; i++) fill(&z->shape, z->p_row + i * z->shape.stride, 5);
-}
-
 static void rows_satisfy_their_relations(void **unused) {
   (void)unused;
   static zono z;
@@ -416,21 +228,6 @@ static void rows_satisfy_their_relations(void **unused) {
 }
 
 /* -- Taylor polynomials: the truth at points, in long double; an error of fourth order */
-
-static long double truth(uint32_t op, long double a, long double b) {
-  switch (op) {
-  case AMBIT_OP_SIN: return sinl(a);
-  case AMBIT_OP_COS: return cosl(a);
-  case AMBIT_OP_EXP: return expl(a);
-  case AMBIT_OP_LOG: return logl(a);
-  case AMBIT_OP_SINH: return sinhl(a);
-  case AMBIT_OP_COSH: return coshl(a);
-  case AMBIT_OP_ATAN: return atanl(a);
-  case AMBIT_OP_SQRT: return sqrtl(a);
-  case AMBIT_OP_ATAN2: return atan2l(a, b);
-  default: return a / b;
-  }
-}
 
 static void functions_are_of_third_order(void **unused) {
   (void)unused;
@@ -463,7 +260,7 @@ static void functions_are_of_third_order(void **unused) {
     assert_true(zono_series(&z));
     const double *r = row_at(&z, 2, 0);
     for (int at = -1; at <= 1; at++) {
-      long double exact = truth(op[n % 10], a + at * (long double)h * da, b + at * (long double)h * db);
+      long double exact = operation(op[n % 10], a + at * (long double)h * da, b + at * (long double)h * db);
       long double series = r[0] + at * (long double)r[1] + at * at * (long double)r[z.shape.pair[0]];
       series += at * at * at * (long double)r[z.shape.cube];
       assert_true(fabsl(exact - series) < 1e-10L);
