@@ -3,6 +3,8 @@
 local ambit = require "ambit"
 local multibody = require "multibody"
 local linkage = require "random_linkage"
+local spatial = require "random_spatial"
+local state = require "random_state"
 
 local random_mechanism = {}
 
@@ -72,7 +74,11 @@ local COMPOUND = {
   universal = { { "turn", "x" }, { "turn", "y" } },
   cylindrical = { { "slide", "z" }, { "turn", "z" } },
   spherical = { { "turn", "z" }, { "turn", "y" }, { "turn", "x" } },
+  spherical_quaternion = { { "turn", "z" }, { "turn", "y" }, { "turn", "x" } },
+  free_quaternion = { { "slide", "x" }, { "slide", "y" }, { "slide", "z" }, { "turn", "z" }, { "turn", "y" },
+    { "turn", "x" } },
 }
+local KINDS = { "universal", "cylindrical", "spherical", "spherical_quaternion", "free_quaternion" }
 
 local function add_compound(r, plan, kind, parent, name)
   local last = body(r, parent, name)
@@ -80,7 +86,7 @@ local function add_compound(r, plan, kind, parent, name)
   for k, part in ipairs(parts) do
     local b = k == #parts and last or massless(k == 1 and parent or #plan.bodies, name)
     if k == #parts then b.parent = #plan.bodies end
-    b.slides, b.axis, b.state = part[1] == "slide", part[2], name .. "." .. k
+    b.slides, b.axis, b.state, b.gimbal = part[1] == "slide", part[2], name .. "." .. k, #parts > 2
     plan.bodies[#plan.bodies + 1] = b
   end
   local first = plan.bodies[#plan.bodies - #parts + 1] -- carries what lies before the joint
@@ -97,7 +103,7 @@ local function tree(r, n)
     local parent = at == 0 and 0 or r.chance(0.75) and at or r.integer(at)
     while parent > 0 and plan.bodies[parent].mass == 0 do parent = parent + 1 end
     local name, left = "j" .. at + 1, n - at
-    local kind = r.chance(0.2) and r.one_of { "universal", "cylindrical", "spherical" }
+    local kind = r.chance(0.3) and r.one_of(KINDS)
     if kind and #COMPOUND[kind] <= left then
       add_compound(r, plan, kind, parent, name)
     else
@@ -108,8 +114,8 @@ local function tree(r, n)
     end
   end
   plan.q, plan.v = {}, {}
-  for i = 1, n do
-    plan.q[i] = plan.bodies[i].slides and r.between(-0.3, 0.3) or r.between(-1, 1)
+  for i, b in ipairs(plan.bodies) do -- three angles in a row stay away from where they are singular
+    plan.q[i] = b.slides and r.between(-0.3, 0.3) or r.between(-1, 1) * (b.gimbal and 0.5 or 1)
     plan.v[i] = r.between(-1, 1)
   end
   return plan
@@ -195,8 +201,7 @@ end
 
 local function add_joint(m, b, at)
   local t = { from = at, name = b.name }
-  if b.compound == "universal" then return m:universal(t) end
-  if b.compound == "spherical" then return m:spherical(t) end
+  if b.compound and b.compound ~= "cylindrical" then return m[b.compound](m, t) end
   t.axis = b.axis
   if b.compound == "cylindrical" then return m:cylindrical(t) end
   return m[b.slides and "prismatic" or "revolute"](m, t)
@@ -223,12 +228,13 @@ local function question(plan, data)
   local value = reader(data)
   local m, frames = build(plan, value)
   local initial = {}
-  for i, b in ipairs(plan.bodies) do
+  for _, i in ipairs(state.joints(plan)) do
     if not (plan.dependent and plan.dependent[i]) then
-      initial[b.state], initial[b.state .. "'"] = value(plan.q, i), value(plan.v, i)
+      state.each(plan, i, ambit, function(k) return value(plan.q, k) end, function(k) return value(plan.v, k) end,
+        function(name, x) initial[name] = x end)
     end
   end
-  if #plan.loops > 0 then linkage.close(m, frames, plan, value, initial) end
+  if #plan.loops > 0 then (plan.spatial and spatial or linkage).close(m, frames, plan, value, initial) end
   return { m:dynamics(), initial = initial }
 end
 
@@ -251,29 +257,34 @@ local function resolved(plan, data, draw)
     t.bodies[i] = c
   end
   t.q, t.v = table.move(plan.q, 1, #plan.bodies, 1, {}), table.move(plan.v, 1, #plan.bodies, 1, {})
-  if #plan.loops > 0 then linkage.resolve(plan, t) end
+  if #plan.loops > 0 then (plan.spatial and spatial or linkage).resolve(plan, t) end
   for k, d in ipairs(data) do d.where[d.key] = kept[k] end
   return t
 end
 
--- A mechanism: its name, data, question() for simulate, motion(draw, times, tolerance) of the oracle, and `watched`:
--- names of the states by their place in a motion. o: joints, data: at most so many
+local function plan_of(r, n)
+  local kind = r.unit()
+  if kind < 0.35 then return linkage.new(r, n, body, drive) end
+  if kind < 0.5 and n > 3 then return spatial.new(r, n, body, massless, drive) end
+  return tree(r, n)
+end
+
+-- A mechanism: its name, data, question() for simulate, motion(draw, times, tolerance) of the oracle: a list of the
+-- states by name. o: joints, data: at most so many
 function random_mechanism.new(r, o)
   local n = 2 + r.integer(math.max(1, o.joints - 2))
-  local plan = r.chance(0.35) and linkage.new(r, n, body, drive) or tree(r, n)
+  local plan = plan_of(r, n)
   local data = choose_data(r, plan, o.data)
-  local watched = {}
-  for i, b in ipairs(plan.bodies) do
-    watched[i] = b.state
-    if not (plan.dependent and plan.dependent[i]) then watched[#plan.bodies + i] = b.state .. "'" end
-  end
   return {
-    name = ("%s, %d data"):format(plan.name, #data), data = data, watched = watched,
+    name = ("%s, %d data"):format(plan.name, #data), data = data,
     question = function() return question(plan, data) end,
     motion = function(draw, times, tolerance)
       local t = resolved(plan, data, draw)
       t.times, t.tolerance = times, tolerance
-      return multibody.run(t)
+      local list, problem = multibody.run(t)
+      if not list then return nil, problem end
+      for k, found in ipairs(list) do list[k] = state.of(plan, found) end
+      return list
     end,
   }
 end

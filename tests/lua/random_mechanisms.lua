@@ -2,12 +2,13 @@
 --   ambit run tests/lua/random_mechanisms.lua [--solver NAME] [--mechanisms N] [--draws N] [--seed N] [--seconds S]
 --     [--joints N] [--data N] [--time T] [--beyond X] [--verbose]
 --
--- Trees and loops of 3 to 12 joints with 5 to 40 data of .01 to 5 % are simulated; motions of drawn mechanisms, half of
--- them corners of the data, are integrated in extended precision by formulas that share nothing with Ambit's
--- (tests/oracle/multibody.h) and must lie inside, at ends of steps and between. Needs the test module `multibody` in
--- LUA_CPATH. Full length: --mechanisms 200 --draws 500. Without --solver each mechanism is run by the solver that
--- suits. --seconds: CPU time after which a run is stopped; what it proved until then is checked. --beyond 2: data are
--- drawn from twice their tolerances, so that motions must be found outside. Exit 1 if a motion is outside.
+-- Trees, plane and spatial loops of 3 to 12 joints, ball joints as quaternions among them, with 5 to 40 data of .01 to
+-- 5 % are simulated; motions of drawn mechanisms, half of them corners of the data, are integrated in extended
+-- precision by formulas that share nothing with Ambit's (tests/oracle/multibody.h) and must lie inside, at ends of
+-- steps and between. Needs the test module `multibody` in LUA_CPATH. Full length: --mechanisms 200 --draws 500. Without
+-- --solver each mechanism is run by the solver that suits. --seconds: CPU time after which a run is stopped; what it
+-- proved until then is checked. --beyond 2: data are drawn from twice their tolerances, so that motions must be found
+-- outside. Exit 1 if a motion is outside.
 local ambit = require "ambit"
 local core = require "ambit.core"
 local session = require "ambit.session"
@@ -57,8 +58,8 @@ end
 local function compare(enclosures, motion, mechanism)
   local worst, where = 0, nil
   for k, x in ipairs(enclosures) do
-    for i, name in pairs(mechanism.watched) do
-      local value, set = motion[k][i], x[name]
+    for name, value in pairs(motion[k]) do
+      local set = x[name]
       total.values = total.values + 1
       local off = math.max(set.lo - value, value - set.hi) / (1 + math.abs(value)) - mechanism.slack
       if off > worst or off ~= off then
@@ -75,8 +76,8 @@ local function slack_of(mechanism, times)
   if not fine or not coarse then return nil end
   local apart = 0
   for k in ipairs(times) do
-    for i in pairs(mechanism.watched) do
-      apart = math.max(apart, math.abs(fine[k][i] - coarse[k][i]) / (1 + math.abs(fine[k][i])))
+    for name, value in pairs(fine[k]) do
+      apart = math.max(apart, math.abs(value - coarse[k][name]) / (1 + math.abs(value)))
     end
   end
   return 1e-14 + 10 * apart
