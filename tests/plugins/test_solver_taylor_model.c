@@ -64,7 +64,7 @@ static void bad_options_are_refused_by_name(void **unused) {
     { "time_order", 41 }, { "jacobian_order", 2 }, { "jacobian_order", 21 }, { "tolerance", -1 }, { "tolerance", NAN },
     { "split_tolerance", -1 }, { "split_tolerance", NAN }, { "pieces_max", -1 }, { "pieces_max", 1e9 },
     { "outputs", 0 }, { "outputs", NAN }, { "step_max", 0 }, { "step_max", NAN }, { "step_min", -1 },
-    { "width_max", 0 }, { "width_max", NAN } };
+    { "width_max", -1 }, { "width_max", NAN } };
   solver_case c;
   case_open(&c, "taylor_model", "interval");
   case_refuses(&c, sizeof bad / sizeof *bad, bad);

@@ -32,7 +32,8 @@ typedef struct sample {
   double slope_mid[STATES * (ORDER_MAX + 1) * STATES], slope_rad[STATES * (ORDER_MAX + 1) * STATES];
   double near_mid[STATES], near_rad[STATES], A[STATES * STATES], group_mid[INPUTS], group_rad[INPUTS];
   double group_rest[STATES], transfer_mid[STATES * STATES], transfer_rad[STATES * STATES], reach[STATES];
-  double scratch[4 * STATES], seed[STATES], zero[STATES], tube_lo[STATES], tube_hi[STATES], pad[STATES];
+  double unit[STATES], weight[STATES], local[STATES], scratch[4 * STATES], seed[STATES], zero[STATES], tube_lo[STATES],
+      tube_hi[STATES], pad[STATES];
 } sample;
 
 static ambit_random draws = { 1 };
@@ -68,6 +69,7 @@ static void sample_open(sample *s, uint32_t order) {
   w->group_mid = s->group_mid, w->group_rad = s->group_rad, w->group_rest = s->group_rest;
   w->transfer_mid = s->transfer_mid, w->transfer_rad = s->transfer_rad, w->reach = s->reach, w->scratch = s->scratch;
   w->seed = s->seed, w->zero = s->zero, w->tube_lo = s->tube_lo, w->tube_hi = s->tube_hi;
+  w->unit = s->unit, w->weight = s->weight, w->local = s->local;
   const ambit_arithmetic *a = &s->arithmetic.full;
   assert_int_equal(s->f.jet->open(host, tape, a, s->arithmetic.ctx, order, STATES, NULL, &w->box), AMBIT_OK);
   assert_int_equal(s->f.jet->open(host, tape, a, s->arithmetic.ctx, 0, STATES, NULL, &w->near), AMBIT_OK);
@@ -86,7 +88,8 @@ static void draw(sample *s) {
   static const double radius[] = { 0, 0, 0x1p-40, 0x1p-10, 0x1p-4 }, unsure[] = { 0, 0, 0x1p-50, 0x1p-14 };
   for (size_t i = 0; i < INPUTS; i++) s->group_mid[i] = coarse(-2, 2), s->group_rad[i] = radius[below(5)];
   for (size_t i = 0; i < STATES; i++) {
-    s->group_rest[i] = between(0, 1e-3), s->pad[i] = between(0, 1e-3), s->size[i] = 1;
+    s->group_rest[i] = between(0, 1e-3), s->pad[i] = between(0, 1e-3);
+    s->size[i] = s->unit[i] = ldexp(1, (int)below(7) - 3), s->local[i] = ldexp(between(0, 1), -(int)below(40));
     s->tube_lo[i] = INFINITY, s->tube_hi[i] = -INFINITY;
   }
   double error = unsure[below(4)], h = error > 0 ? coarse(0.01, 0.1) : between(0.01, 0.1);
@@ -234,14 +237,34 @@ static void check_growth(const sample *s, const choice *c) {
   mpfr_clear(at[0]), mpfr_clear(at[1]), mpfr_clear(r), mpfr_clear(part);
 }
 
+/* exp(A) local by 200 terms, whatever the weights in which the bound takes its norm */
+static void check_exponential(sample *s) {
+  double apart[STATES];
+  long double term[STATES], sum[STATES], next[STATES];
+  ambit_rounding old = ambit_round_up();
+  exponentiate(&s->w, apart);
+  ambit_rounding_restore(old);
+  for (size_t i = 0; i < STATES; i++) sum[i] = term[i] = s->local[i];
+  for (int k = 1; k <= 200; k++) {
+    for (size_t i = 0; i < STATES; i++) {
+      next[i] = 0;
+      for (size_t j = 0; j < STATES; j++) next[i] += (long double)s->A[i * STATES + j] * term[j] / k;
+    }
+    for (size_t i = 0; i < STATES; i++) sum[i] += term[i] = next[i];
+  }
+  for (size_t i = 0; i < STATES; i++) {
+    assert_true(apart[i] >= (double)(sum[i] * (1 - 1e-15L)));
+    assert_true(apart[i] <= (double)(sum[i] * (1 + 1e-12L)) + 1e-20 * s->weight[i]);
+  }
+}
+
 /* 0: not proved */
 static AMBIT_WORKER int run(sample *s) {
   piece p = { 0 };
-  double norm;
   if (solve_box(&s->w, &p) || !prove_box(&s->w)) return 0;
   find_tube(&s->w);
   transfer(&s->w, 0);
-  return find_growth(&s->w, &p, s->pad, &norm);
+  return find_growth(&s->w, &p, s->pad);
 }
 
 static void steps_hold_their_solutions(void **unused) {
@@ -257,6 +280,7 @@ static void steps_hold_their_solutions(void **unused) {
       int known = run(&s);
       ambit_rounding_restore(old);
       proved += known;
+      if (known) check_exponential(&s);
       for (int i = 0; i < 12 && known; i++) {
         choice c = choose(&s);
         check_tube(&s, &c, c.time);

@@ -56,7 +56,7 @@ static void bad_options_are_refused_by_name(void **unused) {
   (void)unused;
   static const case_option bad[] = { { "order", 3 }, { "order", 21 }, { "degree", 17 }, { "degree", -1 },
     { "tolerance", -1 }, { "tolerance", NAN }, { "step_max", 0 }, { "step_max", NAN }, { "step_min", -1 },
-    { "width_max", 0 }, { "width_max", NAN } };
+    { "width_max", -1 }, { "width_max", NAN } };
   solver_case c;
   case_open(&c, "valencia", "interval");
   case_refuses(&c, sizeof bad / sizeof *bad, bad);

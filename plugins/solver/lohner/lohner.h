@@ -11,11 +11,10 @@
 #include "ball.h"
 #include <ambit/jet.h>
 #include <ambit/solver.h>
+#include <ambit/width.h>
 #include <ambit/work.h>
 
 #define PIECES_MAX 16
-/* times what it is to first order: how wide a state may get, if `width_max` says nothing */
-#define LOHNER_WIDTH 10
 
 /* Generators w_c d_c, oldest first, in groups of n columns; a group has a level (history.c). */
 typedef struct history {

@@ -3,9 +3,8 @@
 #include <ambit/code.h>
 #include <stdio.h>
 
-#define FORGET 0.9               /* per step: how fast a state's size is forgotten */
-#define BENT 0.5                 /* by how much slopes may vary, relative, where first order says something */
-#define NEXT_TO_NOTHING 0x1p-900 /* states so small, or at zero, are moved by rounding alone */
+#define FORGET 0.9 /* per step: how fast a state's size is forgotten */
+#define BENT 0.5   /* by how much slopes may vary, relative, where first order says something */
 
 /* -- records */
 
@@ -44,24 +43,16 @@ static int is_good(const lohner *s, uint32_t i) {
          s->tube_hi[i] < INFINITY && s->tube_lo[i] <= s->tube_hi[i];
 }
 
-/* How wide a state may get if nobody says: some multiple of what it is to first order, its midpoint and how far it
-** moves with the data. What a linear flow makes of the data is no reason to stop, in whatever units; what wraps around
-** it is. Nothing is learnt from a set that is mostly the latter: midpoints of an exploding set are not to be trusted. A
-** set explodes when all states do: one that starts at zero may be nothing to first order for a while. Where slopes vary
-** over the set by as much as they are, there is no first order: one state that is wider than its midpoint has been
-** large, or than 1, will do. */
+/* Where slopes vary over the set by as much as they are, there is no first order, and only midpoints count. */
 static int explodes(lohner *s) {
-  int all = 1, some = 0, bent = s->varies > BENT;
+  ambit_explosion e = AMBIT_EXPLOSION_START;
   for (uint32_t i = 0; i < s->nx; i++) {
-    double linear = fabs(s->centre[i]), width = s->hi[i] - s->lo[i];
-    for (uint32_t j = 0; j < s->nc && !bent; j++) linear += fabs(s->column[(size_t)i * s->nc + j]);
-    if (s->radius[i] <= (bent ? 1 : 2) * linear) s->limit[i] = larger(s->limit[i], LOHNER_WIDTH * linear);
-    double limit = bent ? larger(s->limit[i], LOHNER_WIDTH) : s->limit[i];
-    int over = limit > NEXT_TO_NOTHING && !(width <= limit);
-    if (over) s->culprit = i, s->limit[i] = limit, some = 1;
-    all &= over || width == 0;
+    double linear = fabs(s->centre[i]);
+    for (uint32_t j = 0; j < s->nc && s->varies <= BENT; j++) linear += fabs(s->column[(size_t)i * s->nc + j]);
+    ambit_explosion_note(&e, i, s->hi[i] - s->lo[i], linear, &s->limit[i]);
   }
-  return some && (all || bent);
+  s->culprit = e.worst;
+  return ambit_explodes(&e);
 }
 
 static enum why advance(lohner *s) {

@@ -267,7 +267,7 @@ enum why lohner_start(lohner *s) {
   s->t = s->t_next = p->time[0];
   lohner_hull(s);
   /* of the set as given: the hull of a cut set may be far smaller than the set that is kept (meet_hull) */
-  double given = s->options.width_max, factor = given > 0 ? given : LOHNER_WIDTH;
+  double given = s->options.width_max, factor = given > 0 ? given : AMBIT_WIDTH;
   for (uint32_t i = 0; i < s->nx; i++) s->limit[i] = factor * larger(given > 0, larger(fabs(s->lo[i]), fabs(s->hi[i])));
   if (lohner_contract(s, s->t, 1) != WHY_NOTHING) return WHY_APART;
   lohner_note_rank(s);

@@ -10,8 +10,9 @@ static const ambit_param param[] = {
   { "tolerance", "1", "", "1e-16", "size of the last coefficients of a step's polynomial, relative to the state's" },
   { "step_max", "s", "", "inf", "longest step" },
   { "step_min", "s", "", "0", "shortest step that is tried before the run gives up; 0: 2^-48 of the time reached" },
-  { "width_max", "1", "", "10",
-      "the run ends when a state is wider than this times its largest magnitude so far (at least times 1)" },
+  { "width_max", "1", "", "0",
+      "the run ends when a state is wider than this times its largest magnitude so far (at least times 1); 0: when all "
+      "are wider than 10 times what they are to first order, midpoint and movement with the data" },
   { NULL, NULL, NULL, NULL, NULL },
 };
 

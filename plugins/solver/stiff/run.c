@@ -71,11 +71,24 @@ static int32_t emit(const stiff *s, ambit_sink *sink, double t_from) {
 
 /* -- steps */
 
-/* the limit follows the middle of the enclosure: a state that is small at first may become large */
+/* The limit follows the middle of the enclosure: a state that is small at first may become large. */
 static int is_good(stiff *s, uint32_t i) {
-  s->limit[i] = fmax(s->limit[i], s->options.width_max * fabs(s->end[i].hi));
-  return s->hi[i] - s->lo[i] <= s->limit[i] && isfinite(s->lo[i]) && isfinite(s->hi[i]) && isfinite(s->tube_lo[i]) &&
-         isfinite(s->tube_hi[i]);
+  s->limit[i] = fmax(s->limit[i], s->options.width_max * fmax(1, fabs(s->end[i].hi)));
+  int narrow = s->options.width_max == 0 || s->hi[i] - s->lo[i] <= s->limit[i];
+  return narrow && isfinite(s->lo[i]) && isfinite(s->hi[i]) && isfinite(s->tube_lo[i]) && isfinite(s->tube_hi[i]);
+}
+
+/* Where data have columns and no rows of terms, what they move cannot be told from errors: all counts as movement. */
+static int explodes(stiff *s) {
+  ambit_explosion e = AMBIT_EXPLOSION_START;
+  int columns = !s->spread && s->problem.nu > 0;
+  for (uint32_t i = 0; i < s->nx; i++) {
+    double width = s->hi[i] - s->lo[i], linear = fabs(s->end[i].hi) + (columns ? 0.5 * width : 0);
+    for (uint32_t t = 1; s->spread && t < s->terms.count; t++) linear += fabs(s->end_row[i * s->terms.count + t]);
+    ambit_explosion_note(&e, i, width, linear, &s->limit[i]);
+  }
+  s->culprit = e.worst;
+  return ambit_explodes(&e);
 }
 
 /* a length to begin with, from rates and speeds at the start; the first steps make it better */
@@ -102,6 +115,7 @@ static enum why integrate(stiff *s, ambit_sink *sink) {
     enum why why = step_make(s);
     if (why != WHY_NOTHING) return why;
     hull(s);
+    if (s->options.width_max == 0 && explodes(s)) return WHY_WIDE;
     for (uint32_t i = 0; i < s->nx; i++) {
       s->culprit = i;
       if (!is_good(s, i)) return WHY_WIDE;

@@ -13,6 +13,7 @@
 #include "field.h"
 #include "metzler.h"
 #include "splitting.h"
+#include <ambit/width.h>
 
 #define LEVELS 5
 #define PIECES_MAX 64

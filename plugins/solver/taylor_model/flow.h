@@ -13,6 +13,7 @@
 #include <ambit/jet.h>
 #include <ambit/pool.h>
 #include <ambit/solver.h>
+#include <ambit/width.h>
 #include <ambit/work.h>
 
 /* Why a piece could not go on. */
@@ -76,6 +77,9 @@ typedef struct worker {
   double *eps, *deps, *excess, *dexcess;             /* [nx] [nx x nx] guesses and results of the inclusion */
   double *box_mid, *box_rad, *slope_mid, *slope_rad; /* [nx x (slope_order + 1)], times nx */
   double *near_mid, *near_rad, *A;                   /* [nx] [nx x nx] where the step is; |Df| h there */
+  double *unit;                                      /* [nx] in which slopes are guessed */
+  double *weight;                                    /* [nx] in which A has about its least norm */
+  double *rate;                                      /* [nx x nx] |Df| over the piece at the start of the step */
   double *group_mid, *group_rad, *group_rest; /* [nx + np] [nx + np] [nx] box and remainder of a group of sub-ranges */
   /* for each group of sub-ranges: */
   double *transfer_mid, *transfer_rad;   /* [ns x nx x nx] */
@@ -102,7 +106,7 @@ typedef struct flow {
   uint32_t levels, *ngroup, *group;
   double *unit_mid, *unit_rad;                           /* [m] of the problem's unknowns: u = mid + rad xi */
   double *start_x, *start_p, *start_x_rad, *start_p_rad; /* as at time[0] */
-  double *limit;                                         /* [nx] widest that each state may be */
+  double *limit; /* [nx] widest that each state may be; pieces on their way only read it */
   uint32_t nworker;
   worker *worker;
   uint32_t npiece; /* pieces in use: piece[0 .. npiece - 1] */
@@ -143,6 +147,11 @@ enum why flow_go_back(flow *f);           /* to where it was put off, and in pie
 enum why flow_step(worker *w, piece *p, double goal);
 /* x [size] := the polynomials of state i at t, behind the start of the step; returns a bound of what is off */
 double flow_evaluate(const worker *w, const span *t, uint32_t i, double *x);
+/* size.c */
+void flow_find_rates(worker *w, const piece *p);     /* w->rate */
+void flow_find_sizes(const worker *w, double *size); /* [nx] how large states count as, after w->rate and the series */
+/* unit [nx] := what states are to each other where all act on all for a while: in which slopes compare */
+void flow_find_units(const worker *w, double *unit);
 /* tube.c: what the polynomials know of the tube of a step that is proved */
 void flow_narrow_tube(worker *w, const piece *p);
 /* proof.c: slopes, distance and tube of group n of sub-ranges over w->step; 0: not proved */

@@ -122,10 +122,11 @@ static int open_arrays(flow *f, worker *w) {
     { &w->local, nx }, { &w->truncation, nx }, { &w->size, nx }, { &w->eps, nx }, { &w->deps, nx * nx },
     { &w->excess, nx }, { &w->dexcess, nx * nx }, { &w->box_mid, nx * q }, { &w->box_rad, nx * q },
     { &w->slope_mid, nx * q * nx }, { &w->slope_rad, nx * q * nx }, { &w->near_mid, nx }, { &w->near_rad, nx },
-    { &w->A, nx * nx }, { &w->group_mid, nx + f->np }, { &w->group_rad, nx + f->np }, { &w->group_rest, nx },
-    { &w->transfer_mid, ns * nx * nx }, { &w->transfer_rad, ns * nx * nx }, { &w->apart, ns * nx },
-    { &w->reach, ns * nx }, { &w->x, nx * size }, { &w->q, size }, { &w->scratch, 4 * nx }, { &w->seed, nx },
-    { &w->zero, nx }, { &w->tube_lo, nx }, { &w->tube_hi, nx }, { &w->rounding, nx } };
+    { &w->A, nx * nx }, { &w->unit, nx }, { &w->weight, nx }, { &w->rate, nx * nx }, { &w->group_mid, nx + f->np },
+    { &w->group_rad, nx + f->np }, { &w->group_rest, nx }, { &w->transfer_mid, ns * nx * nx },
+    { &w->transfer_rad, ns * nx * nx }, { &w->apart, ns * nx }, { &w->reach, ns * nx }, { &w->x, nx * size },
+    { &w->q, size }, { &w->scratch, 4 * nx }, { &w->seed, nx }, { &w->zero, nx }, { &w->tube_lo, nx },
+    { &w->tube_hi, nx }, { &w->rounding, nx } };
   for (size_t i = 0; i < sizeof list / sizeof *list; i++)
     if (!(*list[i].array = doubles(f->host, list[i].count))) return 0;
   return zonotope_open(f->host, &w->shape, f->nx, f->options.keep) &&

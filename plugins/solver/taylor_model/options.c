@@ -46,7 +46,7 @@ static ambit_status check(const ambit_host *h, const double *o) {
   if (!(o[OPTION_STEP_MAX] > 0)) return refuse(h, "step_max", "greater than 0", o[OPTION_STEP_MAX]);
   if (!(o[OPTION_STEP_MIN] >= 0 && o[OPTION_STEP_MIN] <= o[OPTION_STEP_MAX]))
     return refuse(h, "step_min", "0 (automatic) to step_max", o[OPTION_STEP_MIN]);
-  if (!(o[OPTION_WIDTH_MAX] > 0)) return refuse(h, "width_max", "greater than 0", o[OPTION_WIDTH_MAX]);
+  if (!(o[OPTION_WIDTH_MAX] >= 0)) return refuse(h, "width_max", "0 (automatic) or greater", o[OPTION_WIDTH_MAX]);
   return AMBIT_OK;
 }
 

@@ -11,8 +11,8 @@
 #include <string.h>
 
 #define ATTEMPTS 6
-#define LEAST_UNIT 1e-6 /* of a state, to the largest */
-#define MOST_GROWTH 5.0 /* of |Df| h: a shorter step is better */
+#define MOST_GROWTH 5.0 /* norm of |Df| h: a shorter step is better */
+#define BALANCING 12    /* rounds that find the units for it */
 #define SHARP 0.01      /* of a remainder, that slopes may add to it by what is beyond their order */
 #define TERMS 40        /* of the exponential; after them each is less than 5/41 of the one before */
 
@@ -84,10 +84,9 @@ static int find_excess(worker *w) {
 }
 
 /* Guesses are multiples of what the last ones gave, and more and more of the largest in units of the states. */
-static void guess(worker *w, int attempt) {
+static void guess(worker *w, const double *unit, int attempt) {
   static const double share[ATTEMPTS] = { 0, 1e-9, 1e-6, 1e-4, 1e-2, 0.1 };
   uint32_t nx = w->flow->nx;
-  const double *unit = w->scratch;
   double most = 0, dmost = 0, times = attempt ? 2 : 5;
   for (uint32_t i = 0; i < nx; i++) {
     most = larger(most, w->excess[i] / unit[i]);
@@ -121,33 +120,21 @@ static int prove_alike(worker *w) {
   return holds(w);
 }
 
-/* guesses from what eps = 0 gives; with the units in scratch */
-static int try_guesses(worker *w) {
+/* guesses from what eps = 0 gives */
+static int try_guesses(worker *w, const double *unit) {
   size_t nx = w->flow->nx;
   memset(w->eps, 0, nx * sizeof(double));
   memset(w->deps, 0, nx * nx * sizeof(double));
   if (!find_excess(w)) return 0;
   for (int i = 0; i < ATTEMPTS; i++) {
-    guess(w, i);
+    guess(w, unit, i);
     if (holds(w)) return 1;
   }
   return 0;
 }
 
-/* All states in one unit; if that fails, each in its own: an angle and its rate of 1 kHz differ by six orders. */
-static int prove_box(worker *w) {
-  uint32_t nx = w->flow->nx, q = w->flow->options.slope_order;
-  double *unit = w->scratch, most = TINY;
-  for (uint32_t i = 0; i < nx; i++) unit[i] = 1;
-  if (try_guesses(w)) return 1;
-  for (uint32_t i = 0; i < nx; i++) {
-    const double *mid = w->box_mid + (size_t)i * (q + 1u), H = w->step.length;
-    unit[i] = larger(fabs(mid[0]), H * (fabs(mid[1]) + H * fabs(mid[2])));
-    most = larger(most, unit[i]);
-  }
-  for (uint32_t i = 0; i < nx; i++) unit[i] = larger(unit[i], LEAST_UNIT * most); /* of states at zero */
-  return try_guesses(w);
-}
+/* In units of what states make of each other; then in their own, which may differ by more. */
+static int prove_box(worker *w) { return try_guesses(w, w->unit) || try_guesses(w, w->size); }
 
 /* (m +- r) h + (a +- b) */
 static void horner(const span *t, double *m, double *r, double a, double b) {
@@ -209,8 +196,29 @@ static void find_tube(worker *w) {
 
 /* -- the distance from the polynomials */
 
+/* Positive weights in which the row-sum norm of A >= 0 is near its spectral radius, by the power method on A and its
+** norm times the identity: states in their own units may differ by any factor. Returns the norm. */
+static double balance(worker *w) {
+  uint32_t nx = w->flow->nx;
+  double *weight = w->weight, *image = w->scratch, norm = 0;
+  memcpy(weight, w->size, nx * sizeof *weight);
+  for (int round = 0; round <= BALANCING; round++) {
+    double most = 0;
+    norm = 0;
+    for (uint32_t i = 0; i < nx; i++) {
+      image[i] = 0;
+      for (uint32_t j = 0; j < nx; j++) image[i] += w->A[(size_t)i * nx + j] * weight[j];
+      norm = larger(norm, image[i] / weight[i]);
+    }
+    if (norm <= 1 || round == BALANCING) return norm;
+    for (uint32_t i = 0; i < nx; i++) most = larger(most, (image[i] + 0.25 * norm * weight[i]) / weight[i]);
+    for (uint32_t i = 0; i < nx; i++) weight[i] = (image[i] + 0.25 * norm * weight[i]) / most;
+  }
+  return norm;
+}
+
 /* A := |Df| H over the tube, pad wider; 0: not bounded, or too large */
-static int find_growth(worker *w, const piece *p, const double *pad, double *norm) {
+static int find_growth(worker *w, const piece *p, const double *pad) {
   flow *f = w->flow;
   uint32_t nx = f->nx, nb = nx + f->np;
   memset(w->seed, 0, nx * sizeof(double));
@@ -228,22 +236,20 @@ static int find_growth(worker *w, const piece *p, const double *pad, double *nor
     f->jet->put(w->near, nb, 0, mid, rad, NULL, NULL);
   }
   if (f->jet->advance(w->near, 0)) return 0;
-  *norm = 0;
   for (uint32_t i = 0; i < nx; i++) {
-    double mid, rad, row = 0, *A = w->A + (size_t)i * nx;
+    double mid, rad, *A = w->A + (size_t)i * nx;
     f->jet->get(w->near, f->problem.rhs->out[i], 0, &mid, &rad, w->seed, A);
     for (uint32_t j = 0; j < nx; j++) {
       A[j] = (fabs(w->seed[j]) + A[j]) * w->step.length;
-      row += A[j];
+      if (!(A[j] < INFINITY)) return 0;
     }
-    if (!(row <= MOST_GROWTH)) return 0;
-    *norm = larger(*norm, row);
   }
-  return 1;
+  return balance(w) <= MOST_GROWTH;
 }
 
-/* apart := exp(A) local, from above. Terms v_q = A^q local / q!; behind the last, their row-sum norms fall faster than
-** a geometric series of ratio norm / (TERMS + 1) < 1/2, so their sum is less than the last one's norm. */
+/* apart := exp(A) local, from above. Terms v_q = A^q local / q!; behind the last, their norms, the largest entry over
+** its weight, fall faster than a geometric series of ratio norm / (TERMS + 1) < 1/2, so their sum is less than the
+** last one's norm. */
 static void exponentiate(worker *w, double *apart) {
   uint32_t nx = w->flow->nx;
   double *v = w->scratch, *u = v + nx, last = 0;
@@ -256,16 +262,16 @@ static void exponentiate(worker *w, double *apart) {
     }
     for (uint32_t i = 0; i < nx; i++) apart[i] += v[i] = u[i];
   }
-  for (uint32_t i = 0; i < nx; i++) last = larger(last, v[i]);
-  for (uint32_t i = 0; i < nx; i++) apart[i] += last;
+  for (uint32_t i = 0; i < nx; i++) last = larger(last, v[i] / w->weight[i]);
+  for (uint32_t i = 0; i < nx; i++) apart[i] += last * w->weight[i];
 }
 
 static int find_distance(worker *w, const piece *p, uint32_t n) {
   uint32_t nx = w->flow->nx;
-  double *apart = w->apart + (size_t)n * nx, *pad = w->scratch + 2 * (size_t)nx, norm;
+  double *apart = w->apart + (size_t)n * nx, *pad = w->scratch + 2 * (size_t)nx;
   for (uint32_t i = 0; i < nx; i++) pad[i] = larger(p->pad[i], 2 * w->local[i]) + TINY;
   for (int k = 0; k < ATTEMPTS; k++) {
-    if (!find_growth(w, p, pad, &norm)) return 0;
+    if (!find_growth(w, p, pad)) return 0;
     exponentiate(w, apart);
     int inside = 1;
     for (uint32_t i = 0; i < nx; i++) inside &= apart[i] < pad[i];

@@ -55,12 +55,21 @@ static int merge(flow *f) {
       f->lo[i] = smaller(f->lo[i], p->lo[i]), f->hi[i] = larger(f->hi[i], p->hi[i]);
       f->tube_lo[i] = smaller(f->tube_lo[i], p->tube_lo[i]), f->tube_hi[i] = larger(f->tube_hi[i], p->tube_hi[i]);
     }
+  ambit_explosion e = AMBIT_EXPLOSION_START;
   for (uint32_t i = 0; i < f->nx; i++) {
+    double width = f->hi[i] - f->lo[i], most = 0;
     f->piece[0].culprit = i, f->failed = 0;
-    int finite = f->tube_lo[i] > -INFINITY && f->tube_hi[i] < INFINITY;
-    if (!finite || !(f->hi[i] - f->lo[i] <= f->limit[i])) return 0;
+    if (!(f->tube_lo[i] > -INFINITY && f->tube_hi[i] < INFINITY)) return 0;
+    if (f->options.width_max > 0) {
+      if (!(width <= f->limit[i])) return 0;
+      continue;
+    }
+    for (uint32_t n = 0; n < f->npiece; n++)
+      most = larger(most, polynomial_norm(&f->space, f->piece[n].x + i * f->space.size));
+    ambit_explosion_note(&e, i, width, most, &f->limit[i]);
   }
-  return 1;
+  f->piece[0].culprit = e.worst;
+  return !ambit_explodes(&e);
 }
 
 /* -- one piece */

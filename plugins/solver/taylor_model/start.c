@@ -135,6 +135,6 @@ void flow_start(flow *f) {
   }
   flow_boxes(w, p);
   flow_hull(w, p);
-  for (uint32_t i = 0; i < f->nx; i++)
+  for (uint32_t i = 0; i < f->nx; i++) /* 0: not known yet */
     f->limit[i] = f->options.width_max * larger(1, larger(fabs(p->lo[i]), fabs(p->hi[i])));
 }

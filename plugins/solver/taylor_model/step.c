@@ -17,9 +17,8 @@
 #define BLUR_SMALL 0.05
 #define BLUR_LARGE 0.01
 #define SMALL 1e-4
-#define NEGLIGIBLE 1e-6 /* of the largest state */
-#define SHARE 0.3       /* truncation in time may be this share of the truncation in the unknowns */
-#define HELPED 0.95     /* a half whose truncation is above this share of the whole's was split for nothing */
+#define SHARE 0.3   /* truncation in time may be this share of the truncation in the unknowns */
+#define HELPED 0.95 /* a half whose truncation is above this share of the whole's was split for nothing */
 
 /* -- series */
 
@@ -68,21 +67,6 @@ static int plan(worker *w, const piece *p, double goal, double length) {
   return w->t_next != p->t;
 }
 
-/* How large each state is, or gets in the step: one that starts at zero may begin to move by a high derivative, and one
-** that stays there must not ask for exactness. */
-static void find_sizes(const worker *w, double *size) {
-  const flow *f = w->flow;
-  double most = 0;
-  for (uint32_t i = 0; i < f->nx; i++) {
-    double power = 1;
-    size[i] = TINY;
-    for (uint32_t k = 0; k <= f->options.time_order; k++, power *= w->step.length)
-      size[i] = larger(size[i], cell_norm(coefficient(w, i, k)) * power);
-    most = larger(most, size[i]);
-  }
-  for (uint32_t i = 0; i < f->nx; i++) size[i] = larger(size[i], NEGLIGIBLE * most);
-}
-
 /* Defect over the step, `local`, and the part of it that a shorter step would mend, `truncation`; 0: not bounded. */
 static int measure_defect(worker *w) {
   flow *f = w->flow;
@@ -111,7 +95,7 @@ typedef struct ratio {
 
 static ratio compare(const worker *w) {
   ratio r = { 0, 0 };
-  find_sizes(w, w->size);
+  flow_find_sizes(w, w->size), flow_find_units(w, w->unit);
   for (uint32_t i = 0; i < w->flow->nx; i++) {
     r.time = larger(r.time, w->truncation[i] / w->size[i]);
     r.rest = larger(r.rest, (w->local[i] - w->truncation[i]) / w->size[i]);
@@ -140,13 +124,17 @@ double flow_evaluate(const worker *w, const span *t, uint32_t i, double *x) {
 }
 
 static int is_bounded(const flow *f, piece *p) {
-  for (uint32_t n = 0; n < f->ns; n++)
-    for (uint32_t i = 0; i < f->nx; i++) {
-      double rad = p->rad[(size_t)n * (f->nx + f->np) + i];
-      p->culprit = i;
-      if (!(2 * rad <= f->limit[i])) return 0;
-    }
-  return 1;
+  ambit_explosion e = AMBIT_EXPLOSION_START;
+  for (uint32_t i = 0; i < f->nx; i++) {
+    double width = 0, limit = f->limit[i];
+    for (uint32_t n = 0; n < f->ns; n++) width = larger(width, 2 * p->rad[(size_t)n * (f->nx + f->np) + i]);
+    p->culprit = i;
+    if (f->options.width_max > 0 ? !(width <= limit) : !(width < INFINITY)) return 0;
+    ambit_explosion_note(&e, i, width, polynomial_norm(&f->space, p->x + i * f->space.size), &limit);
+  }
+  if (f->options.width_max > 0 || !ambit_explodes(&e)) return 1;
+  p->culprit = e.worst;
+  return 0;
 }
 
 static enum why move(worker *w, piece *p) {
@@ -221,6 +209,7 @@ static enum why try_step(worker *w, piece *p, double goal) {
   const options *o = &w->flow->options;
   enum why why = expand(w, p);
   if (why != WHY_NOTHING) return why;
+  flow_find_rates(w, p);
   double most = o->step_max, length = smaller(larger(p->guess, o->step_min), most);
   uint32_t failed = 0;
   for (int i = 0; i < TRIES; i++) {

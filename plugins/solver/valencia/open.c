@@ -21,7 +21,7 @@ static ambit_status check_options(const ambit_host *h, const double *o) {
   if (!(o[TOLERANCE] >= 0 && o[TOLERANCE] < INFINITY)) return refuse(h, TOLERANCE, "0 or greater", o[TOLERANCE]);
   if (!(o[STEP_MAX] > 0)) return refuse(h, STEP_MAX, "greater than 0", o[STEP_MAX]);
   if (!(o[STEP_MIN] >= 0 && o[STEP_MIN] < INFINITY)) return refuse(h, STEP_MIN, "0 or greater", o[STEP_MIN]);
-  if (!(o[WIDTH_MAX] > 0)) return refuse(h, WIDTH_MAX, "greater than 0", o[WIDTH_MAX]);
+  if (!(o[WIDTH_MAX] >= 0)) return refuse(h, WIDTH_MAX, "0 (automatic) or greater", o[WIDTH_MAX]);
   return AMBIT_OK;
 }
 

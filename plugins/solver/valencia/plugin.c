@@ -14,8 +14,9 @@ const ambit_param valencia_param[] = {
       "iteration), or in every step" },
   { "step_max", "s", "", "inf", "longest step" },
   { "step_min", "s", "", "0", "give up rather than make a shorter step than this; 0: 1e-13 of the time span" },
-  { "width_max", "1", "", "10",
-      "give up when a state's enclosure is this many times wider than its initial size, or than 1 if it is smaller" },
+  { "width_max", "1", "", "0",
+      "give up when a state's enclosure is this many times wider than its initial size, or than 1 if it is smaller; 0: "
+      "when all are wider than 10 times what they are to first order, midpoint and movement with the data" },
   { NULL, NULL, NULL, NULL, NULL },
 };
 

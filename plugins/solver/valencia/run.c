@@ -224,8 +224,20 @@ static enum why find_step(valencia *s) {
 }
 
 static int is_good(const valencia *s, uint32_t i) {
-  return s->hi[i] - s->lo[i] <= s->limit[i] && s->lo[i] > -INFINITY && s->hi[i] < INFINITY &&
-         s->tube_lo[i] > -INFINITY && s->tube_hi[i] < INFINITY && s->tube_lo[i] <= s->tube_hi[i];
+  int narrow = s->options.width_max == 0 || s->hi[i] - s->lo[i] <= s->limit[i];
+  return narrow && s->lo[i] > -INFINITY && s->hi[i] < INFINITY && s->tube_lo[i] > -INFINITY &&
+         s->tube_hi[i] < INFINITY && s->tube_lo[i] <= s->tube_hi[i];
+}
+
+static int explodes(valencia *s) {
+  ambit_explosion e = AMBIT_EXPLOSION_START;
+  for (uint32_t i = 0; i < s->nx; i++) {
+    double linear = 0;
+    for (uint32_t k = 0; k < s->terms.n; k++) linear += fabs(s->p[(size_t)i * s->terms.n + k]);
+    ambit_explosion_note(&e, i, s->hi[i] - s->lo[i], linear, &s->limit[i]);
+  }
+  s->culprit = e.worst;
+  return ambit_explodes(&e);
 }
 
 #define CLEARLY 0.8
@@ -262,6 +274,7 @@ static enum why advance(valencia *s) {
   s->has_faces = s->kink && valencia_faces(s, s->face_lo, s->face_hi);
   if (s->has_faces) meet_faces(s);
   note_magnitudes(s, FORGET);
+  if (s->options.width_max == 0 && explodes(s)) return WHY_WIDE;
   for (uint32_t i = 0; i < s->nx; i++) {
     s->culprit = i;
     if (!is_good(s, i)) return WHY_WIDE;

@@ -105,8 +105,8 @@ static int open_set(zono *z) {
   z->ngen_max = z->options.history * z->nx;
   z->P = doubles(h, nx * z->shape.stride), z->E = doubles(h, nx), z->G = doubles(h, nx * (z->ngen_max + nx));
   z->lo = doubles(h, nx), z->hi = doubles(h, nx), z->tube_lo = doubles(h, nx), z->tube_hi = doubles(h, nx);
-  z->largest = doubles(h, nx);
-  return z->P && z->E && z->G && z->lo && z->hi && z->tube_lo && z->tube_hi && z->largest;
+  z->limit = doubles(h, nx);
+  return z->P && z->E && z->G && z->lo && z->hi && z->tube_lo && z->tube_hi && z->limit;
 }
 
 /* -- the solver */

@@ -71,14 +71,16 @@ static int32_t emit(zono *z, ambit_record *r) {
 }
 
 static int is_wide(zono *z) {
+  ambit_explosion e = AMBIT_EXPLOSION_START;
   for (uint32_t i = 0; i < z->nx; i++) {
-    double middle = 0.5 * fabs(z->lo[i] + z->hi[i]), width = z->hi[i] - z->lo[i];
-    double most = z->options.width_max > 0 ? z->options.width_max : 10;
-    if (z->options.width_max == 0 && middle > z->largest[i]) z->largest[i] = middle;
+    double width = z->hi[i] - z->lo[i], most = z->options.width_max;
+    const double *row = z->P + (size_t)i * z->shape.stride;
     z->culprit = i;
-    if (!(width <= most * z->largest[i])) return 1;
+    if (most > 0 ? !(width <= z->limit[i]) : !(width < INFINITY)) return 1;
+    if (most == 0) ambit_explosion_note(&e, i, width, row_total(&z->shape, row), &z->limit[i]);
   }
-  return 0;
+  z->culprit = e.worst;
+  return z->options.width_max == 0 && ambit_explodes(&e);
 }
 
 static int advance(zono *z) {
@@ -100,7 +102,8 @@ static void work(zono *z) {
   uint32_t slow = 0;
   zono_start(z);
   zono_hull(z);
-  for (uint32_t i = 0; i < z->nx; i++) z->largest[i] = fmax(1, fmax(fabs(z->lo[i]), fabs(z->hi[i])));
+  for (uint32_t i = 0; i < z->nx; i++)
+    z->limit[i] = z->options.width_max * fmax(1, fmax(fabs(z->lo[i]), fabs(z->hi[i])));
   while (z->next < z->problem.ntime && advance(z)) {
     slow = fabs(z->problem.time[z->problem.ntime - 1] - z->t) > CREEP * z->guess ? slow + 1 : 0;
     if (slow > CREEP_FOR) {

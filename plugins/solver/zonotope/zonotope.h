@@ -32,6 +32,7 @@
 #include "row.h"
 #include <ambit/num.h>
 #include <ambit/solver.h>
+#include <ambit/width.h>
 #include <math.h>
 
 /* Why a step could not be made. */
@@ -104,7 +105,7 @@ typedef struct zono {
   struct proof *proof;          /* sweep.c, error.c, close.c: allocated by zono_open_proof() */
   /* -- records */
   double *lo, *hi, *tube_lo, *tube_hi; /* [nx] */
-  double *largest;                     /* [nx] magnitude of the middle so far, at least 1 */
+  double *limit;                       /* [nx] widest that each state may be */
   /* -- failure */
   enum why why;
   uint32_t culprit;   /* state, slot or unknown */
