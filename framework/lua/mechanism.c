@@ -54,7 +54,7 @@ static ambit_frame *frames_of(lua_State *L, int idx, size_t n) {
   return frame;
 }
 
-/* add(mechanism, type, name or nil, where, params, connections) -> part number */
+/* add(mechanism, type, name or nil, where, params, connections [, unit]) -> part number */
 static int add(lua_State *L) {
   ambit_lua *core = AMBIT_LUA(L);
   ambit_mechanism *m = self(L);
@@ -63,6 +63,7 @@ static int add(lua_State *L) {
   spec.type = luaL_checkstring(L, 2);
   spec.name = lua_isnil(L, 3) ? NULL : luaL_checkstring(L, 3);
   spec.where = luaL_checkstring(L, 4);
+  spec.unit = luaL_optstring(L, 7, NULL);
   if (ambit_registry_element(core->registry, spec.type, &spec.element, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
   spec.param = params_of(L, 5, ambit_params_count(spec.element->param));
   spec.connection = frames_of(L, 6, spec.element->nport);
@@ -157,16 +158,21 @@ static void append_variable(lua_State *L, const char *name, const char *unit, ui
   lua_rawseti(L, -2, luaL_len(L, -2) + 1);
 }
 
-/* coordinates(mechanism) -> {{name, unit, part, q, rate}, ...} */
-static int coordinates(lua_State *L) {
+/* {{name, unit, part, q, rate}, ...}: of joints, or elements' own states */
+static int push_coordinates(lua_State *L, bool own) {
   ambit_mechanism *m = self(L);
   size_t n = ambit_mechanism_coordinates(m, 0, NULL);
   ambit_coordinate *c = lua_newuserdatauv(L, (n + 1) * sizeof *c, 0);
   ambit_mechanism_coordinates(m, n, c);
   lua_createtable(L, (int)n, 0);
-  for (size_t i = 0; i < n; i++) append_variable(L, c[i].name, c[i].unit, c[i].part, "q", c[i].q, "rate", c[i].rate);
+  for (size_t i = 0; i < n; i++)
+    if (c[i].own == own) append_variable(L, c[i].name, c[i].unit, c[i].part, "q", c[i].q, "rate", c[i].rate);
   return 1;
 }
+
+/* coordinates(mechanism) -> those of joints; own_states(mechanism) -> those with equations of their own */
+static int coordinates(lua_State *L) { return push_coordinates(L, false); }
+static int own_states(lua_State *L) { return push_coordinates(L, true); }
 
 /* coordinate_unit(mechanism, expression) -> unit of the coordinate that it is; nil: it is none */
 static int coordinate_unit(lua_State *L) {
@@ -195,8 +201,8 @@ void ambit_lua_open_mechanism(lua_State *L, ambit_lua *core) {
   static const luaL_Reg meta[] = { { "__gc", close }, { NULL, NULL } };
   static const luaL_Reg functions[] = { { "mechanism", mechanism }, { "add", add }, { "pull", pull },
     { "written_by", written_by }, { "part_name", part_name }, { "pulled", pulled }, { "quantities", quantities },
-    { "part_count", count }, { "coordinates", coordinates }, { "coordinate_unit", coordinate_unit },
-    { "speeds", speeds }, { NULL, NULL } };
+    { "part_count", count }, { "coordinates", coordinates }, { "own_states", own_states },
+    { "coordinate_unit", coordinate_unit }, { "speeds", speeds }, { NULL, NULL } };
   static const struct {
     const char *name;
     lua_Integer value;

@@ -33,6 +33,7 @@ static void push_params(lua_State *L, const ambit_param *param) {
 }
 
 static const char *kind_of(const ambit_port *port) {
+  if (port->kind == AMBIT_PORT_STATE) return "state";
   return port->kind == AMBIT_PORT_FRAME ? "frame" : port->kind == AMBIT_PORT_JOINT ? "joint" : "constraint";
 }
 

@@ -70,7 +70,7 @@ static ambit_expr state(ambit_build *b, uint32_t i, uint32_t order, const char *
     fail(b, AMBIT_BROKEN, "it asks for coordinate %u, derivative %u; it has %u", i, order, p->ncoordinate);
     return AMBIT_NO_EXPR;
   }
-  const ambit_coordinate *c = ambit_part_coordinate(s->m, s->cell->part, i, unit, &f);
+  const ambit_coordinate *c = ambit_part_coordinate(s->m, s->cell->part, i, unit ? unit : p->unit, &f);
   if (c && order == 0) return c->q;
   const ambit_speed *u = c ? &s->m->speed[p->speed[i]] : NULL;
   if (u) return order == 1 ? u->u : u->du;
@@ -160,7 +160,7 @@ static ambit_expr own_rate(build *s, const ambit_coordinate *c) {
   const ambit_part *p = &s->m->part[c->part];
   for (uint32_t port = 0, i = c->index; port < p->element->nport; port++) {
     const ambit_port *joint = &p->element->port[port];
-    if (joint->kind != AMBIT_PORT_JOINT || joint->role != AMBIT_ROLE_OUT) continue;
+    if (!ambit_port_has_coordinates(joint)) continue;
     if (i >= ambit_port_coordinates(joint)) {
       i -= ambit_port_coordinates(joint);
       continue;

@@ -109,7 +109,16 @@ static ambit_status read_rows(rows *s) {
 
 /* -- derivatives, and what each row is */
 
-/* Does e have leaves besides uncertain data? And none that is a speed. */
+/* The variable that a row may not depend on: a speed, or a state of an element's own; NULL: it may. */
+static const char *forbidden(const rows *s, ambit_expr leaf, const char **kind) {
+  for (size_t k = 0; k < s->c->nu; k++)
+    if (leaf == s->c->speed[k].u) return *kind = "speed", s->c->speed[k].name;
+  for (size_t j = 0; j < s->c->nq; j++)
+    if (leaf == s->q[j] && s->c->coordinate[j].own) return *kind = "state", s->c->coordinate[j].name;
+  return NULL;
+}
+
+/* Does e have leaves besides uncertain data? And none that is forbidden. */
 static ambit_status check_leaves(const rows *s, const ambit_constraint *row, bool *varies) {
   size_t n = ambit_graph_leaves(s->g, 1, &row->g, 0, NULL);
   ambit_expr *leaf = expressions(s->arena, n);
@@ -118,11 +127,10 @@ static ambit_status check_leaves(const rows *s, const ambit_constraint *row, boo
   *varies = false;
   for (size_t i = 0; i < n; i++) {
     *varies = *varies || ambit_graph_node(s->g, leaf[i])->op != AMBIT_LEAF_UNKNOWN;
-    for (size_t k = 0; k < s->c->nu; k++)
-      if (leaf[i] == s->c->speed[k].u)
-        return ambit_fail(s->f, AMBIT_INVALID,
-            "the constraint `%s` depends on the speed `%s`: expected one of positions and time only", row->name,
-            s->c->speed[k].name);
+    const char *kind = NULL, *name = forbidden(s, leaf[i], &kind);
+    if (name)
+      return ambit_fail(s->f, AMBIT_INVALID,
+          "the constraint `%s` depends on the %s `%s`: expected one of positions and time only", row->name, kind, name);
   }
   return AMBIT_OK;
 }

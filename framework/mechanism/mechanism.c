@@ -48,6 +48,7 @@ static const struct {
   [AMBIT_PORT_JOINT] = { { AMBIT_COORDINATE, AMBIT_RATE, AMBIT_RATE2, AMBIT_EFFORT, AMBIT_BALANCE,
       AMBIT_COORDINATE_RATE } },
   [AMBIT_PORT_CONSTRAINT] = { { AMBIT_RESIDUAL } },
+  [AMBIT_PORT_STATE] = { { AMBIT_COORDINATE, AMBIT_COORDINATE_RATE } },
 };
 
 ambit_cell *ambit_mechanism_cell(ambit_mechanism *m, uint32_t quantity) {
@@ -100,7 +101,7 @@ static size_t available(const ambit_element *e) {
     else if (p->kind == AMBIT_PORT_JOINT)
       n += out ? 4 + own_speeds : 1;
     else
-      n++;
+      n += p->kind == AMBIT_PORT_STATE ? 2 : 1;
   }
   return n;
 }
@@ -119,7 +120,7 @@ static ambit_status make_variables(ambit_mechanism *m, ambit_part *p, ambit_fail
       p->rows += port->dof;
     } else {
       p->ncoordinate += ambit_port_coordinates(port);
-      p->dof += ambit_port_dof(port);
+      p->dof += port->kind == AMBIT_PORT_STATE ? 0 : ambit_port_dof(port);
     }
   }
   p->coordinate = unmade(m, p->ncoordinate);
@@ -159,7 +160,11 @@ static void forget_sums(ambit_mechanism *m) {
 /* -- connections */
 
 static const char *kind_name(uint32_t kind) {
-  return kind == AMBIT_PORT_FRAME ? "frame" : kind == AMBIT_PORT_JOINT ? "joint" : "constraint";
+  static const char *const name[] = { [AMBIT_PORT_FRAME] = "frame",
+    [AMBIT_PORT_JOINT] = "joint",
+    [AMBIT_PORT_CONSTRAINT] = "constraint",
+    [AMBIT_PORT_STATE] = "state" };
+  return name[kind];
 }
 
 /* The port that an IN port is to be connected to exists, is made by an element and is of the same kind. */
@@ -225,17 +230,24 @@ static void attach(ambit_mechanism *m, uint32_t part, uint32_t port) {
 
 static ambit_status check_element(const ambit_part_spec *spec, ambit_failure *f) {
   const ambit_element *e = spec->element;
+  bool joints = false, states = false;
   for (uint32_t i = 0; i < e->nport; i++) {
     const ambit_port *p = &e->port[i];
     uint32_t c = ambit_port_coordinates(p), d = ambit_port_dof(p);
-    bool constraint = p->kind == AMBIT_PORT_CONSTRAINT, frame = p->kind == AMBIT_PORT_FRAME;
-    bool kind = constraint || frame || p->kind == AMBIT_PORT_JOINT;
-    bool role = p->role == AMBIT_ROLE_OUT || (p->role == AMBIT_ROLE_IN && !constraint);
-    bool dof = frame ? p->dof == 0 : d > 0 && d <= c && c <= AMBIT_QUANTITY_MAX && (c == d || !constraint);
+    bool state = p->kind == AMBIT_PORT_STATE, out = state || p->kind == AMBIT_PORT_CONSTRAINT;
+    bool frame = p->kind == AMBIT_PORT_FRAME, kind = out || frame || p->kind == AMBIT_PORT_JOINT;
+    bool role = p->role == AMBIT_ROLE_OUT || (p->role == AMBIT_ROLE_IN && !out);
+    bool dof = frame ? p->dof == 0 : d > 0 && d <= c && c <= AMBIT_QUANTITY_MAX && (c == d || !out);
+    states = states || state;
+    joints = joints || (p->kind == AMBIT_PORT_JOINT && p->role == AMBIT_ROLE_OUT);
     if (!p->name || !kind || !role || !dof)
       return ambit_fail(f, AMBIT_INVALID, "element `%s`: its port %u is not declared properly", spec->type, i);
   }
-  return AMBIT_OK;
+  if (!joints || !states) return AMBIT_OK;
+  return ambit_fail(f, AMBIT_INVALID,
+      "element `%s` has joints and states of its own: expected one or the other; states can act on a joint that the "
+      "element is connected to",
+      spec->type);
 }
 
 static ambit_status fill_part(ambit_mechanism *m, ambit_part *p, const ambit_part_spec *spec, ambit_failure *f) {
@@ -243,8 +255,9 @@ static ambit_status fill_part(ambit_mechanism *m, ambit_part *p, const ambit_par
   p->type = ambit_arena_text(m->arena, spec->type);
   if (!p->type) return no_memory(f);
   p->where = spec->where && *spec->where ? ambit_arena_text(m->arena, spec->where) : NULL;
+  p->unit = ambit_arena_text(m->arena, spec->unit ? spec->unit : "1");
   p->name = spec->name ? ambit_arena_text(m->arena, spec->name) : ambit_part_make_name(m, p->type);
-  if (!p->name) return no_memory(f);
+  if (!p->name || !p->unit) return no_memory(f);
   ambit_status status = ambit_part_check_name(m, p, f);
   if (status == AMBIT_OK) status = ambit_part_take_params(m, p, spec->param, f);
   if (status == AMBIT_OK && !ambit_part_name_data(m, p)) return no_memory(f);

@@ -24,6 +24,7 @@ typedef struct ambit_part_spec {
   const char *type, *name, *where; /* name NULL: type and a number */
   const ambit_expr *const *param;
   const ambit_frame *connection;
+  const char *unit; /* of coordinates whose unit the element leaves to the scene; NULL: "1" */
 } ambit_part_spec;
 
 ambit_mechanism *ambit_mechanism_open(ambit_graph *g, const char *name);
@@ -57,6 +58,7 @@ typedef struct ambit_coordinate {
   ambit_expr q;     /* a symbol */
   ambit_expr rate;  /* q' as an expression: the symbol of its speed; of a quaternion a function of q and speeds */
   uint32_t part, index;
+  bool own; /* of a state port: the element says its rate, and there is no speed */
 } ambit_coordinate;
 /* The speeds, one for each degree of freedom, in the same order: symbols of u and of its time derivative. */
 typedef struct ambit_speed {

@@ -20,6 +20,9 @@ static void list_port(listing *l, uint32_t i) {
   bool is_out = port->role == AMBIT_ROLE_OUT;
   if (port->kind == AMBIT_PORT_CONSTRAINT) {
     list(l, i, AMBIT_RESIDUAL);
+  } else if (port->kind == AMBIT_PORT_STATE) {
+    list(l, i, AMBIT_COORDINATE);
+    list(l, i, AMBIT_COORDINATE_RATE);
   } else if (!is_out) {
     list(l, i, port->kind == AMBIT_PORT_FRAME ? AMBIT_WRENCH : AMBIT_EFFORT);
   } else if (port->kind == AMBIT_PORT_FRAME) {

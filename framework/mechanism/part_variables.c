@@ -86,7 +86,8 @@ const ambit_coordinate *ambit_part_coordinate(
     .q = symbol(m, unit, "", name, ""),
     .rate = AMBIT_NO_EXPR,
     .part = part,
-    .index = i };
+    .index = i,
+    .own = p->dof == 0 };
   bool good = grown && c.name && c.unit && c.q != AMBIT_NO_EXPR;
   if (!good) no_memory(f);
   if (!good || (ambit_part_has_rates(p) && add_rate(m, &c, f) != AMBIT_OK)) return NULL;
@@ -140,9 +141,10 @@ const ambit_multiplier *ambit_part_multiplier(
 static void ask_joints(ambit_mechanism *m, uint32_t part) {
   const ambit_element *e = m->part[part].element;
   for (uint32_t port = 0; port < e->nport; port++) {
-    if (e->port[port].kind != AMBIT_PORT_JOINT || e->port[port].role != AMBIT_ROLE_OUT) continue;
+    if (!ambit_port_has_coordinates(&e->port[port])) continue;
+    bool speeds = e->port[port].kind == AMBIT_PORT_JOINT && !ambit_part_has_rates(&m->part[part]);
     ambit_mechanism_pull(m, (ambit_frame) { part, port }, AMBIT_COORDINATE, NULL);
-    if (!ambit_part_has_rates(&m->part[part])) ambit_mechanism_pull(m, (ambit_frame) { part, port }, AMBIT_RATE, NULL);
+    if (speeds) ambit_mechanism_pull(m, (ambit_frame) { part, port }, AMBIT_RATE, NULL);
   }
 }
 
@@ -150,7 +152,7 @@ static void ask_joints(ambit_mechanism *m, uint32_t part) {
 static ambit_expr pull_rate(ambit_mechanism *m, uint32_t part, uint32_t i) {
   const ambit_element *e = m->part[part].element;
   for (uint32_t port = 0; port < e->nport; port++) {
-    if (e->port[port].kind != AMBIT_PORT_JOINT || e->port[port].role != AMBIT_ROLE_OUT) continue;
+    if (!ambit_port_has_coordinates(&e->port[port])) continue;
     uint32_t count = ambit_port_coordinates(&e->port[port]);
     if (i >= count) {
       i -= count;

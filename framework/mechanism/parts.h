@@ -35,12 +35,13 @@ typedef struct ambit_joined {    /* one end of a connection */
 typedef struct ambit_part {
   const ambit_element *element;
   const char *type, *name, *where; /* where: NULL if unknown */
+  const char *unit;                /* of its coordinates where the element does not say one */
   const ambit_expr **param;        /* NULL: optional and absent */
   size_t nparam;
   ambit_joined *joined; /* [nport] */
   ambit_cell *cell;     /* [(nport + 1) * AMBIT_COLUMNS]; row nport: the part as a whole */
   ambit_cell *cut; /* the same while the mechanism is cut, for what accelerations may act on; else NULL; see cut.h */
-  /* of all its OUT joints and constraints, in the order of the ports; each list holds places in the mechanism's list,
+  /* of all its OUT joints, constraints and states, in the order of the ports; each list holds places in the mechanism's,
   ** UINT32_MAX: not (yet) made */
   uint32_t ncoordinate, dof, rows;
   uint32_t nunknown;                         /* that its element asked for */
@@ -124,6 +125,10 @@ ambit_status ambit_part_take_params(
 ** element asks for: after the last parameter. */
 bool ambit_part_name_data(ambit_mechanism *m, const ambit_part *p);
 void ambit_part_unknown_name(ambit_part *p, char out[AMBIT_DATUM_NAME_MAX]);
+/* Does the port hold variables of its element, by the names of AMBIT_COORDINATE and AMBIT_COORDINATE_RATE? */
+static inline bool ambit_port_has_coordinates(const ambit_port *p) {
+  return p->role == AMBIT_ROLE_OUT && (p->kind == AMBIT_PORT_JOINT || p->kind == AMBIT_PORT_STATE);
+}
 /* Are the speeds of its joints the time derivatives of their coordinates? */
 static inline bool ambit_part_has_rates(const ambit_part *p) { return p->ncoordinate == p->dof; }
 /* In part_variables.c: the symbols of a part's coordinate, speed or multiplier number i, made on first use; NULL: the

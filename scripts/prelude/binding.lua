@@ -15,6 +15,7 @@ local function existing()
     for _, s in ipairs(core.speeds(m.handle)) do
       known[s.name], known[s.du_name], known["tau_" .. s.name:gsub("'", "")] = true, true, true
     end
+    for _, c in ipairs(core.own_states(m.handle)) do known[c.name] = true end
   end
   for _, system in pairs(session.odes) do
     for _, name in ipairs(system.states) do known[name] = true end

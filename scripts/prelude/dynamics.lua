@@ -51,12 +51,13 @@ end
 function methods:coordinate_names() return names_of(core.coordinates(self.handle)) end
 function methods:speed_names() return names_of(core.speeds(self.handle)) end
 
--- The joint coordinates as expressions, by name: beta1, beta1', beta1''.
+-- The joint coordinates and the states as expressions, by name: beta1, beta1', beta1'', i.
 function methods:coordinates()
   local t = {}
   for _, c in ipairs(core.coordinates(self.handle)) do
     t[c.name] = core.in_unit(c.q, c.unit)
   end
+  for _, c in ipairs(core.own_states(self.handle)) do t[c.name] = core.in_unit(c.q, c.unit) end
   for _, s in ipairs(core.speeds(self.handle)) do
     t[s.name], t[s.du_name] = core.in_unit(s.u, s.unit), core.in_unit(s.du, s.unit .. "/s")
   end

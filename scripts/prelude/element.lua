@@ -110,12 +110,12 @@ local made = setmetatable({}, { __mode = "k" })
 
 function element.made(m, part) return made[m][part] end
 
--- Adds a part whose connections and parameters are checked already; returns its number.
-function element.enter(self, d, name, where, values, links)
-  local part = core.add(self.handle, d.name, name, where, values, links)
+-- Adds a part whose connections and parameters are checked already; unit: of a state. Returns its number.
+function element.enter(self, d, name, where, values, links, unit)
+  local part = core.add(self.handle, d.name, name, where, values, links, unit)
   self.declared[part] = d
   made[self] = made[self] or {}
-  made[self][part] = { links = links, values = values }
+  made[self][part] = { links = links, values = values, unit = unit }
   return part
 end
 

@@ -30,20 +30,21 @@ local function find_speeds(system)
 end
 
 -- Does the rate of this state say nothing at rest? That of a coordinate of a mechanism is linear in the speeds; without
--- motions given in time there is nothing else in it.
-local function is_idle(system, i, speeds)
-  if not system.mechanism or speeds[system.states[i]] then return false end
+-- motions given in time there is nothing else in it. `own`: states with equations of their own.
+local function is_idle(system, i, speeds, own)
+  if not system.mechanism or speeds[system.states[i]] or own[system.states[i]] then return false end
   return not roots.symbols({ system.rates[i] }).t
 end
 
 -- The equations with all speeds 0, and the bindings that make them so.
 local function equations(system, speeds)
-  local leaves, values, list = {}, {}, {}
+  local leaves, values, list, own = {}, {}, {}, {}
+  for _, c in ipairs(system.mechanism and core.own_states(system.mechanism.handle) or {}) do own[c.name] = true end
   for k, name in ipairs(system.states) do
     if speeds[name] then leaves[#leaves + 1], values[#values + 1] = system.symbols[k], core.expression(0) end
   end
   for i, rate in ipairs(system.rates) do
-    local skipped = is_idle(system, i, speeds)
+    local skipped = is_idle(system, i, speeds, own)
     for k, name in ipairs(system.states) do skipped = skipped or speeds[name] and rate == system.symbols[k] end
     if not skipped then list[#list + 1] = rate end
   end

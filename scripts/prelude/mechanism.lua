@@ -68,7 +68,7 @@ end
 function Mechanism.__tostring(self) return ('mechanism "%s" (%d parts)'):format(self.name,
   core.part_count(self.handle)) end
 
-for _, part in ipairs { "measure", "dynamics", "loops", "assemble", "tree", "mimic", "load" } do
+for _, part in ipairs { "measure", "dynamics", "loops", "assemble", "tree", "mimic", "load", "state" } do
   require("ambit." .. part).install(methods)
 end
 

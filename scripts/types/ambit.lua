@@ -235,8 +235,12 @@ function mechanism:power() end
 function mechanism:coordinate_names() end
 ---@return string[] # "beta1'", ...
 function mechanism:speed_names() end
----@return table<string, ambit.expression> # beta1, beta1', beta1'' ...
+---@return table<string, ambit.expression> # beta1, beta1', beta1'' ..., and the states
 function mechanism:coordinates() end
+---A quantity with an equation of its own, a state of m:dynamics(); q: coordinates, speeds and states by name.
+---@param t { [1]: string, unit: string?, rate: ambit.datum|fun(q: table<string, ambit.expression>, x: ambit.expression, t: ambit.expression): ambit.datum }
+---@return ambit.expression # the state
+function mechanism:state(t) end
 ---@param joint ambit.frame|ambit.joint
 ---@return ambit.expression
 function mechanism:coordinate(joint) end

@@ -91,6 +91,7 @@ static void check_not_declined(element_kit *k, uint32_t port, size_t n, const ui
 
 void element_kit_count_own(element_kit *k) {
   static const uint32_t motion[] = { AMBIT_POSE, AMBIT_TWIST, AMBIT_ACCEL }, residual[] = { AMBIT_RESIDUAL };
+  static const uint32_t state[] = { AMBIT_COORDINATE, AMBIT_COORDINATE_RATE };
   static const uint32_t joint[] = { AMBIT_COORDINATE, AMBIT_RATE, AMBIT_RATE2, AMBIT_BALANCE };
   for (uint32_t port = 0; port <= k->element->nport; port++)
     for (uint32_t quantity = 1; quantity <= AMBIT_MOMENTUM; quantity++)
@@ -100,6 +101,7 @@ void element_kit_count_own(element_kit *k) {
     if (p->role != AMBIT_ROLE_OUT) continue;
     if (p->kind == AMBIT_PORT_FRAME) check_not_declined(k, port, 3, motion);
     if (p->kind == AMBIT_PORT_JOINT) check_not_declined(k, port, 4, joint);
+    if (p->kind == AMBIT_PORT_STATE) check_not_declined(k, port, 2, state);
     if (p->kind == AMBIT_PORT_CONSTRAINT) check_not_declined(k, port, 1, residual);
   }
 }

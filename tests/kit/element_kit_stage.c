@@ -143,12 +143,12 @@ bool element_kit_open_stage(element_kit *k, unsigned given) {
   for (uint32_t i = 0; i < k->element->nport; i++)
     connection[i] = k->element->port[i].role == AMBIT_ROLE_IN ? carrier(k, i) : AMBIT_NOWHERE;
   choose_params(k, given, param);
-  ambit_part_spec spec = { k->element, k->name, "subject", "kit.lua:1", param, connection };
+  ambit_part_spec spec = { k->element, k->name, "subject", "kit.lua:1", param, connection, NULL };
   k->nresidual = 0;
   k->report->stages++;
   if (!add_subject(k, &spec)) return false;
   for (uint32_t i = 0; i < k->element->nport; i++)
-    if (k->element->port[i].role == AMBIT_ROLE_OUT && k->element->port[i].kind != AMBIT_PORT_CONSTRAINT) burden(k, i);
+    if (k->element->port[i].role == AMBIT_ROLE_OUT && k->element->port[i].kind <= AMBIT_PORT_JOINT) burden(k, i);
   take_variables(k);
   return true;
 }

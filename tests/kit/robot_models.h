@@ -71,7 +71,7 @@ static inline uint32_t robot_add(
     robot_numbers(r, data[k + 1], value[i]);
     param[i] = value[i];
   }
-  ambit_part_spec spec = { e, type, name, "robot_models.h", param, connection };
+  ambit_part_spec spec = { e, type, name, "robot_models.h", param, connection, NULL };
   uint32_t part = 0;
   robot_need(ambit_mechanism_add(r->mechanism, &spec, &part, &f) == AMBIT_OK, f.message);
   return part;

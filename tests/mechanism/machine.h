@@ -83,7 +83,7 @@ static inline uint32_t machine_try(
     if (!e->param[i].name) fail_msg("no parameter `%s`", d->name);
     param[i] = d->e;
   }
-  ambit_part_spec spec = { e, type, name, "scene.lua:7", param, connection };
+  ambit_part_spec spec = { e, type, name, "scene.lua:7", param, connection, NULL };
   ambit_failure_clear(&s->failure);
   return ambit_mechanism_add(s->mechanism, &spec, &part, &s->failure) == AMBIT_OK ? part : UINT32_MAX;
 }

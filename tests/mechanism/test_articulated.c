@@ -95,7 +95,7 @@ static ambit_frame driven(robot *r, const char *type, const char *name, ambit_fr
   check(ambit_registry_element(r->registry, type, &element, &f), &f);
   while (strcmp(element->param[i].name, key) != 0) i++;
   param[i] = &e;
-  ambit_part_spec spec = { element, type, name, "test", param, connection };
+  ambit_part_spec spec = { element, type, name, "test", param, connection, NULL };
   check(ambit_mechanism_add(r->mechanism, &spec, &part, &f), &f);
   return (ambit_frame) { part, 1 };
 }

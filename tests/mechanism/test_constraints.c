@@ -159,7 +159,7 @@ static uint32_t close_point(machine *s, const char *name, ambit_frame a, ambit_f
   const ambit_element *e = machine_element(s, "close_point");
   ambit_frame connection[3] = { a, b, AMBIT_NOWHERE };
   const ambit_expr *param[1] = { NULL };
-  ambit_part_spec spec = { e, "close_point", name, "scene.lua:7", param, connection };
+  ambit_part_spec spec = { e, "close_point", name, "scene.lua:7", param, connection, NULL };
   uint32_t part = UINT32_MAX;
   if (ambit_mechanism_add(s->mechanism, &spec, &part, &s->failure) != AMBIT_OK) fail_msg("%s", s->failure.message);
   return part;
@@ -260,7 +260,7 @@ static void equations_of_a_spatial_loop_are_fulfilled(void **state) {
   ambit_frame connection[3] = { machine_link(&s, AMBIT_WORLD, "0.1,0.3,0.2"), at, AMBIT_NOWHERE };
   const machine_datum axes[2] = { machine_text(&s, "axis", "1,0,0"), machine_text(&s, "axis_b", "0.9,0.1,0.2") };
   const ambit_expr *param[2] = { axes[0].e, axes[1].e };
-  ambit_part_spec spec = { e, "close_revolute", "ring", "scene.lua:7", param, connection };
+  ambit_part_spec spec = { e, "close_revolute", "ring", "scene.lua:7", param, connection, NULL };
   uint32_t part;
   if (ambit_mechanism_add(s.mechanism, &spec, &part, &s.failure) != AMBIT_OK) fail_msg("%s", s.failure.message);
   check_equations(&s, 5, 0, 5);

@@ -16,10 +16,12 @@
 typedef uint32_t ambit_expr; /* node number in the graph; 0 is the constant 0 */
 
 /* Kinds of ports. A joint port carries the generalised coordinates of the joint, a constraint port (always OUT) the
-** equations of an element that closes a loop. */
+** equations of an element that closes a loop, a state port (always OUT) quantities with a first-order equation of their
+** own: a current, a pressure, the integral of a controller. An element with a state port has no joint of its own. */
 #define AMBIT_PORT_FRAME 1u
 #define AMBIT_PORT_JOINT 2u
 #define AMBIT_PORT_CONSTRAINT 3u
+#define AMBIT_PORT_STATE 4u
 /* Roles: IN is given by the user (another element's OUT), OUT is made by this element. */
 #define AMBIT_ROLE_IN 1u
 #define AMBIT_ROLE_OUT 2u
@@ -48,6 +50,8 @@ typedef uint32_t ambit_expr; /* node number in the graph; 0 is the constant 0 */
 /* [d] OUT: generalised force that must vanish: projection of the wrench on the joint plus its effort */
 #define AMBIT_BALANCE 20u
 #define AMBIT_COORDINATE_RATE 21u /* [c] OUT: q' from q and u; asked for only where c differs from d */
+/* Quantities of a state port with d states: AMBIT_COORDINATE [d], their values x, and AMBIT_COORDINATE_RATE [d], x' as a
+** function of coordinates, speeds, states, data and time. */
 /* Quantities of a constraint port with d rows. */
 /* [d] OUT: g, which vanishes. The element's wrenches and efforts are those of multipliers: virtual power
 ** sum of lambda_k dg_k/dt, whatever the motion; where g itself moves in time, at fixed time, and the AMBIT_POWER is
@@ -65,7 +69,7 @@ typedef uint32_t ambit_expr; /* node number in the graph; 0 is the constant 0 */
 typedef struct ambit_port {
   const char *name;    /* "from" */
   uint32_t kind, role; /* AMBIT_PORT_*, AMBIT_ROLE_* */
-  uint32_t dof;        /* of a joint port (or AMBIT_DOF), rows of a constraint port, else 0 */
+  uint32_t dof;        /* of a joint port (or AMBIT_DOF), rows of a constraint port, states of a state port, else 0 */
   uint32_t optional;   /* IN ports only: 1 = may be left unconnected */
   const char *doc;
 } ambit_port;
@@ -82,9 +86,10 @@ struct ambit_build { /* [main] valid only during express() */
   /* folds, hash-conses; y ignored if unary; POWN: y is the int32 exponent */
   ambit_expr (*op)(ambit_build *b, uint32_t opcode, ambit_expr x, ambit_expr y);
   const ambit_expr *(*param)(ambit_build *b, uint32_t index); /* in declaration order; NULL: optional and absent */
-  /* the element's own coordinate number i (counted through its OUT joint ports in order), or its first or second time
-  ** derivative (order 0, 1, 2); becomes a state. `unit` is that of the coordinate, whatever the order. Orders 1 and 2
-  ** only where coordinates and degrees of freedom are as many; else speed() */
+  /* the element's own coordinate number i (counted through its OUT joint ports in order, or through its state ports), or
+  ** its first or second time derivative (order 0, 1, 2); becomes a state. `unit` is that of the coordinate, whatever the
+  ** order; NULL: the one that the scene gives. Orders 1 and 2 only where coordinates and degrees of freedom are as many;
+  ** else speed() */
   ambit_expr (*state)(ambit_build *b, uint32_t i, uint32_t order, const char *unit);
   /* pulls a quantity: of an own IN port: motion of the frame it is connected to; of an own OUT port: the sum of what
   ** is exerted there by all elements attached to it; of AMBIT_NO_PORT: of the mechanism. NULL: return any status but

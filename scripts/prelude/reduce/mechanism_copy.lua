@@ -96,7 +96,7 @@ end
 
 function Copy:enter(part, d, values, links)
   local new = element.enter(self.to, d, core.part_name(self.from.handle, part), self.from.places[part] or "", values,
-    links)
+    links, element.made(self.from, part).unit)
   self.part[part], self.to.places[new] = new, self.from.places[part]
 end
 
