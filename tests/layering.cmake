@@ -1,6 +1,7 @@
 # layering.cmake -- cmake -D ROOT=<tree> -P layering.cmake: refuses an upward include.
 # A file of framework/<layer> includes its own layer and lower ones; only the layer lua (and main.c) sees lua.h, only lua sees ffi.h; a plugin sees
 # <ambit/...> and files of its own folder; headers of the ABI see the ABI only.
+# Besides, bounds are read from arithmetics by one function, which looks at them.
 cmake_minimum_required(VERSION 3.22)
 set(layers abi base num graph host mechanism model lua main)
 set(errors 0)
@@ -75,10 +76,18 @@ foreach(file ${plugins})
   endforeach()
 endforeach()
 
+# Bounds that an arithmetic gave are read by ambit_bounds_read, which looks at them.
+foreach(file ${kernel} ${plugins})
+  file(STRINGS ${file} lines REGEX "(->|\\.)bounds\\(")
+  if(lines AND NOT file MATCHES "/framework/abi/ambit/arithmetic\\.h$")
+    complain(${file} "${lines}" "ambit_bounds_read reads bounds")
+  endif()
+endforeach()
+
 if(checked EQUAL 0)
   message(FATAL_ERROR "no sources below ${ROOT}")
 endif()
 if(errors GREATER 0)
-  message(FATAL_ERROR "${errors} includes break the layering")
+  message(FATAL_ERROR "${errors} lines break the layering")
 endif()
 message("${checked} files, layering kept")

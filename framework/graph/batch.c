@@ -207,9 +207,8 @@ uint32_t ambit_batch_run(ambit_batch *batch, size_t lanes, const double *lo, con
     flags |= own;
     for (uint32_t o = 0; o < t->nout; o++) {
       size_t at = o * lanes + done;
-      full->bounds(batch->ctx, element(batch, t->out[o]), n, rlo + at, rhi + at);
+      ambit_bounds_read(full, batch->ctx, element(batch, t->out[o]), n, rlo + at, rhi + at);
       for (size_t i = at; i < at + n; i++) {
-        ambit_bounds_check(full, &rlo[i], &rhi[i]);
         if (rlo[i] > rhi[i] && !takes_empty(t, lanes, i - o * lanes, lo, hi))
           ambit_empty_check(full, own, 0, rlo[i], rhi[i]);
       }

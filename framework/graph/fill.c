@@ -22,11 +22,8 @@ static char *element(const call *c, uint32_t slot, size_t lane) {
 
 static void read_bounds(const call *c, uint32_t slot, size_t lane, size_t n, ambit_interval *x) {
   double lo[CHUNK], hi[CHUNK];
-  c->self->bounds(c->ctx, element(c, slot, lane), n, lo, hi);
-  for (size_t i = 0; i < n; i++) {
-    ambit_bounds_check(c->self, &lo[i], &hi[i]);
-    x[i] = (ambit_interval) { lo[i], hi[i] };
-  }
+  ambit_bounds_read(c->self, c->ctx, element(c, slot, lane), n, lo, hi);
+  for (size_t i = 0; i < n; i++) x[i] = (ambit_interval) { lo[i], hi[i] };
 }
 
 static void write_bounds(const call *c, uint32_t slot, size_t lane, size_t n, const ambit_interval *x) {

@@ -133,8 +133,7 @@ void ambit_block_run_each(ambit_block *block, uint32_t *flags) {
 
 ambit_interval ambit_block_get(const ambit_block *block, uint32_t out, size_t lane) {
   ambit_interval x;
-  block->arithmetic->bounds(block->ctx, element(block, block->tape->out[out], lane), 1, &x.lo, &x.hi);
-  ambit_bounds_check(block->arithmetic, &x.lo, &x.hi);
+  ambit_bounds_read(block->arithmetic, block->ctx, element(block, block->tape->out[out], lane), 1, &x.lo, &x.hi);
   ambit_empty_check(block->arithmetic, block->flags, block->given_empty, x.lo, x.hi);
   return x;
 }

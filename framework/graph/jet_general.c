@@ -29,8 +29,7 @@ uint32_t ambit_series_at(const ambit_series *s, ambit_row a, uint32_t k) {
 
 ambit_interval ambit_series_bounds(const ambit_series *s, uint32_t element) {
   ambit_interval x;
-  s->arithmetic->bounds(s->ctx, place(s, element), 1, &x.lo, &x.hi);
-  ambit_bounds_check(s->arithmetic, &x.lo, &x.hi);
+  ambit_bounds_read(s->arithmetic, s->ctx, place(s, element), 1, &x.lo, &x.hi);
   return x;
 }
 

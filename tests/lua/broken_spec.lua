@@ -46,6 +46,7 @@ describe("a plugin that gives no enclosures", function()
     sample = "ambit.sample { { ambit.sin(start[1]) }, arithmetic = a }",
     simulate = "run(ambit.simulate, { f })",
     ["simulate with taylor_model"] = "run(ambit.simulate, { f, solver = 'taylor_model' })",
+    ["simulate with valencia"] = "run(ambit.simulate, { f, solver = 'valencia' })",
     sensitivity = "run(ambit.sensitivity, { f }).run",
     verify = "run(ambit.verify, { f, budget = 1, safe = function(s) return s.x - 3 end })",
     certify = "run(ambit.certify, { f, f, outputs = { 'x' }, error = { x = 1 } })",

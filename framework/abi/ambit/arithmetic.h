@@ -114,6 +114,14 @@ static inline void ambit_bounds_check(const ambit_arithmetic *a, double *lo, dou
   *lo = -infinity, *hi = infinity;
 }
 
+/* [ctx] The bounds of n elements from src on, looked at one by one: how everybody but the arithmetic itself reads
+** them. */
+static inline void ambit_bounds_read(
+    const ambit_arithmetic *a, void *ctx, const void *src, size_t n, double *lo, double *hi) {
+  a->bounds(ctx, src, n, lo, hi);
+  for (size_t i = 0; i < n; i++) ambit_bounds_check(a, &lo[i], &hi[i]);
+}
+
 /* [any] The bounds of a result behind ambit_bounds_check: the empty set is a fault where neither an operation left its
 ** domain (`flags` of all that led to it: AMBIT_F_PARTIAL) nor anything empty went in. */
 static inline void ambit_empty_check(

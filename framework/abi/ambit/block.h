@@ -74,8 +74,14 @@ static inline uint32_t ambit_lane_run(ambit_lane *lane) {
 
 /* [ctx] bounds of output number `out` */
 static inline void ambit_lane_get(const ambit_lane *lane, uint32_t out, double *lo, double *hi) {
-  lane->arithmetic->bounds(lane->ctx, ambit_lane_at(lane, lane->tape->out[out]), 1, lo, hi);
-  ambit_bounds_check(lane->arithmetic, lo, hi);
+  ambit_bounds_read(lane->arithmetic, lane->ctx, ambit_lane_at(lane, lane->tape->out[out]), 1, lo, hi);
   ambit_empty_check(lane->arithmetic, lane->flags, lane->given_empty, *lo, *hi);
+}
+
+/* [ctx] lo, hi: [nslot], bounds of all slots; flags: of the operations that led to them */
+static inline void ambit_lane_slots(const ambit_lane *lane, uint32_t flags, double *lo, double *hi) {
+  ambit_bounds_read(lane->arithmetic, lane->ctx, lane->base, lane->tape->nslot, lo, hi);
+  for (uint32_t i = 0; i < lane->tape->nslot; i++)
+    ambit_empty_check(lane->arithmetic, flags, lane->given_empty, lo[i], hi[i]);
 }
 #endif

@@ -40,7 +40,7 @@ static void set_inputs(table *t, const double *in, uint32_t count) {
 
 static void get_outputs(table *t, uint32_t count) {
   for (uint32_t o = 0; o < t->tape->nout; o++) {
-    t->arithmetic->bounds(t->ctx, slot_at(t, t->tape->out[o]), count, t->lo, t->hi);
+    ambit_bounds_read(t->arithmetic, t->ctx, slot_at(t, t->tape->out[o]), count, t->lo, t->hi);
     for (uint32_t l = 0; l < count; l++) {
       double lo = t->lo[l], hi = t->hi[l];
       t->value[(size_t)l * t->tape->nout + o] = !(lo <= hi) ? NAN : lo == hi ? lo : 0.5 * lo + 0.5 * hi;

@@ -41,7 +41,7 @@ static int survey(valencia *s) {
   for (uint32_t j = 0; j < s->nx; j++) put(s, j, face_of(s, j));
   for (uint32_t k = 0; k < s->np; k++) put(s, s->nx + k, parameter(s, k));
   if (!run(s)) return 0;
-  l->arithmetic->bounds(l->ctx, l->base, l->tape->nslot, y->lo, y->hi);
+  ambit_lane_slots(l, l->flags, y->lo, y->hi);
   valencia_slopes(s->num, l->tape, s->ndir, y->lo, y->hi, y->slope);
   for (uint32_t i = 0; i < s->nx; i++)
     if (!is_bounded(s->rate[i] = change_of(s, i))) return 0;

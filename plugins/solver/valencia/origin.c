@@ -13,7 +13,7 @@ static uint32_t evaluate(valencia *s, ambit_lane *lane, int only_middle, double 
     lane->arithmetic->set(lane->ctx, ambit_lane_at(lane, lane->tape->nconst + j), 1, &u.lo, &u.hi, (int32_t)j);
   }
   uint32_t flags = ambit_lane_run(lane);
-  lane->arithmetic->bounds(lane->ctx, lane->base, lane->tape->nslot, lo, hi);
+  ambit_lane_slots(lane, flags, lo, hi);
   return flags & (AMBIT_F_PARTIAL | AMBIT_F_EMPTY | AMBIT_F_UNBOUNDED);
 }
 

@@ -24,7 +24,6 @@ static const ambit_solver interface = {
   .size = sizeof interface,
   .want = AMBIT_WANT_RHS | AMBIT_WANT_SERIES | AMBIT_WANT_INITIAL | AMBIT_WANT_TIME,
   .needs_rigorous = 1,
-  .arithmetics = "interval taylor_model affine gradient mpfr",
   .param = valencia_param,
   .open = valencia_open,
   .run = valencia_run,

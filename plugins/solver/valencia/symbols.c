@@ -25,8 +25,7 @@ static uint32_t apply(const valencia *s, uint32_t op, uint32_t dst, uint32_t a, 
 
 static interval bounds(const valencia *s, uint32_t slot) {
   interval r;
-  s->symbols.lane.arithmetic->bounds(s->symbols.lane.ctx, element(s, slot), 1, &r.lo, &r.hi);
-  ambit_bounds_check(s->symbols.lane.arithmetic, &r.lo, &r.hi);
+  ambit_bounds_read(s->symbols.lane.arithmetic, s->symbols.lane.ctx, element(s, slot), 1, &r.lo, &r.hi);
   return r;
 }
 
@@ -188,12 +187,13 @@ uint32_t valencia_symbols_run(valencia *s, const double *radius, int only_middle
   leave_curves(s);
   flags |= run_tape(l);
   enter_curves(s);
-  l->arithmetic->bounds(l->ctx, l->base, t->nslot, s->symbols.lo, s->symbols.hi);
+  ambit_lane_slots(l, flags, s->symbols.lo, s->symbols.hi);
   for (uint32_t i = 0; i < s->nx; i++) {
     flags |= set_curve(s, i, 1);
     flags |= apply(s, AMBIT_OP_MUL, at(s, TERM), at(s, HALF), t->out[i]);
     flags |= apply(s, AMBIT_OP_SUB, at(s, NEXT), at(s, TERM), at(s, SUM));
     out[i] = bounds(s, at(s, NEXT));
+    ambit_empty_check(l->arithmetic, flags, l->given_empty, out[i].lo, out[i].hi);
     if (!is_bounded(out[i])) flags |= AMBIT_F_UNBOUNDED;
   }
   leave_curves(s);
