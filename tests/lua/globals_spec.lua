@@ -20,15 +20,14 @@ local function run(scene)
   return output, code
 end
 
--- Everything that a scene can take away, methods of strings excepted.
+-- Everything that a scene can take away, methods of strings too.
 local spoil = [[
 local ambit, print, pairs = require "ambit", print, pairs
-local stay = { _G = true, string = true }
-for _, name in pairs { "table", "math", "os", "io", "debug", "coroutine", "utf8" } do
+local stay = { _G = true }
+for _, name in pairs { "string", "table", "math", "os", "io", "debug", "coroutine", "utf8" } do
   for key in pairs(_G[name]) do _G[name][key] = 3 end
 end
 for name in pairs(_G) do if not stay[name] then _G[name] = "spoilt" end end
-string = false
 ]]
 
 local body = [[
@@ -71,6 +70,21 @@ describe("what a scene makes of globals", function()
       assert.equal(expected, spoilt)
       assert.equal(1, spoilt_code)
     end
+  end)
+
+  it("holds in the scene: its methods of strings are its own", function()
+    local output, code = run [[
+local ambit = require "ambit"
+local rep, format = string.rep, string.format
+function string.twice(s) return rep(s, 2) end
+function string.format() return "mine" end
+print(("ab"):twice(), ("%d"):format(3), tostring(ambit.interval(1, 2)), ("x").nothing)
+string = { rep = rep }
+print(("ab"):rep(2), ("%d"):format(3))
+ambit.evaluate { ambit.number "one" }]]
+    assert.equal(1, code)
+    assert.truthy(output:find("abab\tmine\t[1, 2]\tnil\nabab\tmine\n", 1, true), output)
+    assert.truthy(output:find("\"one\" is no number: expected for example", 1, true), output)
   end)
 
   it("is not what Ambit makes of them", function()
