@@ -20,6 +20,7 @@ static const ambit_solver solver = {
   .size = sizeof solver,
   .want = AMBIT_WANT_RHS | AMBIT_WANT_SERIES | AMBIT_WANT_JACOBIAN | AMBIT_WANT_INITIAL | AMBIT_WANT_SLOPE,
   .needs_rigorous = 1,
+  .arithmetics = "interval", /* its polynomials are its own */
   .param = param,
   .open = stiff_open,
   .run = stiff_run,

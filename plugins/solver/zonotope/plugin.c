@@ -21,6 +21,7 @@ static const ambit_solver solver = {
   .size = sizeof solver,
   .want = AMBIT_WANT_IMPLICIT | AMBIT_WANT_SERIES | AMBIT_WANT_INITIAL,
   .needs_rigorous = 1,
+  .arithmetics = "interval", /* its polynomials are its own */
   .param = param,
   .open = zono_open,
   .run = zono_run,
