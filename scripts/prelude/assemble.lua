@@ -195,10 +195,11 @@ local function prove_near(q, centre)
   return found.status == "complete" and #found.proved == 1 and found.proved[1] or nil
 end
 
-local function classify(found)
+local function classify(q, found)
   if found.status == "broken" or found.status == "stopped" then return found.status end
   if found.status ~= "complete" then return "undecided" end
-  if #found.partly > 0 then return "complete" end -- a part of the data has a configuration: roots.finish says partial
+  -- a part of the data has a configuration in the box: roots.finish says partial
+  if #found.partly > 0 or roots.leaving(q, found) > 0 then return "complete" end
   if #found.proved == 0 then return "none" end
   return #found.proved == 1 and "unique" or "several"
 end
@@ -215,7 +216,7 @@ local function explain_edge(found)
 end
 
 local function describe(self, q, rows, given, found, start)
-  local result = { status = classify(found), reason = explain_edge(found), boxes = found.boxes,
+  local result = { status = classify(q, found), reason = explain_edge(found), boxes = found.boxes,
     cpu_seconds = found.cpu_seconds, box = {}, configurations = {}, undecided = {}, report = found.report }
   if result.status == found.status or result.status == "undecided" then result.code = found.code end
   result.partly = {}

@@ -100,7 +100,7 @@ local function fields(names, values)
 end
 
 local function prove(detailed, reduced, scenarios, how)
-  proof.detailed(detailed, scenarios, how, "certify")
+  proof.detailed(detailed, scenarios, how)
   return proof.prove(detailed, reduced, scenarios, how)
 end
 
@@ -119,8 +119,8 @@ function verb.certify(t)
   how.report = {} -- of all runs together
   how.all, how.goal = true, bounds
   if t.refine == nil then how.refine, how.gain = REFINE, GAIN end
-  local broken, result = code.until_broken(prove, detailed, reduced, scenarios, how)
-  result = result or proof.broken(broken)
+  local ended, result = code.until_given_up(prove, detailed, reduced, scenarios, how)
+  result = result or proof.none(ended)
   result.error_status = result.status
   result.status, result.code, result.reason = verdict(result, names, bounds)
   result.outputs, result.bounds, result.criterion, result.settings = names, bounds, how.criterion, how

@@ -34,25 +34,31 @@ function code.is_worse(a, b) return severity[code.family(a)] > severity[code.fam
 -- The exit code of the command: 0 done, 4 proved that there is no answer, 3 could not prove, 1 broken or an error.
 function code.exit(name) return exits[severity[code.family(name)]] end
 
--- A verb made of many runs says nothing at all after one of them broke its contract: refuse_broken ends it from within,
--- until_broken takes that for its outcome.
-local Broken = { __name = "broken run", __tostring = function(self) return self.reason end }
+-- A verb made of many runs may be over with one of them: give_up ends it from within, until_given_up takes that for its
+-- outcome.
+local Outcome = { __name = "outcome", __tostring = function(self) return self.reason end }
 
+-- outcome: { status, code, reason, t_reached }
+function code.give_up(outcome)
+  error(setmetatable({ status = outcome.status, code = outcome.code, reason = outcome.reason,
+    t_reached = outcome.t_reached }, Outcome), 0)
+end
+
+-- After a run that broke its contract a verb says nothing at all.
 function code.refuse_broken(outcome)
   if outcome.status ~= "broken" then return end
   require("ambit.session").worst = outcome.code
-  error(setmetatable({ status = "broken", code = outcome.code, reason = outcome.reason, t_reached = outcome.t_reached },
-    Broken), 0)
+  code.give_up(outcome)
 end
 
 -- Is this error a run that broke its contract?
-function code.is_broken(problem) return getmetatable(problem) == Broken end
+function code.is_broken(problem) return getmetatable(problem) == Outcome and problem.status == "broken" end
 
--- f(...) -> nil and what it returns; or the outcome { status, code, reason, t_reached } of the run that ended it
-function code.until_broken(f, ...)
+-- f(...) -> nil and what it returns; or the outcome with which it gave up
+function code.until_given_up(f, ...)
   local results = table.pack(pcall(f, ...))
   if results[1] then return nil, table.unpack(results, 2, results.n) end
-  if code.is_broken(results[2]) then return results[2] end
+  if getmetatable(results[2]) == Outcome then return results[2] end
   error(results[2], 0)
 end
 

@@ -2,6 +2,7 @@
 local check = require "ambit.check"
 local core = require "ambit.core"
 local Matrix = require "ambit.matrix"
+local session = require "ambit.session"
 local shape = require "ambit.shape"
 
 local methods = {}
@@ -107,9 +108,7 @@ local function bounds(value, unit, what)
   return x.lo, x.hi
 end
 
--- m:rank { box = { beta = { lo, hi }, ... }, t = { lo, hi }, boxes = 10000 } -> { status = "proved", "undecided",
--- "singular" or "empty"; independent, dependent, redundant, rows, boxes }
-function methods:rank(t)
+local function certify_rank(self, t)
   need_loops(self, "rank")
   check.table(t, "rank")
   check.keys(t, { "box", "t", "boxes" }, "rank")
@@ -121,6 +120,22 @@ function methods:rank(t)
   for i, name in ipairs(names) do lo[i], hi[i] = bounds(t.box[name], units[name], "rank: box." .. name) end
   local from, to = bounds(t.t or 0, "s", "rank: t")
   return core.rank(self.handle, names, lo, hi, from, to, check.count(t.boxes or 10000, "rank: boxes"))
+end
+
+-- What the verdicts mean for the exit code: a proof that the rank is lost is an answer.
+local ranks = { proved = "ok", empty = "ok.none", singular = "ok.refuted", undecided = "unable.undecided" }
+
+-- m:rank { box = { beta = { lo, hi }, ... }, t = { lo, hi }, boxes = 10000 } -> { status = "proved", "undecided",
+-- "singular" or "empty"; code, reason, independent, dependent, redundant, rows, boxes }
+function methods:rank(t)
+  local start, found = core.cpu(), certify_rank(self, t)
+  found.code, found.reason, found.cpu_seconds = ranks[found.status], "", core.cpu() - start
+  if found.status == "undecided" then
+    local names = table.concat(found.loops, "`, `")
+    found.reason = ("the constraint Jacobian of `%s` may lose rank; narrow the box, or raise `boxes`"):format(names)
+  end
+  session.finish("rank", found, {}, { "boxes", found.boxes })
+  return found
 end
 
 local loops = {}
@@ -182,7 +197,7 @@ function loops.hint(self, run)
   if not core.has_constraints(self.handle) or run.step_count == 0 then return nil end
   local box = box_around_end(self, run)
   if not box then return nil end
-  local _, found = pcall(methods.rank, self, { box = box, t = { run.t_reached, run.t_reached }, boxes = 500 })
+  local _, found = pcall(certify_rank, self, { box = box, t = { run.t_reached, run.t_reached }, boxes = 500 })
   if type(found) ~= "table" or (found.status ~= "undecided" and found.status ~= "singular") then return nil end
   return ("near there the constraint Jacobian of `%s` may lose rank: a singular position, at which the mechanism may "
     .. "take several ways"):format(table.concat(found.loops, "`, `"))

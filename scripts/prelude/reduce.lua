@@ -288,7 +288,7 @@ end
 
 -- The detailed model alone: what it costs, and solutions of it in ordinary doubles.
 local function look_at_detailed(job)
-  local list, status = proof.detailed(job.detailed, job.scenarios, job.settings, "reduce")
+  local list, status = proof.detailed(job.detailed, job.scenarios, job.settings)
   job.cpu_seconds_detailed = 0
   for _, s in ipairs(list) do job.cpu_seconds_detailed = job.cpu_seconds_detailed + s.cpu_seconds end
   if status == "stopped" then return "stopped", "stopped on request" end
@@ -303,12 +303,12 @@ local function work(job)
   return status, reason
 end
 
--- How to forget all that was cut, because a run broke its contract: the model is the detailed one, and nothing is
--- proved.
+-- How to forget all that was cut, because a run broke its contract or the detailed model itself has no proof: the model
+-- is the detailed one, and nothing is proved.
 local function fallback(job)
   local detailed, model_before, first = job.detailed, job.model, job.history[1]
   return function(outcome)
-    job.plain, job.detailed, job.model, job.proof = job.given, detailed, model_before, proof.broken(outcome)
+    job.plain, job.detailed, job.model, job.proof = job.given, detailed, model_before, proof.none(outcome)
     job.terms, job.log, job.history, job.ranked = {}, {}, { { terms = first.terms, error = {} } }, {}
   end
 end
@@ -330,10 +330,10 @@ function verb.reduce(t)
   job.model.starts = model.starts(job.model, job.scenarios, job.stays)
   job.history[1] = { terms = candidate.count(job.model), error = job.proof.error }
   local back = fallback(job)
-  local broken, status, reason = code.until_broken(work, job)
-  if broken then back(broken) end
-  local result = result_of(job, before, broken and broken.status or status, broken and broken.reason or reason)
-  result.code = broken and broken.code or nil
+  local ended, status, reason = code.until_given_up(work, job)
+  if ended then back(ended) end
+  local result = result_of(job, before, ended and ended.status or status, ended and ended.reason or reason)
+  result.code = ended and ended.code or nil
   finish(job, result)
   return result
 end

@@ -10,6 +10,7 @@ local partial = require "ambit.partial"
 local session = require "ambit.session"
 local slope = require "ambit.roots_slope"
 local shape = require "ambit.shape"
+local uncertain = require "ambit.uncertain"
 
 local verb = {}
 
@@ -184,11 +185,26 @@ function verb.run(q)
   return setmetatable(facts, Roots)
 end
 
+-- How many of the proved roots are not known to be in the box for all data, because their enclosures reach out of it.
+function verb.leaving(q, facts)
+  local count, list = 0, table.move(q.expressions, 1, #q.expressions, 1, {})
+  for _, point in ipairs(facts.proved) do count = count + (point.inside and 0 or 1) end
+  if count == 0 then return 0 end
+  return #uncertain.data(table.move(q.values, 1, #q.values, #list + 1, list)) > 0 and count or 0
+end
+
+-- What holds for a part of the data only, or nil.
+local function why_partial(q, facts)
+  local n, out = #facts.partly, verb.leaving(q, facts)
+  if n > 0 then return (n == 1 and "1 root exists" or ("%d roots exist"):format(n)) .. " only for a part of the data" end
+  local where = "outside the box, which could be larger, for a part of the data"
+  if out > 0 then return (out == 1 and "1 root may lie " or ("%d roots may lie "):format(out)) .. where end
+end
+
 -- The end of the verb `what`; outcome: what it made of the facts of the search, or nil.
 function verb.finish(q, what, facts, outcome)
-  local result, n = outcome or facts, #facts.partly
-  local exist = n == 1 and "1 root exists" or ("%d roots exist"):format(n)
-  partial.judge(result, n > 0 and exist .. " only for a part of the data" or nil, q.partial)
+  local result = outcome or facts
+  partial.judge(result, why_partial(q, facts), q.partial)
   session.finish(what, result, facts.report,
     { "solver", q.solver, "arithmetic", facts.arithmetic, "options", q.option_list, "boxes", facts.boxes })
   return result

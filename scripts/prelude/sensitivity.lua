@@ -147,7 +147,15 @@ function Sensitivity.__tostring(self)
   return table.concat(lines, "\n")
 end
 
+-- Derivatives are enclosed for all data or not at all.
+local function refuse_partial(t)
+  if type(t) == "table" and t.partial ~= nil then
+    check.fail "sensitivity: partial: there is nothing to allow: derivatives hold for all data, or the run is unable"
+  end
+end
+
 function verb.sensitivity(t)
+  refuse_partial(t)
   local keys = table.move(simulate.run_keys, 1, #simulate.run_keys, 2, { "wrt" })
   local q = simulate.request(t, "sensitivity", "lohner", keys)
   q.run_options = simulate.run_options(t, q)

@@ -221,6 +221,13 @@ local function decide(self, point)
   return facts
 end
 
+-- Whoever asks for the verdict on a point gets it, and its code counts.
+local function count(facts)
+  session.finish("stability", { status = facts.stability, reason = facts.stability_reason,
+    code = facts.stability == "undecided" and "unable.undecided" or "ok", cpu_seconds = facts.cpu_seconds }, {},
+    { "by", facts.stability_by })
+end
+
 local keys = { stability = true, stability_by = true, stability_reason = true, eigenvalues = true }
 
 -- self: { system, speeds, searched (names as keys), leaves, values } -> function(point, key) for roots.run's `more`.
@@ -228,7 +235,12 @@ function stability.new(self)
   local known = setmetatable({}, { __mode = "k" })
   return function(point, key)
     if not keys[key] then return nil end
-    known[point] = known[point] or decide(self, point)
+    if not known[point] then
+      local start = core.cpu()
+      known[point] = decide(self, point)
+      known[point].cpu_seconds = core.cpu() - start
+      count(known[point])
+    end
     return known[point][key]
   end
 end

@@ -280,7 +280,7 @@ function mechanism:multipliers() end
 ---@return any # dependent speeds, accelerations and multipliers put in
 function mechanism:of_states(e) end
 ---@param t { box: table<string, any>, t: any?, boxes: integer? }
----@return { status: "proved"|"undecided"|"singular"|"empty", independent: string[], dependent: string[], redundant: string[] }
+---@return { status: "proved"|"undecided"|"singular"|"empty", code: string, reason: string, independent: string[], dependent: string[], redundant: string[] }
 function mechanism:rank(t) end
 
 ---@class ambit.assembly

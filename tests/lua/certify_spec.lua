@@ -400,9 +400,13 @@ describe("certify", function()
     m:point_on_line { a = m.world, b = pin, axis = "x", name = "guide" }
     m:independent { "crank" }
     for _, criterion in ipairs { "difference", "bounds" } do
-      assert_refused("the detailed model has no solution over scenario `scenario`: the initial set does not meet the \z
-        constraint `guide.1`", { m, m, t = 1, outputs = { "crank" }, criterion = criterion,
-        initial = { crank = 0.5, rod = -0.9, ["crank'"] = 1 } })
+      local r = ambit.certify { m, m, t = 1, outputs = { "crank" }, criterion = criterion,
+        initial = { crank = 0.5, rod = -0.9, ["crank'"] = 1 } }
+      assert.equal("impossible", r.status)
+      assert.equal("domain.constraint", r.code)
+      assert.is_nil(next(r.error))
+      assert.truthy(r.reason:find("the detailed model has no solution over scenario `scenario`: the initial set does \z
+        not meet the constraint `guide.1`", 1, true), r.reason)
     end
   end)
 
@@ -487,8 +491,17 @@ describe("certify", function()
   it("says first that the detailed model cannot be proved, and that a reduced one could not", function()
     local blows_up = ambit.ode { states = { "x" }, equations = function(s) return { x = ambit.sqr(s.x) } end }
     local tame = ambit.ode { states = { "x" }, equations = function(s) return { x = -s.x } end }
-    assert_refused("the detailed model itself cannot be proved over scenario `scenario`: reached t = 0.99",
-      { blows_up, tame, t = { 0, 2 }, initial = { x = 1 }, outputs = { "x" } })
+    for _, criterion in ipairs { "difference", "bounds" } do
+      local none = ambit.certify { blows_up, tame, t = { 0, 2 }, initial = { x = 1 }, outputs = { "x" },
+        criterion = criterion }
+      assert.equal("unable", none.status)
+      assert.truthy(none.code:find "^unable%.")
+      assert.truthy(none.reason:find("the detailed model itself cannot be proved over scenario `scenario`: reached t = 0.99",
+        1, true), none.reason)
+      assert.is_nil(next(none.error))
+      assert.truthy(tostring(none):find("unable: ", 1, true))
+      assert.is_true(none.t_reached < 1)
+    end
     local r = ambit.certify { tame, blows_up, t = { 0, 2 }, initial = { x = 1 }, outputs = { "x" } }
     assert.equal("unable", r.status)
     assert.is_nil(r.error.x)

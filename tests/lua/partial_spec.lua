@@ -169,6 +169,13 @@ describe("a partial answer of another verb", function()
     roots = [[local p = ambit.between(4, 16)
       r = ambit.roots { function(s) return s.x ^ 2 - p end, box = { x = { 0, 3 } }, partial = %s }
       assert(#r.partly == 1 and #r.proved == 0)]],
+    ["roots that leave the box"] = [[local p = ambit.between("0.5", "1.5")
+      r = ambit.roots { function(s) return s.x - p end, box = { x = { 0, 1 } }, partial = %s }
+      assert(#r.proved == 1 and not r.proved[1].inside)]],
+    ["equilibria that leave the box"] = [[local p = ambit.between("0.5", "1.5")
+      local f = ambit.ode { states = { "x" }, equations = function(s) return { x = p - s.x } end }
+      r = ambit.equilibria { f, box = { x = { 0, 1 } }, partial = %s }
+      assert(#r.proved == 1 and not r.proved[1].inside)]],
     equilibria = [[local p = ambit.between(4, 16)
       local f = ambit.ode { states = { "x" }, equations = function(s) return { x = p - s.x ^ 2 } end }
       r = ambit.equilibria { f, box = { x = { 0, 3 } }, partial = %s }
@@ -217,6 +224,11 @@ describe("a partial answer of another verb", function()
     assert.equal(1, code, output)
     has(output, "not defined for all values of their uncertain data")
     code, output = scene [[
+      local f = ambit.ode { states = { "x" }, equations = function(s) return { x = -s.x } end }
+      ambit.sensitivity { f, initial = { 1 }, t = { 0, 1 }, partial = true }]]
+    assert.equal(1, code, output)
+    has(output, "sensitivity: partial: there is nothing to allow")
+    code, output = scene [[
       local f = ambit.ode { states = { "x" }, equations = function(s) return { x = -ambit.sqrt(s.x) } end }
       ambit.sensitivity { f, initial = { ambit.between(0, 1) }, t = { 0, 1 }, wrt = { "x" } }]]
     assert.equal(3, code, output)
@@ -255,6 +267,55 @@ describe("verdicts count for the exit code:", function()
       assert(r.status == "undecided" and r.code:match "^unable", r.status)]]
     assert.equal(3, code, output)
     has(output, '"verb":"assemble","status":"undecided","code":"unable.')
+  end)
+
+  it("a rank that is not decided, and one that is lost", function()
+    local m = [[local m = ambit.mechanism "loop"
+      m:close_distance { a = m:prismatic { from = m.world, axis = "x", name = "x" },
+        b = m:prismatic { from = m.world, axis = "y", name = "y" }, length = ambit.between("1.5", 2) }
+      ]]
+    local code, output = scene(m .. [[local r = m:rank { box = { x = { "0.5", 2 }, y = { "0.5", 2 } } }
+      assert(r.code == "ok")]])
+    assert.equal(0, code, output)
+    has(output, '"verb":"rank","status":"proved","code":"ok"')
+    code, output = scene(m .. [[local r = m:rank { box = { x = { 3, 4 }, y = { 3, 4 } } }
+      assert(r.code == "ok.none", r.code)]])
+    assert.equal(0, code, output)
+    has(output, '"verb":"rank","status":"empty","code":"ok.none"')
+    code, output = scene(m .. [[local r = m:rank { box = { x = { -3, 3 }, y = { -3, 3 } }, boxes = 2 }
+      assert(r.status == "undecided", r.status) print(r.reason)]])
+    assert.equal(3, code, output)
+    has(output, '"verb":"rank","status":"undecided","code":"unable.undecided"', "may lose rank; narrow the box")
+  end)
+
+  it("stability that is not decided, when somebody asks for it", function()
+    local text = [[local f = ambit.ode { states = { "x", "v" }, equations = function(s)
+        return { x = 2 * s.v, v = -s.x - %s * s.v } end }
+      local r = ambit.equilibria { f, box = { x = { -1, 1 }, v = { -1, 1 } } }
+      assert(r.status == "complete") ]]
+    local code, output = scene(text:format "0")
+    assert.equal(0, code, output)
+    code, output = scene(text:format "0" .. "print(r.proved[1].stability, r.proved[1].eigenvalues)")
+    assert.equal(3, code, output)
+    has(output, '"verb":"stability","status":"undecided","code":"unable.undecided"')
+    local _, count = output:gsub('"verb":"stability"', "")
+    assert.equal(1, count)
+    code, output = scene(text:format "1" .. "assert(r.proved[1].stability == 'stable')")
+    assert.equal(0, code, output)
+    has(output, '"verb":"stability","status":"stable","code":"ok"')
+  end)
+
+  it("a detailed model without a proof", function()
+    local text = [[local boom = ambit.ode { states = { "x" }, equations = function(s) return { x = s.x ^ 2 } end }
+      local small = ambit.ode { states = { "x" }, equations = function() return { x = 0 } end }
+      local t = { outputs = { "x" }, error = { x = 1 }, t = { 0, 2 }, initial = { x = 1 } }
+      ]]
+    local code, output = scene(text .. "t[1], t[2] = boom, small print(ambit.certify(t))")
+    assert.equal(3, code, output)
+    has(output, '"verb":"certify","status":"unable","code":"unable.', "the detailed model itself cannot be proved")
+    code, output = scene(text .. "t[1] = boom print(ambit.reduce(t))")
+    assert.equal(3, code, output)
+    has(output, '"verb":"reduce","status":"unable","code":"unable.', "the detailed model itself cannot be proved")
   end)
 
   it("eigenvalues that are not enclosed, and a matrix that does not exist", function()

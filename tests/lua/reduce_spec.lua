@@ -538,9 +538,15 @@ describe("reduce, the verb", function()
 
   it("says first where the detailed model cannot be proved, and where there is nothing to cut", function()
     local escape = ambit.ode { name = "escape", states = { "x" }, equations = function(s) return { x = s.x ^ 2 } end }
-    assert_refused("the detailed model itself cannot be proved over scenario `long`: reached t = 0.9",
-      { escape, initial = { x = 1 }, outputs = { "x" }, error = { x = 1 },
-        scenarios = { { name = "short", t = "0.1" }, { name = "long", t = 2 } } })
+    local none = ambit.reduce { escape, initial = { x = 1 }, outputs = { "x" }, error = { x = 1 },
+      scenarios = { { name = "short", t = "0.1" }, { name = "long", t = 2 } } }
+    assert.equal("unable", none.status)
+    assert.truthy(none.code:find "^unable%.")
+    assert.truthy(none.reason:find("the detailed model itself cannot be proved over scenario `long`: reached t = 0.9",
+      1, true), none.reason)
+    assert.is_nil(next(none.error))
+    assert.equal(none.terms_before, none.terms_after)
+    assert.truthy(tostring(none):find("unable", 1, true))
     local still = ambit.ode { name = "still", states = { "x" }, equations = { x = 1 } }
     assert_refused("`still` has no terms to cut", { still, t = 1, initial = { x = 0 }, outputs = { "x" },
       error = { x = 1 } })

@@ -146,14 +146,15 @@ function proof.prove(detailed, reduced, scenarios, settings)
   return total
 end
 
--- What is left of a proof of which a run broke its contract.
-function proof.broken(outcome)
+-- What is left of a proof that was given up with this outcome.
+function proof.none(outcome)
   return { status = outcome.status, code = outcome.code, reason = outcome.reason, t_reached = outcome.t_reached,
     error = {}, when = {}, scenarios = {}, cpu_seconds = 0 }
 end
 
--- The detailed model alone over one scenario, box by box of the data: { name, status, cpu_seconds, steps }
-local function alone(detailed, s, settings, what)
+-- The detailed model alone over one scenario, box by box of the data: { name, status, cpu_seconds, steps }; gives up
+-- where it cannot be proved.
+local function alone(detailed, s, settings)
   local q, start = couple.alone(detailed, s), core.cpu()
   local part = { name = s.name, status = "complete", steps = 0 }
   local steps = settings.criterion == "bounds" and bounds.alone(detailed, s, settings)
@@ -168,26 +169,28 @@ local function alone(detailed, s, settings, what)
     part.steps, part.status = part.steps + report.steps, outcome.status
     code.refuse_broken(outcome)
     if outcome.status == "unable" then
-      check.fail("%sthe detailed model itself cannot be proved over scenario `%s`: reached t = %s, %s",
-        what and what .. ": " or "", s.name, core.literal(outcome.t_reached), outcome.reason)
+      outcome.reason = ("the detailed model itself cannot be proved over scenario `%s`: reached t = %s, %s"):format(
+        s.name, core.literal(outcome.t_reached), outcome.reason)
+      code.give_up(outcome)
     end
     if not outcome.impossible then possible = possible + 1 end
     if outcome.status == "stopped" then break end
   end
   if possible == 0 then -- whatever is said about no solution is true
-    check.fail("%sthe detailed model has no solution over scenario `%s`: %s", what and what .. ": " or "", s.name,
-      outcome.reason)
+    outcome.status = "impossible"
+    outcome.reason = ("the detailed model has no solution over scenario `%s`: %s"):format(s.name, outcome.reason)
+    code.give_up(outcome)
   end
   part.cpu_seconds = core.cpu() - start
   return part
 end
 
--- The detailed model alone, over every scenario: fails with the first that cannot be proved.
+-- The detailed model alone, over every scenario; gives up with the first that cannot be proved.
 -- -> { { name, status, cpu_seconds, steps } }, "complete", or "stopped" if the user interrupted
-function proof.detailed(detailed, scenarios, settings, what)
+function proof.detailed(detailed, scenarios, settings)
   local list = {}
   for i, s in ipairs(scenarios) do
-    list[i] = alone(detailed, s, settings, what)
+    list[i] = alone(detailed, s, settings)
     if list[i].status == "stopped" then return list, "stopped" end
   end
   return list, "complete"

@@ -261,7 +261,7 @@ local function decide(job)
 end
 
 function search.run(job)
-  local broken = code.until_broken(decide, job)
+  local broken = code.until_given_up(decide, job)
   if broken then forget(job, broken) end
 end
 
