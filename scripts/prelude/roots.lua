@@ -196,7 +196,9 @@ end
 -- What holds for a part of the data only, or nil.
 local function why_partial(q, facts)
   local n, out = #facts.partly, verb.leaving(q, facts)
-  if n > 0 then return (n == 1 and "1 root exists" or ("%d roots exist"):format(n)) .. " only for a part of the data" end
+  if n > 0 then
+    return (n == 1 and "1 root exists" or ("%d roots exist"):format(n)) .. " only for a part of the data"
+  end
   local where = "outside the box, which could be larger, for a part of the data"
   if out > 0 then return (out == 1 and "1 root may lie " or ("%d roots may lie "):format(out)) .. where end
 end
