@@ -1,6 +1,7 @@
 -- Everything that stands on a flow, with the solver `zonotope`: each answer is compared with a formula, not with
 -- another solver of Ambit.
 local ambit = require "ambit"
+local multibody = require "multibody"
 local between = ambit.between
 
 local function oscillator(w)
@@ -116,9 +117,108 @@ describe("zonotope", function()
     assert.equal("proved", r.status)
   end)
 
-  it("tells sensitivities", function()
+  it("bounds sensitivities, hardly wider than they are", function()
     local r = ambit.sensitivity(question { t = { 0, 1 } })
-    assert.is_not_nil(r)
+    local lo, hi = math.huge, -math.huge
+    for _, x0 in ipairs(x0s) do
+      for _, w in ipairs(ws) do
+        local by_w = -x0 * math.sin(w)
+        lo, hi = math.min(lo, by_w), math.max(hi, by_w)
+        assert.is_true(r:d("x", "w"):contains(by_w) and r:d("x", "x"):contains(math.cos(w)))
+        assert.is_true(r:d("v", "w"):contains(-x0 * (math.sin(w) + w * math.cos(w))))
+      end
+    end
+    assert.is_true(r:d("x", "w"):width() <= 1.02 * (hi - lo))
+    assert.is_true(r:d("x", "x"):width() <= 1.02 * (math.cos(0.98) - math.cos(1.02)))
+  end)
+
+  it("bounds sensitivities of a mechanism, those that start at zero and stay small for long among them", function()
+    local function chain(length, mass) -- three links from horizontal rest
+      local bodies = {}
+      for i = 1, 3 do
+        bodies[i] = { parent = i - 1, slides = false, axis = { 0, 1, 0 }, offset = { i > 1 and 1 or 0, 0, 0 },
+          turn_axis = { 0, 0, 1 }, mass = 1, centre = { 1, 0, 0 }, inertia = { 0, 0, 0, 0, 0, 0 } }
+      end
+      bodies[2].offset[1], bodies[1].centre[1], bodies[3].mass = length, length, mass
+      local t = { bodies = bodies, gravity = { 0, 0, -9.81 }, q = { 0, 0, 0 }, v = { 0, 0, 0 }, times = { 0.3 },
+        tolerance = 1e-16 }
+      return multibody.run(t)[1]
+    end
+    local m = ambit.mechanism { "chain", gravity = { 0, 0, "-9.81" } }
+    local frame, initial = m.world, {}
+    local length, mass = ambit.around(1, "0.1%", "length"), ambit.around(1, "0.1%", "mass")
+    for i = 1, 3 do
+      local joint = m:revolute { from = frame, axis = "y", name = "q" .. i }
+      frame = m:rigid_link { from = joint, offset = { i == 1 and length or 1, 0, 0 } }
+      m:point_mass { at = frame, mass = i == 3 and mass or 1 }
+      initial["q" .. i], initial["q" .. i .. "'"] = 0, 0
+    end
+    local r = ambit.sensitivity { m:dynamics(), initial = initial, t = { 0, "0.3" }, solver = "zonotope",
+      wrt = { "length", "mass" } }
+    assert.equal("complete", r.status)
+    local step = 1e-4
+    local longer, shorter = chain(1 + step, 1), chain(1 - step, 1)
+    local heavier, lighter = chain(1, 1 + step), chain(1, 1 - step)
+    for i = 1, 3 do
+      local name = "q" .. i
+      local by_length, by_mass = (longer[i] - shorter[i]) / (2 * step), (heavier[i] - lighter[i]) / (2 * step)
+      for by, truth in pairs { length = by_length, mass = by_mass } do
+        local d = r:d(name, by)
+        assert.is_true(d.lo - 1e-7 <= truth and truth <= d.hi + 1e-7, ("%s by %s: %s, %g"):format(name, by, d, truth))
+        assert.is_true(d:width() < 0.02 * math.abs(truth) + 1e-4, ("%s by %s: %s"):format(name, by, d))
+      end
+    end
+  end)
+
+  it("reduces", function()
+    local o = ambit.ode { states = { "x", "y" }, parameters = { a = between("-0.01", "0.01") },
+      equations = function(s, p) return { x = s.y, y = -s.x - s.y / 5 + p.a * s.x + ambit.sin(s.x) / 1000 } end }
+    local small = ambit.reduce { o, t = { 0, 3 }, initial = { x = between("0.9", "1.1"), y = 0 }, outputs = { "x" },
+      error = { x = "0.02" }, solver = "zonotope" }
+    assert.equal("complete", small.status)
+    assert.equal("y", tostring(small.ode.rates[1]))
+    assert.equal("-(x + y/5)", tostring(small.ode.rates[2]))
+    -- the greatest difference at the ends of the data: y'' + y'/5 + k y = 0 in closed form, sin x / 1000 about x / 1000
+    local function x(k, t)
+      local w = math.sqrt(k - 0.01)
+      return 1.1 * math.exp(-t / 10) * (math.cos(w * t) + math.sin(w * t) / (10 * w))
+    end
+    local most = 0
+    for k = 0, 300 do most = math.max(most, math.abs(x(1 + 0.01 - 0.0007, k / 100) - x(1, k / 100))) end
+    assert.is_true(small.error.x >= most and small.error.x < 1.5 * most, ("%g, %g"):format(small.error.x, most))
+  end)
+
+  it("is compared with other solvers", function()
+    local q = question { solvers = { "zonotope", "lohner" }, repeats = 1, n = 500 }
+    q.solver = nil
+    local row = ambit.compare(q).rows[1]
+    assert.equal("zonotope", row.label)
+    assert.equal("complete", row.status)
+    check(row.values, x0s, ws, 3, 0.02)
+    assert.is_true(row.over_sample >= 1 and row.over_sample < 1.05)
+  end)
+
+  it("has its time told by a profile, chosen by itself for many data", function()
+    local scene, out = os.tmpname(), os.tmpname()
+    local file = assert(io.open(scene, "w"))
+    file:write [[
+local ambit = require "ambit"
+local names, k, initial = {}, {}, {}
+for i = 1, 6 do names[i], k[i], initial["x" .. i] = "x" .. i, ambit.around(1, "5%"), ambit.around(1, "5%") end
+ambit.simulate { t = { 0, 1 }, initial = initial, ambit.ode { states = names, equations = function(s)
+  local rates = {}
+  for i = 1, 6 do rates["x" .. i] = ambit.sin(s["x" .. i % 6 + 1]) * k[i] end
+  return rates
+end } }
+]]
+    file:close()
+    local command = os.getenv "AMBIT_COMMAND" or "ambit"
+    assert.is_true(os.execute(("%s profile %s >%s 2>&1 </dev/null"):format(command, scene, out)))
+    local text = assert(io.open(out)):read "a"
+    assert.matches("\n +solver zonotope +[%d.]+ +[%d.]+ %% +[%d.]+ +%d+\n", text)
+    assert.matches("simulate zonotope, " .. scene:gsub("%p", "%%%0"), text)
+    os.remove(scene)
+    os.remove(out)
   end)
 
   it("says why it ends, and where the width comes from", function()

@@ -46,12 +46,14 @@ static double share_of(const zono *z, double size, double set) {
   return fmax(share, EXACT);
 }
 
-/* Is what is added to the state rounding? Then half the step adds as much of what the state is by then: the state is of
-** some order in time, and so is what is added. From rest that is more than EXACT of it, however short the step. */
-static int is_rounding(const zono *z, uint32_t i, double length, double rate, double half) {
-  double size, set, size_half;
+/* Does a shorter step gain nothing? Half of it adds as much of what the state is by then: the state is of some order in
+** time, and so is what is added. That is so of rounding, from rest more than EXACT of the state however short the step;
+** and of a state that starts at 0 for all data, whose terms of higher degree come up as the state does. */
+static int is_of_like_order(const zono *z, uint32_t i, double length, double rate, double half) {
+  double size, set, size_half, start;
+  find_sizes(z, i, 0, &start, &set);
   find_sizes(z, i, length, &size, &set);
-  if (set > NARROW * size) return 0;
+  if (set > NARROW * size && start > 0) return 0;
   find_sizes(z, i, 0.5 * length, &size_half, &set);
   return rate * size_half <= 2 * half * size;
 }
@@ -70,7 +72,7 @@ static int fits(zono *z, double length, const double *start) {
     if (length * rate[i] <= GROWTH * length * start[i] + allowed) continue;
     if (!known && !defect_evaluate(z, 0.5 * length)) return 0;
     if (!known) find_rates(z, half), known = 1;
-    if (!is_rounding(z, i, length, rate[i], half[i])) return 0;
+    if (!is_of_like_order(z, i, length, rate[i], half[i])) return 0;
   }
   return 1;
 }
