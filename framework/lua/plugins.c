@@ -127,6 +127,14 @@ static int list(lua_State *L) {
   return 1;
 }
 
+/* distrusted(file) -> why a file that decides about runs may not be read, or nil */
+static int distrusted(lua_State *L) {
+  char reason[AMBIT_MESSAGE_MAX];
+  if (ambit_trust_file(luaL_checkstring(L, 1), reason, sizeof reason)) return 0;
+  lua_pushstring(L, reason);
+  return 1;
+}
+
 static void push_identity(lua_State *L, const ambit_identity *id) {
   lua_createtable(L, 0, 6);
   set_text(L, "kind", id->kind);
@@ -236,8 +244,8 @@ static int nearest(lua_State *L) {
 }
 
 void ambit_lua_open_plugins(lua_State *L, ambit_lua *core) {
-  static const luaL_Reg functions[] = { { "plugin", plugin }, { "list", list }, { "nearest", nearest },
-    { "trust", trust }, { "provenance", provenance }, { "loaded", loaded }, { "sha256", sha256 }, { "kernel", kernel },
-    { "allow_shadow", allow_shadow }, { NULL, NULL } };
+  static const luaL_Reg functions[] = { { "plugin", plugin }, { "list", list }, { "distrusted", distrusted },
+    { "nearest", nearest }, { "trust", trust }, { "provenance", provenance }, { "loaded", loaded },
+    { "sha256", sha256 }, { "kernel", kernel }, { "allow_shadow", allow_shadow }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
 }

@@ -45,10 +45,13 @@ static int libraries(lua_State *L) {
   return 1;
 }
 
-/* deadline(t): runs that begin from now on are stopped when cpu() is t; nil: never */
+/* deadline(t) -> the last one: runs that begin from now on are stopped when cpu() is t; nil: never */
 static int deadline(lua_State *L) {
+  double last = AMBIT_LUA(L)->deadline;
   AMBIT_LUA(L)->deadline = luaL_optnumber(L, 1, 0);
-  return 0;
+  if (!(last > 0)) return 0;
+  lua_pushnumber(L, last);
+  return 1;
 }
 
 /* cpu() -> s of CPU time of this process */

@@ -2,14 +2,31 @@
 #include "lua/receiver.h"
 #include "lua/request.h"
 #include "model/context.h"
+#include <math.h>
 
-static bool is_to_stop(const ambit_receiver *r) {
-  return ambit_interrupt_pending() || (r->deadline > 0 && ambit_context_seconds() >= r->deadline);
+#define HOPELESS 20 /* times what a run has taken until now, that the rest of it would take */
+
+static bool is_hopeless(ambit_pace *p) {
+  if (!(p->patience > 0)) return false;
+  double spent = ambit_context_seconds() - p->began;
+  if (!p->has_half && spent >= 0.5 * p->look) p->t_half = p->t, p->has_half = true;
+  if (spent < p->look) return p->is_hopeless;
+  double covered = fabs(p->t - p->t_half), left = fabs(p->last - p->t);
+  p->is_hopeless = left * 0.5 * p->look > HOPELESS * spent * covered;
+  p->look *= 2;
+  p->t_half = p->t;
+  return p->is_hopeless;
+}
+
+static bool is_to_stop(ambit_receiver *r) {
+  return is_hopeless(&r->pace) || ambit_interrupt_pending() ||
+         (r->deadline > 0 && ambit_context_seconds() >= r->deadline);
 }
 
 static int32_t emit(ambit_sink *s, const ambit_record *record) {
   ambit_receiver *r = (ambit_receiver *)(void *)s;
   if (r->failure.status != AMBIT_OK) return 1;
+  r->pace.t = record->t_to;
   if (!ambit_track_append(r->track, record)) {
     ambit_fail(&r->failure, AMBIT_NOMEM, "out of memory for the records of this run");
     return 1;
@@ -46,6 +63,9 @@ void ambit_receiver_begin(lua_State *L, ambit_receiver *r) {
   ambit_progress_begin(&r->progress, AMBIT_LUA(L)->progress);
   ambit_interrupt_begin(&r->interrupt);
   r->deadline = AMBIT_LUA(L)->deadline;
+  r->pace.began = ambit_context_seconds();
+  r->pace.look = r->pace.patience;
+  r->pace.t = r->pace.t_half = r->pace.first;
 }
 
 void ambit_receiver_end(ambit_receiver *r) {
@@ -69,6 +89,11 @@ void ambit_receiver_tell(
   bool own = r->failure.status != AMBIT_OK;
   if (own) status = AMBIT_STOPPED;
   if (!own && status == AMBIT_STOPPED && r->deadline > 0 && !ambit_interrupt_pending()) code = AMBIT_CODE_STOPPED_LIMIT;
+  if (!own && status == AMBIT_STOPPED && r->pace.is_hopeless && !ambit_interrupt_pending()) {
+    status = AMBIT_UNABLE;
+    code = AMBIT_CODE_UNABLE_CREEP;
+    reason = "steps are so short, or take so long, that the end is out of reach";
+  }
   ambit_code_set(whole, status, own ? AMBIT_CODE_STOPPED_WRITE : code);
   ambit_lua_set_text(L, "status", word_of(status));
   ambit_lua_set_text(L, "code", whole);

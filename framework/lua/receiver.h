@@ -7,6 +7,16 @@
 #include "lua/progress.h"
 #include "lua/track.h"
 
+/* Is a run so slow that its end is out of reach? Looked at when it has taken `patience`, twice that, and so on: the
+** time that it covered since half of that says how long the rest will take. */
+typedef struct ambit_pace {
+  double patience;       /* s of CPU time; 0: never */
+  double first, last;    /* of the run's own time */
+  double began, look, t; /* CPU time: when it began, when it is looked at next; the time reached by then */
+  double t_half;         /* the time that was reached at half of that */
+  bool has_half, is_hopeless;
+} ambit_pace;
+
 typedef struct ambit_receiver {
   ambit_sink sink;    /* first: what the solver sees */
   ambit_track *track; /* NULL: records are not kept */
@@ -15,7 +25,8 @@ typedef struct ambit_receiver {
   const char *const *name; /* [nx] */
   ambit_progress progress;
   ambit_interrupt interrupt;
-  double deadline;       /* s of CPU time of this process; 0: none */
+  double deadline; /* s of CPU time of this process; 0: none */
+  ambit_pace pace;
   ambit_failure failure; /* why the receiver stopped the run: memory, a full disk */
 } ambit_receiver;
 

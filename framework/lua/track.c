@@ -156,6 +156,46 @@ static int set(lua_State *L) {
   return 1;
 }
 
+/* track_rest(track) -> {width of state i that the run's unknowns do not explain, ...}, at the end; nil: not known */
+static int rest(lua_State *L) {
+  const ambit_track *track = self(L);
+  const ambit_set *s = &track->set.set;
+  if (!s->nterm) return 0;
+  lua_createtable(L, (int)track->nx, 0);
+  for (size_t i = 0; i < track->nx; i++) {
+    lua_pushnumber(L, 2 * s->rest[i]);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  return 1;
+}
+
+static bool join(ambit_track *track, const ambit_track *more) {
+  size_t nx = track->nx, n = more->count, nd = more->count_dense;
+  if (!reserve(track, track->count + n)) return false;
+  double *dense = ambit_vector_reserve(track->dense, &track->room_dense, track->count_dense + nd + 1, sizeof *dense);
+  if (!dense) return false;
+  track->dense = dense;
+  if (nd) memcpy(dense + track->count_dense, more->dense, nd * sizeof *dense);
+  memcpy(track->value + track->count * 4 * nx, more->value, n * 4 * nx * sizeof *track->value);
+  for (size_t i = 0; i < n; i++) {
+    track->step[track->count + i] = more->step[i];
+    track->step[track->count + i].dense += track->count_dense;
+  }
+  track->count += n;
+  track->count_dense += nd;
+  return true;
+}
+
+/* track_join(track, more): the steps of `more`, which go on from its end, behind its own; the set at the end is that of
+** `more`, which keeps it */
+static int extend(lua_State *L) {
+  ambit_track *track = self(L);
+  const ambit_track *more = luaL_checkudata(L, 2, AMBIT_TYPE_TRACK);
+  if (more == track || more->nx != track->nx) ambit_lua_error(L, "these tracks do not go together");
+  if (!join(track, more)) ambit_lua_error(L, "out of memory");
+  return 0;
+}
+
 static int count(lua_State *L) {
   lua_pushinteger(L, (lua_Integer)self(L)->count);
   return 1;
@@ -186,7 +226,8 @@ static int find(lua_State *L) {
 void ambit_lua_open_track(lua_State *L, ambit_lua *core) {
   static const luaL_Reg meta[] = { { "__gc", close }, { NULL, NULL } };
   static const luaL_Reg functions[] = { { "track_step", step }, { "track_value", value }, { "track_count", count },
-    { "track_find", find }, { "track_dense", dense }, { "track_set", set }, { NULL, NULL } };
+    { "track_find", find }, { "track_dense", dense }, { "track_set", set }, { "track_rest", rest },
+    { "track_join", extend }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
   ambit_lua_new_type(L, core, AMBIT_TYPE_TRACK, meta);
   lua_pop(L, 1);

@@ -87,6 +87,15 @@ static bool is_silent(lua_State *L, int idx) {
   return silent;
 }
 
+/* Seconds of CPU time after which the run ends if its own end is out of reach: { patience = s } at idx; 0: never. */
+static double patience_of(lua_State *L, int idx) {
+  if (lua_isnoneornil(L, idx)) return 0;
+  lua_getfield(L, idx, "patience");
+  double s = lua_tonumber(L, -1);
+  lua_pop(L, 1);
+  return s;
+}
+
 /* simulate(system, solver, arithmetic or nil, solver options, arithmetic options, {initial}, {time}, events or nil,
 ** run options or nil) -> track, result, report */
 static int simulate(lua_State *L) {
@@ -97,6 +106,7 @@ static int simulate(lua_State *L) {
   uint32_t keep = ambit_lua_run_options(L, 9, &q);
   ambit_receiver to = ambit_receiver_push(L, q.system->nx, q.system->name, keep);
   if (is_silent(L, 9)) to.records = NULL;
+  to.pace = (ambit_pace) { .patience = patience_of(L, 9), .first = q.time[0], .last = q.time[q.ntime - 1] };
   q.sink = &to.sink;
   q.prepared = ambit_receiver_prepared;
   q.prepared_user = &to;

@@ -21,5 +21,5 @@ m:joint_torque { joint = motor,
 local report = ambit.verify { m:dynamics(), t = 4,
   initial = { arm = 0, ["arm'"] = 0, rod = degrees(around(0, 2)), ["rod'"] = 0 },
   safe = { left = q.rod - degrees(6), right = -q.rod - degrees(6) },
-  at_end = { left = q.rod - degrees(1), right = -q.rod - degrees(1) } }
+  at_end = { upright = q.rod - degrees(1), back = -q.rod - degrees(1) } }
 print(report)

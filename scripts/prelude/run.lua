@@ -6,6 +6,8 @@ local check = require "ambit.check"
 local core = require "ambit.core"
 local instant = require "ambit.instant"
 
+local WIDE = 2 -- times the sampled hull, from which on the text of a run says it
+
 local Run = { __name = "run" }
 local Step = { __name = "step" }
 local run = {}
@@ -153,8 +155,16 @@ local function last_step(track)
   return 0
 end
 
+-- How many times as wide as sampled sets the enclosures are: an estimate, drawn when it is asked for.
+local function estimate(self)
+  local value = self.question and require "ambit.choice".overestimate(self, self.question)
+  self.overestimate = value or false
+  return value
+end
+
 function Run.__index(self, key)
   if methods[key] then return methods[key] end
+  if key == "overestimate" then return estimate(self) end
   if key ~= "x" then return nil end
   local n, value = last_step(self.track), nil
   if ends_in_bracket(self) then value = at_bracket(self, self.times.final) end
@@ -165,7 +175,10 @@ end
 
 function Run.__tostring(self)
   local text = ("%s at t = %s after %d steps"):format(self.status, core.literal(self.t_reached), self.step_count)
-  return self.status == "complete" and text or text .. ": " .. self.reason
+  if self.status ~= "complete" then return text .. ": " .. self.reason end
+  local wide = rawget(self, "overestimate")
+  if not wide or wide < WIDE then return text end
+  return ("%s, with sets about %.3g times as wide as sampled ones"):format(text, wide)
 end
 
 -- facts: status, reason, t_reached, cpu_seconds, step_count, rigorous; initial(): enclosures at the start by name;

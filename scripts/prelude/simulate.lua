@@ -2,6 +2,7 @@
 -- }.
 local assemble_data = require "ambit.assemble_data"
 local check = require "ambit.check"
+local choice = require "ambit.choice"
 local core = require "ambit.core"
 local event = require "ambit.event"
 local instant = require "ambit.instant"
@@ -101,6 +102,11 @@ function verb.request(t, what, default_solver, own_keys)
     q.suggestion = suggest.solver(q, fitting)
     q.solver = q.suggestion.solver
     check_options(t, q, known, what)
+    q.by = function(solver) -- the same request to another of the fitting solvers
+      local own = setmetatable({ solver = solver }, { __index = q })
+      check_options(t, own, known, what)
+      return own
+    end
   end
   return q
 end
@@ -166,13 +172,30 @@ function verb.solve(q)
   facts.solver, facts.arithmetic, facts.t_start, facts.initial = q.solver, report.arithmetic, q.times[1],
     initial_enclosures(q)
   facts.times, facts.system = q.times, q.system
+  facts.question = { system = q.system, initial = q.initial, times = q.times }
   facts.solver_reason = q.suggestion and q.suggestion.reason or "named in the scene"
+  facts.parts = { { solver = q.solver, t_from = q.times[1], t = facts.t_reached } }
   event.finish(q, facts)
   local result = run.new(facts)
   local failed = facts.status == "unable" or facts.status == "impossible"
   local hint = failed and q.system.mechanism and loops.hint(q.system.mechanism, result)
   if hint then facts.reason = facts.reason .. "; " .. hint end
   return result
+end
+
+-- Asks a solver, the suggested one or another, with some fields of the request changed.
+local function asking(t, q)
+  return function(other, changes)
+    local own = other.solver == q.solver and q or q.by(other.solver)
+    if next(changes) then own = setmetatable(changes, { __index = own }) end
+    if changes.patience then
+      own.run_options = setmetatable({ patience = changes.patience }, { __index = q.run_options })
+    end
+    if other.solver ~= q.solver then event.request(t.events, own) end
+    local run = verb.solve(own)
+    run.solver_reason = other.reason
+    return run
+  end
 end
 
 function verb.simulate(t)
@@ -182,10 +205,10 @@ function verb.simulate(t)
   q.run_options = verb.run_options(t, q)
   event.request(t.events, q)
   session.ask_simulation(q)
-  local result = verb.solve(q)
+  local result = q.suggestion and choice.solve(q, asking(t, q)) or verb.solve(q)
   session.finish("simulate", result, result.report,
-    { "solver", q.solver, "arithmetic", result.arithmetic, "options", q.settings, "t_start", instant.first(q.times),
-      "t_end", instant.final(q.times) })
+    { "solver", result.solver, "arithmetic", result.arithmetic, "options", q.settings, "t_start",
+      instant.first(q.times), "t_end", instant.final(q.times) })
   session.remember(result, q)
   return result
 end

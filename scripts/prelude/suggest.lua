@@ -1,57 +1,47 @@
--- suggest.lua -- which solver suits a run, and why: rules over facts that core.look finds in well under a millisecond
--- for small systems (framework/model/suggest.h). The thresholds are measured; docs/choosing.md says how.
+-- suggest.lua -- which solver suits a run, and why. Each solver says so itself: beside NAME.so lies NAME.lua, a
+-- function of the facts that core.look finds in well under a millisecond for small systems
+-- (framework/model/suggest.h). It returns a score from 0 to 1 and a reason, or nil where the solver cannot be used;
+-- docs/plugins.md has the scale. No solver is loaded to be asked.
 local check = require "ambit.check"
 local core = require "ambit.core"
 local option = require "ambit.option"
 
 local suggest = {}
 
-local STIFF_PER_STEP = 100 -- e-folds of the fastest decay in one step of an ordinary stiff method
-local STIFF_IN_ALL = 1000  -- and over the run: below, a series solver needs a few hundred steps at most
-local BEND = 1e-4          -- part of a state's size by which one datum bends the solution away from a linear map
-local MANY = 5             -- data ...
-local LARGE = 12           -- ... or states from which on polynomials without generators are too large, and linear maps
-local BENT = 1e-7          -- with so much bend, or width where the bend was not seen, lose what the data share
-local LOOPS = 0.015        -- width of data up to which closed loops are as good without their constraints at each step
-local SEEN = 0.5           -- part of the run up to which ordinary runs must come to tell the bend
+local TRIED = 0.15 -- score from which on a solver is tried where better ones failed
 
--- In order; each names its solver and says why, or nil.
-local rules = {
-  { "valencia", function(f)
-    return f.kink and ("the solution crosses the kink of `%s`, and Taylor series need smooth equations"):format(f.kink)
-  end },
-  { "stiff", function(f) -- it needs derivatives of the equations
-    local per_step = f.decay / math.max(f.steps, 1)
-    return f.kinks == 0 and per_step > STIFF_PER_STEP and f.decay > STIFF_IN_ALL and
-      ("stiff: the fastest motion decays by a factor of e %.2g times, where %d steps follow the solution"):format(
-        f.decay, f.steps)
-  end },
-  { "zonotope", function(f)
-    local bent = f.bend > BENT or f.seen < SEEN and f.width > BENT
-    if f.unknowns == 0 and f.states >= 2 * LARGE and f.seen < SEEN then
-      return ("%d states with large equations"):format(f.states)
-    end
-    if f.invariants > 0 and f.width > LOOPS then return nil end
-    return bent and (f.unknowns >= MANY or f.unknowns > 0 and f.states >= LARGE) and
-      ("%d uncertain data and %d states: what they have in common is kept"):format(f.unknowns, f.states)
-  end },
-  { "taylor_model", function(f)
-    return f.bend > BEND * f.unknowns ^ 2 and f.invariants == 0 and -- polynomials grow with the number of data
-      ("wide data: they spread the solution by %.2g %% of its size and bend it by %.2g %%, which a linear map does \z
-        not follow"):format(100 * f.spread, 100 * f.bend)
-  end },
-  { "lohner", function(f)
-    if f.invariants > 0 then return "closed loops: it narrows the enclosure by their constraints at each step" end
-    if f.unknowns == 0 then return "not stiff, and no uncertain data" end
-    return "not stiff, and the solution is close to linear in the uncertain data"
-  end },
-}
+local known = {} -- rules by file, read once; false: there is none
 
-local function installed()
+-- The rule of the solver whose shared library is `file`, or nil. It sees numbers and texts only.
+local function rule_of(file)
+  local path = file:gsub("%.so$", "") .. ".lua"
+  if known[path] ~= nil then return known[path] or nil end
+  known[path] = false
+  local source = io.open(path)
+  if not source then return nil end
+  local text = source:read "a"
+  source:close()
+  local problem = core.distrusted(path)
+  if problem then check.fail("%s: %s", path, problem) end
+  local chunk, wrong = load(text, "@" .. path, "t", { math = math })
+  if not chunk then check.fail("%s", wrong) end
+  local suits = chunk()
+  if type(suits) ~= "function" then check.fail("%s: expected a file that returns a function of the facts", path) end
+  known[path] = suits
+  return suits
+end
+
+-- { name, suits } of each installed solver that says when it suits, in alphabetic order.
+local function rules()
   local list = {}
   for _, entry in ipairs(core.list()) do
-    if entry.kind == "solver" then list[entry.name] = true end
+    local suits = entry.kind == "solver" and rule_of(entry.file)
+    if suits and not list[entry.name] then
+      list[#list + 1] = { name = entry.name, suits = suits }
+      list[entry.name] = suits
+    end
   end
+  table.sort(list, function(a, b) return a.name < b.name end)
   return list
 end
 
@@ -89,10 +79,8 @@ end
 -- The solvers that are installed, have all options of `keys` and work with the arithmetic (nil: any); plugins are
 -- loaded only if there is something to ask them. others: the keys that are no options, for messages.
 function suggest.candidates(keys, others, arithmetic, what)
-  local there, names, fitting = installed(), {}, {}
-  for _, rule in ipairs(rules) do
-    if there[rule[1]] then names[#names + 1] = rule[1] end
-  end
+  local names, fitting = {}, {}
+  for i, rule in ipairs(rules()) do names[i] = rule.name end
   if #names == 0 then check.fail("%s: no solver is installed that proves its results", what) end
   for _, name in ipairs(names) do
     local declaration = (#keys > 0 or arithmetic) and option.declaration("solver", name)
@@ -107,16 +95,39 @@ function suggest.candidates(keys, others, arithmetic, what)
     arithmetic)
 end
 
--- q: system, initial, times of a request; fitting: of candidates() -> { solver, reason, facts }
+-- The fitting solvers that these facts suit, best first: { { solver, reason, score }, ... }.
+local function ranked(facts, fitting)
+  local list = {}
+  for _, rule in ipairs(rules()) do
+    if fitting[rule.name] then
+      local score, reason = rule.suits(facts)
+      if score ~= nil and not (math.type(score) and score >= 0 and score <= 1 and type(reason) == "string") then
+        check.fail("solver `%s`: its rule gave %s, %s: expected a score from 0 to 1 and a reason, or nil", rule.name,
+          check.shown(score), check.shown(reason))
+      end
+      if score then list[#list + 1] = { solver = rule.name, reason = reason, score = score } end
+    end
+  end
+  table.sort(list, function(a, b)
+    if a.score ~= b.score then return a.score > b.score end
+    return a.solver < b.solver
+  end)
+  return list
+end
+
+-- q: system, initial, times of a request; fitting: of candidates() -> { solver, reason, facts, others }: `others` are
+-- the next best ones, in order.
 function suggest.solver(q, fitting)
   local facts, problem = core.look(q.system.system, "", nil, {}, {}, q.initial, q.times)
-  local last = fitting.lohner and "lohner" or fitting[#fitting]
-  if not facts then return { solver = last, reason = problem } end -- the run itself will say so
-  for _, rule in ipairs(rules) do
-    local reason = fitting[rule[1]] and rule[2](facts)
-    if reason then return { solver = rule[1], reason = reason, facts = facts } end
+  if not facts then return { solver = fitting[1], reason = problem, others = {} } end -- the run itself will say so
+  local list = ranked(facts, fitting)
+  local first, others = list[1], {}
+  if not first then return { solver = fitting[1], reason = "none suits", facts = facts, others = others } end
+  for i = 2, #list do
+    if list[i].score >= TRIED then others[#others + 1] = list[i] end
   end
-  return { solver = last, reason = "the only one that fits the given options and arithmetic", facts = facts }
+  local reason = #fitting > 1 and first.reason or "the only one that fits the given options and arithmetic"
+  return { solver = first.solver, reason = reason, facts = facts, others = others }
 end
 
 -- The arithmetic that a solver takes unless another is named.

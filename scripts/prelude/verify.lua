@@ -57,19 +57,19 @@ end
 function verb.verify(t)
   local own = { "budget" }
   table.move(conditions.keys, 1, #conditions.keys, 2, own)
-  local q = simulate.request(t, "verify", "lohner", own)
+  local q = simulate.request(t, "verify", nil, own)
   if not option.declaration("solver", q.solver).rigorous then
     check.fail("verify: solver `%s` proves nothing", q.solver)
   end
   local list = conditions.read(t, q.system)
   local unknowns, lo, hi, inner, names = uncertain_data(q, list)
-  local job = { asked = q, request = q, conditions = list, unknowns = unknowns, lo = lo, hi = hi, inner = inner,
-    names = names,
-    sound_points = uncertain.are_points_starts(q), budget = read_budget(t.budget), tolerance = tolerance_of(q) }
+  local job = { asked = q, request = q, others = q.suggestion and q.suggestion.others or {}, conditions = list,
+    unknowns = unknowns, lo = lo, hi = hi, inner = inner, names = names,
+    sound_points = uncertain.are_points_starts(q), budget = read_budget(t.budget), tolerance_of = tolerance_of }
   search.run(job)
   local result = report.of(job)
   session.finish("verify", result, result.report,
-    { "solver", q.solver, "options", q.settings, "t_start", instant.first(q.times), "t_end",
+    { "solver", job.request.solver, "options", job.request.settings, "t_start", instant.first(q.times), "t_end",
       instant.final(q.times), "refinements",
       result.refinements, "conditions", report.fields(result) })
   return result

@@ -121,11 +121,11 @@ describe("verify", function()
   it("cuts the data where one run is not enough", function()
     local vdp = ambit.ode { states = { "x", "y" }, parameters = { mu = ambit.between("0.9", "1.1") },
       equations = function(s, p) return { s.y, p.mu * (1 - s.x ^ 2) * s.y - s.x } end }
-    local r = verify { vdp, initial = { ambit.around(2, "0.05"), 0 }, t = { 0, 7 },
+    local r = verify { vdp, solver = "lohner", initial = { ambit.around(2, "0.05"), 0 }, t = { 0, 7 },
       safe = { x = function(s) return s.x ^ 2 - "4.6" end, y = function(s) return s.y ^ 2 - 9 end } }
     assert.equal("proved", r.status)
     assert.is_true(r.refinements > 10)
-    local again = verify { vdp, initial = { ambit.around(2, "0.05"), 0 }, t = { 0, 7 },
+    local again = verify { vdp, solver = "lohner", initial = { ambit.around(2, "0.05"), 0 }, t = { 0, 7 },
       safe = { x = function(s) return s.x ^ 2 - "4.6" end, y = function(s) return s.y ^ 2 - 9 end } }
     assert.equal(r.refinements, again.refinements) -- counted, not timed
     assert.is_true(r.conditions.x.bound == again.conditions.x.bound)

@@ -5,6 +5,7 @@
 -- proved when all boxes are, and the boxes cover the data.
 local box = require "ambit.verify.box"
 local carry = require "ambit.verify.carry"
+local choice = require "ambit.choice"
 local code = require "ambit.code"
 local core = require "ambit.core"
 
@@ -13,6 +14,7 @@ local search = {}
 local SINGLE = 12         -- most uncertain data that are tried one by one at their ends
 local SHORTER = { 8, 64 } -- times as many steps,
 local MOST_STEPS = 5000   -- but not more than so many
+local OTHERS_MORE, OTHERS_LEAST = 10, 5 -- CPU time of another solver's run: times that of the first, and s at least
 local WORTH = 0.8         -- of the gap that is open: what leaves less is an improvement
 local TIGHTER, TIGHTEST = 1e-3, 1e-18 -- tolerances of the solver: factor, and where it stops to matter
 
@@ -189,6 +191,22 @@ local function carry_conditions(job, root)
   return root
 end
 
+-- -- other solvers, where the one that suits best left something open
+
+local function ask_others(job, root)
+  local limit = math.max(OTHERS_LEAST, OTHERS_MORE * (core.cpu() - job.start))
+  for _, other in ipairs(job.others) do
+    if root.outcome.impossible or not box.is_open(job, root) or box.is_spent(job) then break end
+    local request, report, was_limit = job.request, job.report, nil
+    job.request, job.report = job.asked.by(other.solver), nil
+    root, was_limit = choice.within(limit, function()
+      return (again(job, root, function() job.request, job.report = request, report end))
+    end)
+    if was_limit then job.stopped = false end
+  end
+  return root
+end
+
 -- -- without uncertain data there is only the solver to be made more careful
 
 local function tighten(job, root)
@@ -255,6 +273,8 @@ local function decide(job)
   for _, condition in ipairs(job.conditions) do condition.lo = -math.huge end
   local root = box.run(job, { lo = job.lo, hi = job.hi })
   box.note(job, root)
+  root = ask_others(job, root)
+  job.asked, job.tolerance = job.request, job.tolerance_of(job.request)
   local boxes = refine(job, root)
   job.spent = box.is_spent(job)
   conclude(job, boxes)

@@ -1,0 +1,19 @@
+-- When zonotope suits: many uncertain data, whose common effects it keeps, and large mechanisms.
+local MANY = 5      -- data ...
+local LARGE = 12    -- ... or states from which on polynomials without generators are too large, and linear maps
+local BENT = 1e-7   -- with so much bend, or width where the bend was not seen, lose what the data share
+local LOOPS = 0.015 -- width of data up to which closed loops are as good without their constraints at each step
+local SEEN = 0.5    -- part of the run up to which ordinary runs must come to tell the bend
+
+return function(f)
+  if f.kink then return 0.1, "polynomials and generators, up to the kink" end
+  if f.unknowns == 0 and f.states >= 2 * LARGE and f.seen < SEEN then
+    return 0.9, ("%d states with large equations"):format(f.states)
+  end
+  local bent = f.bend > BENT or f.seen < SEEN and f.width > BENT
+  local many = f.unknowns >= MANY or f.unknowns > 0 and f.states >= LARGE
+  if bent and many and (f.invariants == 0 or f.width <= LOOPS) then
+    return 0.9, ("%d uncertain data and %d states: what they have in common is kept"):format(f.unknowns, f.states)
+  end
+  return f.unknowns > 0 and 0.55 or 0.3, "what the data have in common is kept"
+end

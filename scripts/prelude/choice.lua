@@ -1,0 +1,191 @@
+-- choice.lua -- a run whose solver nobody named: the one that suits best, and a way back. Where it ends early, makes no
+-- way, or completes with sets far wider than they need be, the next best one goes on. docs/choosing.md says when.
+--
+-- Every piece is a proof of its own; nothing here decides what is true, only who is asked next.
+local core = require "ambit.core"
+
+local choice = {}
+
+local LOOSE = 1.5       -- times the sampled hull: what is wider is worth another solver ...
+local TIGHT = 1.2       -- ... and from what is not, another one can go on
+local PATIENCE = 2      -- s of CPU time after which it is asked whether the end is in reach
+local MORE, LEAST = 10, 5 -- CPU time of a further solver: so many times that of the first, and so many seconds
+local DRAWS, MOST = 8, 128 -- draws of the hull for each datum, and at most
+local VISIBLE = 1e-6    -- width of a hull, in parts of its state, below which it is mostly rounding
+local SHARE = 0.01      -- of a state's widest hull, below which its width at a time does not matter
+
+-- -- how wide is it?
+
+-- Are all sets at the end mostly functions of the data? Then they are tight, and nothing need be drawn to see it. The
+-- part that is not is known to the solver; a set without such a part says nothing.
+local function is_plainly_tight(run)
+  local rest = core.track_rest(run.track)
+  if not rest then return false end
+  for i, name in ipairs(run.states) do
+    local x = run.x[name]
+    local width = x:width()
+    if width > VISIBLE * x:mag() and not (rest[i] * LOOSE <= width * (LOOSE - 1)) then return false end
+  end
+  return true
+end
+
+-- The listed times that the run reached, on its clock.
+local function times_of(run)
+  local list = { run.times[1] }
+  local forward = run.times[#run.times] >= run.times[1]
+  for i = 2, #run.times do
+    local t = run.times[i]
+    if forward and t <= run.t_reached or not forward and t >= run.t_reached then list[#list + 1] = t end
+  end
+  if list[#list] ~= run.t_reached then list[#list + 1] = run.t_reached end
+  return list
+end
+
+local function tight_at(run, t)
+  local i, is_end = core.track_find(run.track, t)
+  return i and is_end and i
+end
+
+-- The hull of draws at these times by state, or nil if there is none: { t, lo = { [state] = { [time] } }, hi }.
+local function hull_of(q, times, unknowns)
+  local inner = require "ambit.sample".inner(q, math.min(MOST, DRAWS * (unknowns + 2)), 1, { t = times, threads = 1 })
+  return inner and inner.failed == 0 and inner or nil
+end
+
+-- The largest factor of width by sampled width, of which state, and when; nil: not known.
+local function worst(run, hull)
+  local most, which, when
+  for i, name in ipairs(run.states) do
+    local widest, size = 0, 0
+    for k = 2, #hull.t do
+      local lo, hi = hull.lo[i][k], hull.hi[i][k]
+      widest, size = math.max(widest, hi - lo), math.max(size, math.abs(lo), math.abs(hi))
+    end
+    for k = 2, #hull.t do
+      local step = tight_at(run, hull.t[k])
+      local width = hull.hi[i][k] - hull.lo[i][k]
+      local factor = step and widest > VISIBLE * size and width >= SHARE * widest
+        and core.track_value(run.track, step, i):width() / width
+      if factor and (not most or factor > most) then most, which, when = factor, name, hull.t[k] end
+    end
+  end
+  return most, which, when
+end
+
+-- run.overestimate of a run that nobody has looked at yet: estimated, not proved; nil: nothing is uncertain, or no
+-- sample reaches the end.
+function choice.overestimate(run, q)
+  local unknowns = run.report and run.report.unknowns or 0
+  if unknowns == 0 or #times_of(run) < 2 then return nil end
+  local hull = hull_of(q, times_of(run), unknowns)
+  if hull then return worst(run, hull) end
+end
+
+-- -- who goes on?
+
+-- Calls `run` with the CPU time of this process limited, within a limit that holds already: -> what it returns, and
+-- whether this limit was reached.
+function choice.within(seconds, run)
+  local outer = core.deadline(nil)
+  local own = core.cpu() + seconds
+  core.deadline(outer and math.min(outer, own) or own)
+  local good, result = pcall(run)
+  core.deadline(outer)
+  if not good then error(result, 0) end
+  return result, not (outer and core.cpu() >= outer) and core.cpu() >= own
+end
+
+local function describe(run)
+  if run.status == "complete" and run.overestimate then
+    return ("complete, with sets about %.3g times as wide as sampled ones"):format(run.overestimate)
+  end
+  return ("%s at t = %s"):format(run.status, core.literal(run.t_reached))
+end
+
+-- Is `run` better than `best`? Whoever got further; of complete ones, the narrower.
+local function is_better(run, best)
+  if run.status == "complete" and best.status == "complete" then
+    return (run.overestimate or math.huge) < (best.overestimate or math.huge)
+  end
+  if run.status == "complete" or best.status == "complete" then return run.status == "complete" end
+  local from = run.times[1]
+  return math.abs(run.t_reached - from) > math.abs(best.t_reached - from)
+end
+
+-- Sets what is known of the width; a complete run needs no other solver if that is little.
+local function judge(run, q, hull)
+  if run.status ~= "complete" then return false end
+  if (run.report.unknowns or 0) == 0 or is_plainly_tight(run) then return true end
+  if not hull.made then hull.made, hull.draws = true, hull_of(q, times_of(run), run.report.unknowns) end
+  if not hull.draws then return true end -- nothing to hold it against
+  run.overestimate, run.overestimate_of, run.overestimate_at = worst(run, hull.draws)
+  return not run.overestimate or run.overestimate <= LOOSE
+end
+
+-- Can a run that ended early be gone on from: is what it reached still tight, and are its times those of the scene?
+local function goes_on(run, q)
+  local times = q.times
+  if run.status ~= "unable" or q.events or times.shift or times.final or run.t_reached == times[1] then return false end
+  if q.run_options.pieces or q.run_options.unknown or not core.track_set(run.track) then return false end
+  local unknowns = run.report.unknowns
+  if unknowns == 0 then return false end
+  local hull = hull_of(q, times_of(run), unknowns)
+  local factor = hull and worst(run, hull)
+  return factor and factor <= TIGHT
+end
+
+-- The request of what is left of a run.
+local function rest_of(q, run)
+  local times, initial, set = { run.t_reached }, {}, run:set()
+  local forward = q.times[#q.times] > q.times[1]
+  for _, t in ipairs(q.times) do
+    if forward and t > run.t_reached or not forward and t < run.t_reached then times[#times + 1] = t end
+  end
+  for i, name in ipairs(q.system.states) do initial[i] = set[name] end
+  return { initial = initial, times = times }
+end
+
+-- The second run behind the first.
+local function joined(first, second, q)
+  core.track_join(first.track, second.track)
+  second.track, second.initial, second.times, second.t_start = first.track, first.initial, q.times, first.t_start
+  second.cpu_seconds, second.step_count = first.cpu_seconds + second.cpu_seconds, first.step_count + second.step_count
+  rawset(second, "x", nil)
+  table.insert(second.parts, 1, { solver = first.solver, t_from = first.parts[1].t_from, t = first.t_reached })
+  return second
+end
+
+-- May another solver be asked after this? Not where the run was stopped from outside, or where nothing is to be gained.
+local function may_go_on(run, was_limit)
+  return run.status == "complete" or run.status == "unable" or run.status == "stopped" and was_limit
+end
+
+-- q: a request with a suggestion; ask({ solver, reason }, changes) -> its run. changes: what is not as in the request.
+function choice.solve(q, ask)
+  local others = q.suggestion.others
+  local first = ask(q.suggestion, { patience = #others > 0 and PATIENCE or nil })
+  local hull = {}
+  if judge(first, q, hull) or not may_go_on(first) or #others == 0 or q.run_options.pieces then return first end
+  local best, tried, from = first, { { solver = first.solver, outcome = describe(first) } }, nil
+  local limit = math.max(LEAST, MORE * first.cpu_seconds)
+  if goes_on(first, q) then from = first end
+  for _, other in ipairs(others) do
+    local left = from and rest_of(q, from) or {}
+    core.record("way_back", { "solver", other.solver, "t", from and from.t_reached or q.times[1], "after",
+      tried[#tried].solver, "because", tried[#tried].outcome })
+    local run, was_limit = choice.within(limit, function()
+      left.patience = PATIENCE
+      return ask(other, left)
+    end)
+    if from then run = joined(from, run, q) end
+    from = nil
+    local good = judge(run, q, hull)
+    tried[#tried + 1] = { solver = other.solver, outcome = describe(run) }
+    if is_better(run, best) then best = run end
+    if good or not may_go_on(run, was_limit) then break end
+  end
+  best.tried = tried
+  return best
+end
+
+return choice
