@@ -83,16 +83,15 @@ end
 
 -- -- who goes on?
 
--- Calls `run` with the CPU time of this process limited, within a limit that holds already: -> what it returns, and
--- whether this limit was reached.
+-- Calls `run` with the CPU time of this process limited, within a limit that holds already. Was this limit reached?
 function choice.within(seconds, run)
   local outer = core.deadline(nil)
   local own = core.cpu() + seconds
   core.deadline(outer and math.min(outer, own) or own)
-  local good, result = pcall(run)
+  local good, problem = pcall(run)
   core.deadline(outer)
-  if not good then error(result, 0) end
-  return result, not (outer and core.cpu() >= outer) and core.cpu() >= own
+  if not good then error(problem, 0) end
+  return not (outer and core.cpu() >= outer) and core.cpu() >= own
 end
 
 local function describe(run)
@@ -173,9 +172,10 @@ function choice.solve(q, ask)
     local left = from and rest_of(q, from) or {}
     core.record("way_back", { "solver", other.solver, "t", from and from.t_reached or q.times[1], "after",
       tried[#tried].solver, "because", tried[#tried].outcome })
-    local run, was_limit = choice.within(limit, function()
+    local run
+    local was_limit = choice.within(limit, function()
       left.patience = PATIENCE
-      return ask(other, left)
+      run = ask(other, left)
     end)
     if from then run = joined(from, run, q) end
     from = nil

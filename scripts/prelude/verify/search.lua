@@ -193,18 +193,21 @@ end
 
 -- -- other solvers, where the one that suits best left something open
 
+-- -> the root, whether another solver took over
 local function ask_others(job, root)
-  local limit = math.max(OTHERS_LEAST, OTHERS_MORE * (core.cpu() - job.start))
+  local limit, taken = math.max(OTHERS_LEAST, OTHERS_MORE * (core.cpu() - job.start)), false
   for _, other in ipairs(job.others) do
-    if root.outcome.impossible or not box.is_open(job, root) or box.is_spent(job) then break end
-    local request, report, was_limit = job.request, job.report, nil
-    job.request, job.report = job.asked.by(other.solver), nil
-    root, was_limit = choice.within(limit, function()
-      return (again(job, root, function() job.request, job.report = request, report end))
+    if not box.is_open(job, root) or box.is_spent(job) then break end
+    local request, outputs, report, gained, was_limit = job.request, job.outputs, job.report, nil, nil
+    job.request, job.outputs, job.report = job.asked.by(other.solver), {}, nil
+    was_limit = choice.within(limit, function()
+      root, gained = again(job, root, function() job.request, job.outputs, job.report = request, outputs, report end)
     end)
+    taken = taken or gained
     if was_limit then job.stopped = false end
   end
-  return root
+  if taken then job.tolerance = job.tolerance_of(job.request) end
+  return root, taken
 end
 
 -- -- without uncertain data there is only the solver to be made more careful
@@ -254,6 +257,9 @@ local function refine(job, root)
     mid = try_point(job, centre(root))
   end
   root = carry_conditions(job, shorten(job, root))
+  local by_another
+  root, by_another = ask_others(job, root)
+  if by_another then root = carry_conditions(job, shorten(job, root)) end
   if not box.is_open(job, root) or box.is_spent(job) then return { root } end
   if #job.lo == 0 then return tighten(job, root) end
   if mid and #job.lo <= SINGLE then try_ends(job, root, mid) end
@@ -270,11 +276,10 @@ end
 
 local function decide(job)
   job.runs, job.done, job.start, job.times, job.outputs = 0, {}, core.cpu(), job.request.times, {}
+  job.tolerance = job.tolerance_of(job.request)
   for _, condition in ipairs(job.conditions) do condition.lo = -math.huge end
   local root = box.run(job, { lo = job.lo, hi = job.hi })
   box.note(job, root)
-  root = ask_others(job, root)
-  job.asked, job.tolerance = job.request, job.tolerance_of(job.request)
   local boxes = refine(job, root)
   job.spent = box.is_spent(job)
   conclude(job, boxes)
