@@ -3,6 +3,7 @@
 --
 -- Every piece is a proof of its own; nothing here decides what is true, only who is asked next.
 local core = require "ambit.core"
+local option = require "ambit.option"
 
 local choice = {}
 
@@ -83,6 +84,15 @@ end
 
 -- -- who goes on?
 
+-- Those of the list that prove their results, one by one: each is loaded when it is its turn.
+function choice.proving(list)
+  local i = 0
+  return function()
+    repeat i = i + 1 until not list[i] or option.declaration("solver", list[i].solver).rigorous
+    return list[i]
+  end
+end
+
 -- Calls `run` with the CPU time of this process limited, within a limit that holds already. Was this limit reached?
 function choice.within(seconds, run)
   local outer = core.deadline(nil)
@@ -114,20 +124,20 @@ end
 -- Sets what is known of the width; a complete run needs no other solver if that is little.
 local function judge(run, q, hull)
   if run.status ~= "complete" then return false end
-  if (run.report.unknowns or 0) == 0 or is_plainly_tight(run) then return true end
+  local is_tight = run.report.unknowns == 0 or is_plainly_tight(run)
+  if is_tight and not hull.made then return true end
   if not hull.made then hull.made, hull.draws = true, hull_of(q, times_of(run), run.report.unknowns) end
   if not hull.draws then return true end -- nothing to hold it against
-  run.overestimate, run.overestimate_of, run.overestimate_at = worst(run, hull.draws)
-  return not run.overestimate or run.overestimate <= LOOSE
+  run.overestimate = worst(run, hull.draws)
+  return is_tight or not run.overestimate or run.overestimate <= LOOSE
 end
 
 -- Can a run that ended early be gone on from: is what it reached still tight, and are its times those of the scene?
 local function goes_on(run, q)
   local times = q.times
   if run.status ~= "unable" or q.events or times.shift or times.final or run.t_reached == times[1] then return false end
-  if q.run_options.pieces or q.run_options.unknown or not core.track_set(run.track) then return false end
   local unknowns = run.report.unknowns
-  if unknowns == 0 then return false end
+  if unknowns == 0 or not core.track_set(run.track) then return false end
   local hull = hull_of(q, times_of(run), unknowns)
   local factor = hull and worst(run, hull)
   return factor and factor <= TIGHT
@@ -154,6 +164,14 @@ local function joined(first, second, q)
   return second
 end
 
+-- Does no ordinary run reach the end either? Then the solutions end, or are too hard to follow.
+local function is_beyond(run, q)
+  if run.status == "complete" then return false end
+  local times = { q.times[1], q.times[#q.times] }
+  local inner = require "ambit.sample".inner(q, DRAWS, 1, { t = times, cpu = math.max(1, run.cpu_seconds) })
+  return inner and inner.failed >= inner.draws
+end
+
 -- May another solver be asked after this? Not where the run was stopped from outside, or where nothing is to be gained.
 local function may_go_on(run, was_limit)
   return run.status == "complete" or run.status == "unable" or run.status == "stopped" and was_limit
@@ -164,11 +182,12 @@ function choice.solve(q, ask)
   local others = q.suggestion.others
   local first = ask(q.suggestion, { patience = #others > 0 and PATIENCE or nil })
   local hull = {}
-  if judge(first, q, hull) or not may_go_on(first) or #others == 0 or q.run_options.pieces then return first end
-  local best, tried, from = first, { { solver = first.solver, outcome = describe(first) } }, nil
+  if judge(first, q, hull) or #others == 0 or not may_go_on(first) then return first end
+  if q.run_options.pieces or q.run_options.unknown or is_beyond(first, q) then return first end
+  local best, tried = first, { { solver = first.solver, outcome = describe(first) } }
   local limit = math.max(LEAST, MORE * first.cpu_seconds)
-  if goes_on(first, q) then from = first end
-  for _, other in ipairs(others) do
+  local from = goes_on(first, q) and first or nil
+  for other in choice.proving(others) do
     local left = from and rest_of(q, from) or {}
     core.record("way_back", { "solver", other.solver, "t", from and from.t_reached or q.times[1], "after",
       tried[#tried].solver, "because", tried[#tried].outcome })

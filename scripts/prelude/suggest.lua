@@ -121,6 +121,7 @@ function suggest.solver(q, fitting)
   local facts, problem = core.look(q.system.system, "", nil, {}, {}, q.initial, q.times)
   if not facts then return { solver = fitting[1], reason = problem, others = {} } end -- the run itself will say so
   local list = ranked(facts, fitting)
+  while list[1] and not option.declaration("solver", list[1].solver).rigorous do table.remove(list, 1) end
   local first, others = list[1], {}
   if not first then return { solver = fitting[1], reason = "none suits", facts = facts, others = others } end
   for i = 2, #list do

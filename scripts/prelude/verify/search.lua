@@ -196,7 +196,7 @@ end
 -- -> the root, whether another solver took over
 local function ask_others(job, root)
   local limit, taken = math.max(OTHERS_LEAST, OTHERS_MORE * (core.cpu() - job.start)), false
-  for _, other in ipairs(job.others) do
+  for other in choice.proving(job.others) do
     if not box.is_open(job, root) or box.is_spent(job) then break end
     local request, outputs, report, gained, was_limit = job.request, job.outputs, job.report, nil, nil
     job.request, job.outputs, job.report = job.asked.by(other.solver), {}, nil
