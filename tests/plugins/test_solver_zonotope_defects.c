@@ -79,6 +79,7 @@ static void open_one(zono *z, maker *k, uint32_t op, const sizes *s) {
   int positive = op == AMBIT_OP_SQRT || op == AMBIT_OP_LOG, apart = op == AMBIT_OP_MIN || op == AMBIT_OP_MAX;
   put_row(z, z->P, positive ? draw(0.4, 2) : draw(-2, 2), s->data, s->parts);
   put_row(z, z->P + z->shape.stride, apart ? z->P[0] + draw(-1, 1) : draw(0.4, 2), s->data, s->parts);
+  if (op == AMBIT_OP_ATAN2 && pick(2)) z->P[z->shape.stride] *= -1, z->P[0] *= pick(2) ? 1 : 0.1; /* near the cut */
   for (uint32_t i = 0; i < 2; i++) {
     double *row = z->P + i * z->shape.stride;
     for (uint32_t v = z->shape.eps; v < z->shape.pair[0]; v++) row[v] = 0;
@@ -86,7 +87,8 @@ static void open_one(zono *z, maker *k, uint32_t op, const sizes *s) {
     row_norms_all(&z->shape, row);
   }
   for (uint32_t i = 0; i < 4; i++)
-    put_row(z, z->p_row + i * z->shape.stride, s->time * draw(-1, 1), s->time * s->data, s->parts);
+    put_row(z, z->p_row + i * z->shape.stride, s->time * draw(-1, 1), s->time * s->data, s->parts),
+        z->p_rad[i] = pick(2) ? 0.1 * s->time * draw(0, 1) : 0;
 }
 
 /* what extended precision may be off by */
@@ -104,7 +106,9 @@ static void check_defects(const zono *z, const point *p, int regime) {
     uint32_t op = t->op[i], j = t->dst[i];
     if (op == AMBIT_OP_ABS || op == AMBIT_OP_MIN || op == AMBIT_OP_MAX) continue; /* up to zono_spread() */
     long double a = slot_at(z, t->a[i], p), b = slot_at(z, t->b[i], p), to = slot_at(z, j, p);
-    long double off = fabsl(operation(op, a, b) - to) - slack(z, i, a, b);
+    long double off = operation(op, a, b) - to;
+    if (op == AMBIT_OP_ATAN2) off = remainderl(off, 2 * acosl(-1)); /* zono_spread() keeps away from the cut */
+    off = fabsl(off) - slack(z, i, a, b);
     if (!(off <= z->r[j])) fail_msg("opcode %u in regime %d: off by %Lg, bound %g", op, regime, off, z->r[j]);
     if (off > z->r[j] * (long double)reached[op][regime]) reached[op][regime] = (double)(off / z->r[j]);
   }
@@ -115,7 +119,9 @@ static void check_spread(const zono *z, const point *p, const double *input, con
   const ambit_tape *t = z->program.tape;
   long double star[SLOTS], off[SLOTS];
   for (uint32_t j = 0; j < t->nconst + t->nin; j++) {
-    long double moved = j < t->nconst ? 0 : input[j - t->nconst] * (pick(4) ? (pick(2) ? 1 : -1) : draw(-1, 1));
+    double most = j < t->nconst ? 0 : input[j - t->nconst];
+    if (j >= slot_p(z, 0) && j < slot_t(z)) most += z->p_rad[j - slot_p(z, 0)];
+    long double moved = most * (pick(4) ? (pick(2) ? 1 : -1) : draw(-1, 1));
     star[j] = slot_at(z, j, p) + moved, off[j] = moved;
   }
   for (uint32_t i = 0; i < t->ninstr; i++) {

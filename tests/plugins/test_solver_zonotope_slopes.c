@@ -172,7 +172,8 @@ static void check_kernel(const zono *z, double *least) {
   for (uint32_t e = 0; e < n * n; e++) {
     long double reach = all[e / n][e % n], wobble = rest[e / n][e % n];
     if (!(reach * (1 - 1e-5L) <= p->reach[e])) fail_msg("the integral of |K| is %Lg, bound %g", reach, p->reach[e]);
-    if (!(wobble - 1e-5L * reach <= p->wobble[e])) fail_msg("%Lg is left of K, bound %g", wobble, p->wobble[e]);
+    if (!(wobble * (1 - 1e-4L) - 1e-18L * reach <= p->wobble[e]))
+      fail_msg("%Lg is left of K, bound %g", wobble, p->wobble[e]);
     if (wobble > 1e-3L * reach) bent = 1, most = fmax(most, (double)wobble / p->wobble[e]);
   }
   if (bent) *least = fmin(*least, most);

@@ -283,7 +283,36 @@ static void farthest_solutions_are_in_the_set(void **unused) {
     for (int again = 0; again < 3; again++) try_family(&families[n]);
 }
 
+/* -- a lump of an equation: x' = a, p a = theta, |theta| <= w */
+
+static void lumps_of_equations_are_in_the_set(void **unused) {
+  (void)unused;
+  static zono z;
+  static maker k;
+  static const uint32_t stage_end[1] = { 1 }, pivot[1] = { 0 };
+  const double w = 0.01, scale = 0.3, h = 0.5;
+  make_empty(&k, 1, 1, 1, 1); /* constant 0; x, a, p, t */
+  k.out[0] = 2, k.out[1] = put(&k, AMBIT_OP_MUL, 2, 3);
+  k.tape.nslot = k.tape.nconst + k.tape.nin + k.tape.ninstr;
+  z = (zono) { .host = &host, .nx = 1, .na = 1, .np = 1, .m = 1, .K = 4, .K_max = 4, .ngen_max = 60, .h = h };
+  z.program = (program) { &k.tape, 1, 1, 1, 0, 1, stage_end, pivot, NULL, NULL, NULL, NULL };
+  assert_true(shape_open(&host, &z.shape, 1, 1));
+  z.P = lend(&host, z.shape.stride * 8), z.E = lend(&host, 8), z.G = lend(&host, 61 * 8);
+  assert_true(zono_open_rows(&z) && zono_open_implicit(&z) && zono_open_proof(&z));
+  z.proof->patience = 1, z.p_row[0] = 1, z.p_row[1] = scale, row_norms_all(&z.shape, z.p_row);
+  assert_true(zono_series(&z) && zono_defects(&z));
+  z.rr_out[1] = w;
+  assert_true(zono_prove(&z));
+  zono_finish(&z);
+  double most = h * w / (1 - scale); /* from x = 0, where p is least */
+  assert_true(most <= z.E[0] && z.E[0] < 1.5 * most && most <= z.proof->zeta[0]);
+  give_back();
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = { cmocka_unit_test(farthest_solutions_are_in_the_set) };
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(farthest_solutions_are_in_the_set),
+    cmocka_unit_test(lumps_of_equations_are_in_the_set),
+  };
   return cmocka_run_group_tests_name("zonotope: a step", tests, NULL, NULL);
 }
