@@ -6,6 +6,7 @@
 */
 #include "lua/embedded.h"
 #include "lua/core.h"
+#include "num/environment.h"
 #include <string.h>
 
 static const char environment_key = 0; /* its address is the key in the Lua registry */
@@ -63,6 +64,26 @@ static void keep_methods(lua_State *L) {
   lua_pop(L, 1);
 }
 
+/* -- numbers as text */
+
+/* A library function that writes numbers, upvalue 1, with a decimal point and rounded to nearest, whatever locale and
+** mode the scene or host has set: what Ambit writes is read again, as a literal, CSV or source. */
+static int call_in_environment(lua_State *L) {
+  lua_pushvalue(L, lua_upvalueindex(1));
+  lua_insert(L, 1);
+  ambit_environment old = ambit_environment_enter();
+  int status = lua_pcall(L, lua_gettop(L) - 1, LUA_MULTRET, 0);
+  ambit_environment_leave(old);
+  return status == LUA_OK ? lua_gettop(L) : lua_error(L);
+}
+
+/* In the table on top of the stack. */
+static void write_plainly(lua_State *L, const char *name) {
+  lua_getfield(L, -1, name);
+  lua_pushcclosure(L, call_in_environment, 1);
+  lua_setfield(L, -2, name);
+}
+
 /* -- modules */
 
 /* Pushes the environment; the first time that is the globals, and copies of the libraries in them. */
@@ -80,6 +101,10 @@ static void push_environment(lua_State *L) {
     }
     lua_pop(L, 1);
   }
+  write_plainly(L, "tostring");
+  lua_getfield(L, -1, "string");
+  write_plainly(L, "format");
+  lua_pop(L, 1);
   keep_methods(L);
   lua_pushvalue(L, -1);
   lua_rawsetp(L, LUA_REGISTRYINDEX, &environment_key);

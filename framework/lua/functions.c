@@ -75,6 +75,8 @@ static int fold(lua_State *L) {
   return 1;
 }
 
+#define EXPONENT_MAX 1e9
+
 /* Twice the exponent as an integer, if it is exactly one: a text is read as a decimal, so "2.00000000000000000001" is
 ** none. */
 static bool half_integer_exponent(lua_State *L, int idx, int32_t *n) {
@@ -89,8 +91,10 @@ static bool half_integer_exponent(lua_State *L, int idx, int32_t *n) {
   } else {
     return false;
   }
+  if (fabs(x) > EXPONENT_MAX && x == floor(x)) /* by logarithms it would be defined for positive numbers only */
+    ambit_lua_error(L, "pow: a whole exponent is at most 1e9 in magnitude, got %.17g; for a > 0 write exp(b*log(a))", x);
   x *= 2;
-  if (!(fabs(x) <= 2e9) || x != floor(x)) return false;
+  if (!(fabs(x) <= 2 * EXPONENT_MAX) || x != floor(x)) return false;
   *n = (int32_t)x;
   return true;
 }

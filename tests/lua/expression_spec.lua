@@ -17,6 +17,18 @@ describe("an expression", function()
     assert.equal(ambit.sin(x) * ambit.sin(x) + ambit.cos(x) * ambit.cos(x), ambit.around(1, 0))
   end)
 
+  it("refuses whole exponents that are too large to be whole, instead of taking logarithms", function()
+    for _, n in ipairs { 1000000001, 9007199254740993, -4294967296, 2^31, 1e300, "4294967297" } do
+      for _, x in ipairs { ambit.number(-1), ambit.between(-1, 1), ambit.interval(-1, 1) } do
+        local good, message = pcall(function() return x ^ n end)
+        assert.is_false(good)
+        assert.truthy(message:find("a whole exponent is at most 1e9", 1, true), message)
+      end
+    end
+    assert.equal(-1, ambit.evaluate({ ambit.number(-1) ^ 999999999 }).hi)
+    assert.equal(1, (ambit.interval(-1, -1) ^ 1000000000).lo)
+  end)
+
   it("takes integer powers for every base and others for positive ones", function()
     local y = ambit.between(-2, 3)
     assert.equal(0, ambit.evaluate({ y ^ 2 }).lo)

@@ -87,6 +87,39 @@ ambit.evaluate { ambit.number "one" }]]
     assert.truthy(output:find("\"one\" is no number: expected for example", 1, true), output)
   end)
 
+  it("changes no number that is written, with a locale whose decimal point is a comma", function()
+    local folder = os.tmpname()
+    os.remove(folder)
+    local made = os.execute(("mkdir %s && localedef -i de_DE -f UTF-8 %s/de_DE.UTF-8 2>/dev/null"):format(folder, folder))
+    if not made then
+      os.execute("rm -rf " .. folder)
+      return print "localedef has no de_DE: not tried"
+    end
+    local scene = [[
+print(os.setlocale(...))
+local pieces = ambit.reduce { ambit.ode { states = { "x" }, equations = function(s) return { x = -"1.5" * s.x + "0.0001" } end },
+  initial = { x = "0.5" }, t = { 0, "0.1" }, outputs = { "x" }, error = { x = "0.05" } }
+print(pieces, pieces.ode:lua())
+]] .. body
+    local function answer(locale)
+      local name = os.tmpname()
+      local file = assert(io.open(name, "w"))
+      assert(file:write("local ambit = require 'ambit'\n", scene))
+      file:close()
+      local output, code = shell(("LOCPATH=%s '%s' run --quiet %s %s 2>&1"):format(folder, command, name, locale))
+      os.remove(name)
+      output = output:gsub("[%d.,]+ [mµ]+s", "TIME"):gsub(name, "SCENE"):gsub("SCENE, SHA%-256 %x+", "SCENE")
+      return output:gsub("^[^\n]*", ""), code, output:match "^[^\n]*"
+    end
+    local expected, code = answer "C"
+    assert.equal(0, code, expected)
+    local found, found_code, said = answer "de_DE.UTF-8"
+    os.execute("rm -rf " .. folder)
+    assert.equal("de_DE.UTF-8", said)
+    assert.equal(expected, found)
+    assert.equal(0, found_code)
+  end)
+
   it("is not what Ambit makes of them", function()
     local known = {}
     for name in pairs(_G) do known[name] = true end
