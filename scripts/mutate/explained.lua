@@ -91,4 +91,20 @@ return {
     "memory that ran out for one array ran out for the next",
   ["plugins/solver/stiff/collocation.c | guard 1 | if (!(now < 1e6)) return 0;"] =
     "Newton's method goes on; its result is a guess, which is proved afterwards",
+  ["plugins/solver/stiff/collocation.c | logic 11 | return q->x && q->Z && q->c && q->size && q->least && q->unit && q->scale && q->A && q->residual && q->J && q->f &&"] =
+    "memory that ran out for one array ran out for the next",
+  ["plugins/solver/stiff/evaluate.c | sign 1 | for (uint32_t k = room; k < a->n; k++) rest += fabs(a->hi[k]) * (1 + 2 * DD_U);"] =
+    "SLACK, by which the sum is multiplied, is more than the low parts",
+  ["plugins/solver/stiff/evaluate.c | guard 1 | if (!(f->tail < INFINITY)) return 0;"] =
+    "a bound that is infinite or NaN is not below that of the tube: the proof fails there, with another reason",
+  ["plugins/solver/stiff/spread.c | term 1 | for (uint32_t k = 1; k < g->n[t]; k++) rest += fabs(row[k]);"] =
+    "initial values do not depend on time: their rows have one coefficient",
+  ["plugins/solver/stiff/spread.c | radius 1 | double rest = P->tail + (a >= s->nx ? s->start_rest[a] : box ? box[a] : 0);"] =
+    "parameters are unknowns themselves, of which nothing is left over",
+  ["plugins/solver/stiff/step.c | relation 1 | s->box[i] = i < s->nx ? 3 * sum : sum * (1 + 0x1p-20);"] =
+    "a guess: slopes are computed anew over what leaves it",
+  ["plugins/solver/stiff/step.c | extremum 1 | for (size_t i = 0; i < (size_t)(m + 1) * s->n * s->n; i++) most = fmax(most, fabs(s->rate[i]));"] =
+    "steps that are too long for their rates fail in the proof, which takes longer",
+  ["plugins/solver/stiff/step.c | guard 1 | if (too_fast(s, m)) return WHY_FAST;"] =
+    "steps that are too long for their rates fail in the proof, which takes longer",
 }
