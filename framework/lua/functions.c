@@ -92,7 +92,8 @@ static bool half_integer_exponent(lua_State *L, int idx, int32_t *n) {
     return false;
   }
   if (fabs(x) > EXPONENT_MAX && x == floor(x)) /* by logarithms it would be defined for positive numbers only */
-    ambit_lua_error(L, "pow: a whole exponent is at most 1e9 in magnitude, got %.17g; for a > 0 write exp(b*log(a))", x);
+    ambit_lua_error(
+        L, "pow: a whole exponent is at most 1e9 in magnitude, got %.17g; for a > 0 write exp(b*log(a))", x);
   x *= 2;
   if (!(fabs(x) <= 2 * EXPONENT_MAX) || x != floor(x)) return false;
   *n = (int32_t)x;
