@@ -1,21 +1,27 @@
-# The command `ambit` and the Lua module lua/ambit.so: the same files of framework/lua and the same embedded scripts. The module leaves
-# Lua's own symbols to the interpreter that loads it; the command brings liblua along.
+# The command `ambit` and the Lua module lua/ambit.so: the same files of framework/lua and the same embedded scripts.
+# The module leaves Lua's own symbols to the interpreter that loads it; the command brings liblua along.
 pkg_search_module(LUA REQUIRED IMPORTED_TARGET lua5.4 lua-5.4 lua54)
 pkg_check_modules(FFI REQUIRED IMPORTED_TARGET libffi)
 
 set(embedded "")
 set(embedded_paths "")
 # scripts/prelude/reduce/pass.lua -> ambit.reduce.pass, scripts/command/run.lua -> ambit.command.run
-foreach(folder prelude command)
-  file(GLOB_RECURSE scripts CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/scripts/${folder} ${PROJECT_SOURCE_DIR}/scripts/${folder}/*.lua)
+# What every scene reads comes first, side by side: a process maps the pages that it reads and their neighbours.
+set(first_prelude init.lua check.lua code.lua provenance.lua session.lua)
+set(first_command main.lua run.lua scene.lua)
+foreach(folder command prelude)
+  set(from ${PROJECT_SOURCE_DIR}/scripts/${folder})
+  file(GLOB_RECURSE scripts CONFIGURE_DEPENDS RELATIVE ${from} ${from}/*.lua)
+  list(REMOVE_ITEM scripts ${first_${folder}})
+  list(PREPEND scripts ${first_${folder}})
   foreach(script ${scripts})
     string(REGEX REPLACE "\\.lua$" "" name ${script})
     if(NOT folder STREQUAL "prelude")
       string(PREPEND name ${folder}/)
     endif()
     string(REPLACE "/" "." module ambit/${name})
-    list(APPEND embedded "${module}|${name}|${PROJECT_SOURCE_DIR}/scripts/${folder}/${script}")
-    list(APPEND embedded_paths ${PROJECT_SOURCE_DIR}/scripts/${folder}/${script})
+    list(APPEND embedded "${module}|${name}|${from}/${script}")
+    list(APPEND embedded_paths ${from}/${script})
   endforeach()
 endforeach()
 include(cmake/skeleton.cmake)

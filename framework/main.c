@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <sys/resource.h>
 
-#define STACK_BYTES ((size_t)1 << 20) /* that are touched at the start */
+#define STACK_BYTES ((size_t)1 << 20) /* that are touched at the start where memory is limited */
 #define STACK_LEAST (4 * STACK_BYTES) /* that there must be */
 #define STACK_USUAL ((size_t)8 * STACK_BYTES)
 
@@ -20,12 +20,18 @@ static int add_traceback(lua_State *L) {
   return 1;
 }
 
-/* Chains of elements are nested calls (framework/mechanism/pull.c bounds how many). Under a limit of memory the stack
-** must have its room before the heap has taken all; a page that was touched stays.
-*/
-__attribute__((noinline)) static void reserve_stack(void) {
+/* Touches pages of the stack: they stay. */
+__attribute__((noinline)) static void touch_stack(void) {
   volatile char room[STACK_BYTES];
   for (size_t i = 0; i < sizeof room; i += 4096) room[i] = 0;
+}
+
+/* Chains of elements are nested calls (framework/mechanism/pull.c bounds how many). Under a limit of memory the stack
+** must have its room before the heap has taken all.
+*/
+static void reserve_stack(void) {
+  struct rlimit limit;
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY) touch_stack();
 }
 
 /* Raises a low limit as far as it may be raised. False: too low. */

@@ -328,8 +328,6 @@ end
 
 local assemble = {}
 
-function assemble.install(into)
-  for name, method in pairs(methods) do into[name] = method end
-end
+assemble.methods = methods
 
 return assemble

@@ -133,10 +133,4 @@ function methods:dynamics(t)
   return self.cached
 end
 
-local dynamics = {}
-
-function dynamics.install(into)
-  for name, method in pairs(methods) do into[name] = method end
-end
-
-return dynamics
+return { methods = methods }

@@ -2,8 +2,6 @@
 -- scenes need little of it, and reading all of it takes longer than they do.
 local check = require "ambit.check"
 local core = require "ambit.core"
-local mechanism = require "ambit.mechanism"
-local ode = require "ambit.ode"
 
 local function later(module, name)
   return function(...) return require("ambit." .. module)[name](...) end
@@ -13,10 +11,10 @@ local ambit = {
   version = core.version,
   pi = core.pi(),
   time = core.time(),
-  mechanism = mechanism.new,
+  mechanism = later("mechanism", "new"),
   load = later("load", "load"),
   chain = later("chain", "new"),
-  ode = ode.new,
+  ode = later("ode", "new"),
   evaluate = later("evaluate", "evaluate"),
   simulate = later("simulate", "simulate"),
   sensitivity = later("sensitivity", "sensitivity"),

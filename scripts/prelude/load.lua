@@ -179,8 +179,6 @@ function methods:tolerances(t)
   self.patterns = patterns
 end
 
-function load.install(into)
-  for name, method in pairs(methods) do into[name] = method end
-end
+load.methods = methods
 
 return load

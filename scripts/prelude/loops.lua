@@ -203,8 +203,6 @@ function loops.hint(self, run)
     .. "take several ways"):format(table.concat(found.loops, "`, `"))
 end
 
-function loops.install(into)
-  for name, method in pairs(methods) do into[name] = method end
-end
+loops.methods = methods
 
 return loops

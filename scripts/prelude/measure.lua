@@ -170,8 +170,6 @@ function methods:reaction(joint, which)
     force = Vector.in_unit(vector_at(wrench, 4), "N") }, Matrix)
 end
 
-function measure.install(into)
-  for name, method in pairs(methods) do into[name] = method end
-end
+measure.methods = methods
 
 return measure

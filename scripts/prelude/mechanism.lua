@@ -68,14 +68,30 @@ end
 function Mechanism.__tostring(self) return ('mechanism "%s" (%d parts)'):format(self.name,
   core.part_count(self.handle)) end
 
-for _, part in ipairs { "measure", "dynamics", "loops", "assemble", "tree", "mimic", "load", "state" } do
-  require("ambit." .. part).install(methods)
+-- Which module has which methods: it is read when one of them is first called.
+local homes = {
+  assemble = "assemble",
+  dynamics = [[energy power coordinate_names speed_names coordinates mass_matrix generalised_forces bias gravity_torque
+    inverse_dynamics forward_dynamics jacobian dynamics]],
+  load = "load link limits tolerances",
+  loops = "constraints independent reference redundant multipliers of_states rank",
+  measure = [[position orientation velocity angular_velocity acceleration distance relative_pose relative_velocity angle
+    total_mass centre_of_mass momentum reaction]],
+  mimic = "coordinate",
+  state = "state",
+  tree = "tree",
+}
+
+for home, names in pairs(homes) do
+  for name in names:gmatch "%S+" do
+    methods[name] = function(...) return require("ambit." .. home).methods[name](...) end
+  end
 end
 
 check.methods(methods, Mechanism)
 chain.reserved = methods
 
-local mechanism = {}
+local mechanism = { homes = homes }
 
 -- A mechanism without parts that nobody has been told of. counterparts: of a copy, a function from the frames and
 -- joints of the mechanism that it was made from to its own (reduce/mechanism_copy.lua).

@@ -58,11 +58,11 @@ function mimic.resolve(self, type, t)
 end
 
 -- m:coordinate(joint): its coordinate as an expression; several as a list.
-function mimic.install(methods)
-  function methods:coordinate(joint)
-    local list = coordinates(self, joint, "coordinate")
-    return #list == 1 and list[1] or setmetatable(list, Matrix)
-  end
+mimic.methods = {}
+
+function mimic.methods:coordinate(joint)
+  local list = coordinates(self, joint, "coordinate")
+  return #list == 1 and list[1] or setmetatable(list, Matrix)
 end
 
 return mimic

@@ -39,7 +39,9 @@ function Ode:rate(name)
   check.fail('ode `%s`: no state `%s`%s', self.name, tostring(name), check.suggest(name, self.states))
 end
 
-require("ambit.source").install(Ode)
+for _, name in ipairs { "text", "lua", "latex", "modelica" } do
+  Ode[name] = function(...) return require "ambit.source".methods[name](...) end
+end
 check.methods(Ode, Ode)
 
 -- The right-hand sides, which of a large mechanism are written only now.

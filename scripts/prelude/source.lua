@@ -1,9 +1,6 @@
 -- source.lua -- equations as source: ode:text(), ode:lua(), ode:latex(), ode:modelica().
 local core = require "ambit.core"
-local source_latex = require "ambit.source.latex"
-local source_lua = require "ambit.source.lua"
 local source_model = require "ambit.source.model"
-local source_modelica = require "ambit.source.modelica"
 
 local source = {}
 
@@ -28,12 +25,10 @@ local function text(self)
   return table.concat(lines, "\n") .. "\n"
 end
 
--- The methods of an ode.
-function source.install(methods)
-  methods.text = text
-  methods.lua = source_lua.write
-  methods.latex = source_latex.write
-  methods.modelica = source_modelica.write
+source.methods = { text = text }
+
+for _, language in ipairs { "lua", "latex", "modelica" } do
+  source.methods[language] = function(...) return require("ambit.source." .. language).write(...) end
 end
 
 return source

@@ -73,8 +73,6 @@ end
 
 local state = {}
 
-function state.install(into)
-  for name, method in pairs(methods) do into[name] = method end
-end
+state.methods = methods
 
 return state

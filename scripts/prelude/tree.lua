@@ -111,11 +111,11 @@ end
 
 -- m:tree() -> { name, type = "mechanism", parts = { { name, path, type, where, part }, { ..., parts = {...} }, ... } }:
 -- `part` is a part's number, `parts` what a chain consists of.
-function tree.install(methods)
-  function methods:tree()
-    catch_up(self)
-    return copy_of(self.root.node)
-  end
+tree.methods = {}
+
+function tree.methods:tree()
+  catch_up(self)
+  return copy_of(self.root.node)
 end
 
 return tree

@@ -34,6 +34,11 @@ function read.library(m, record)
   m.here[#m.here + 1] = record.name
 end
 
+function read.modules(m, record)
+  m.modules = record.read
+  for name in record.names:gmatch "%S+" do m.here[#m.here + 1] = "lua." .. name end
+end
+
 function read.mechanism(m, record) m.quantities = m.quantities + record.pulled end
 
 function read.datum(m, record) m.uncertain = m.uncertain + (record.kind == "uncertain" and 1 or 0) end
@@ -52,7 +57,7 @@ function read.result(m, record) m.status, m.reason = record.status, record.reaso
 -- here = { what is loaded } }, or nil and why not.
 function measure.scene(ambit, scene)
   local pipe = assert(io.popen(("AMBIT_THREADS=1 '%s' explain --json '%s' 2>/dev/null"):format(ambit, scene)))
-  local m = { plugins = 0, libraries = 0, quantities = 0, uncertain = 0, here = {} }
+  local m = { plugins = 0, libraries = 0, modules = 0, quantities = 0, uncertain = 0, here = {} }
   for _, key in ipairs(summed) do m[key] = 0 end
   for line in pipe:lines() do
     local good, record = pcall(cjson.decode, line)
@@ -68,8 +73,8 @@ function measure.scene(ambit, scene)
 end
 
 -- The order in which counts are written; by rounding, the last ones may differ a little between processors.
-measure.counts = { "plugins", "libraries", "quantities", "uncertain", "unknowns", "asked", "nodes", "tape_slots",
-  "tape_instructions", "allocations_run", "steps", "coefficients", "operations" }
+measure.counts = { "plugins", "libraries", "modules", "quantities", "uncertain", "unknowns", "asked", "nodes",
+  "tape_slots", "tape_instructions", "allocations_run", "steps", "coefficients", "operations" }
 measure.slack = { steps = 1.02, coefficients = 1.02, operations = 1.02 }
 
 return measure

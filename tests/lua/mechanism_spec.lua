@@ -64,6 +64,15 @@ describe("a mechanism", function()
     assert.truthy(problem:find "mechanism_spec.lua:%d+: the law broke")
   end)
 
+  it("knows every method of the modules that it reads later", function()
+    local check = require "ambit.check"
+    for home, names in pairs(require "ambit.mechanism".homes) do
+      local listed = {}
+      for name in names:gmatch "%S+" do listed[name] = true end
+      assert.are.same(check.sorted(require("ambit." .. home).methods), check.sorted(listed), home)
+    end
+  end)
+
   it("builds only what is asked for", function()
     local core = require "ambit.core"
     local m = ambit.mechanism "arm"

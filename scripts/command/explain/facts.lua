@@ -1,14 +1,21 @@
 -- explain/facts.lua -- runs a scene with its output discarded and gathers what it loaded, built, computed and left out.
 local check = require "ambit.check"
 local core = require "ambit.core"
-local explain_data = require "ambit.command.explain.data"
-local explain_tree = require "ambit.command.explain.tree"
 local process = require "ambit.command.explain.process"
 local scene = require "ambit.command.scene"
 local session = require "ambit.session"
-local suggest = require "ambit.suggest"
 
 local explain = {}
+
+-- The modules that the scene read beyond those that every scene needs, by name. What explains is read later: it would
+-- hide what the scene needs of the same modules.
+local function modules_since(before)
+  local list = {}
+  for _, name in ipairs(check.sorted(process.modules())) do
+    if not before[name] then list[#list + 1] = name end
+  end
+  return list
+end
 
 -- Resident now and at most; the system counts the latter a little late.
 local function memory()
@@ -63,6 +70,7 @@ end
 
 -- For a simulate: the solver that suits, and why. Looking at the scene loads plugins, so it comes last.
 local function add_suggestions(facts)
+  local suggest = require "ambit.suggest"
   for _, verb in ipairs(facts.verbs) do
     if verb.verb == "simulate" and verb.request then
       local good, s = pcall(function() return verb.request.suggestion or suggest.advice(verb.request) end)
@@ -79,16 +87,19 @@ function explain.gather(file, words)
   local restore = scene.discard_output()
   facts.answers_start, facts.cpu_start = core.answers(), core.cpu()
   facts.resident_start = memory()
+  local modules_before = process.modules()
   local good, problem = scene.run(file, words)
   facts.cpu_end, facts.answers = core.cpu(), core.answers()
   facts.resident, facts.peak = memory()
   facts.libraries, facts.plugins = process.libraries(), process.plugins()
+  facts.modules, facts.module_count = modules_since(modules_before), process.module_count()
   restore()
   facts.problem = not good and problem ~= scene.leave and tostring(problem) or nil
   local mechanisms = listed(session.mechanisms)
-  facts.data = explain_data.collect(mechanisms, listed(session.odes), facts.verbs)
+  facts.data = require "ambit.command.explain.data".collect(mechanisms, listed(session.odes), facts.verbs)
   facts.mechanisms = {}
-  for i, m in ipairs(mechanisms) do facts.mechanisms[i] = explain_tree.tree(m) end
+  local tree = require "ambit.command.explain.tree"
+  for i, m in ipairs(mechanisms) do facts.mechanisms[i] = tree.tree(m) end
   facts.times = times(facts)
   count_answers(facts)
   add_suggestions(facts)

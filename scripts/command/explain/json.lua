@@ -35,6 +35,8 @@ local function write_process(facts)
     core.record("available", { "kind", plugin.kind, "name", plugin.name, "loaded", plugin.loaded and 1 or 0, "bytes",
       plugin.bytes })
   end
+  core.record("modules", { "read", #facts.modules, "available", facts.module_count, "names",
+    table.concat(facts.modules, " ") })
   for _, library in ipairs(facts.libraries) do
     core.record("library", fields_of(library, { "name", "mapped", "resident" }))
   end

@@ -20,6 +20,24 @@ function explain.plugins()
   return list
 end
 
+-- { name = true }: the modules of Ambit's own that have been read
+function explain.modules()
+  local names = {}
+  for name in pairs(package.loaded) do
+    if package.preload[name] and name:find "^ambit%." then names[name] = true end
+  end
+  return names
+end
+
+-- How many modules there are.
+function explain.module_count()
+  local count = 0
+  for name in pairs(package.preload) do
+    if name:find "^ambit%." and not name:find "^ambit%.command%." then count = count + 1 end
+  end
+  return count
+end
+
 -- The mappings of the process by file: bytes of address space, and of memory that is really there.
 local function mappings()
   local by_path, current = {}, nil

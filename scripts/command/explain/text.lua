@@ -61,6 +61,13 @@ local function write_plugins(write, facts)
   write_kinds(write, "left out:", facts.plugins, false)
 end
 
+local function write_modules(write, facts)
+  write("  %d of %d modules of Lua read\n", #facts.modules, facts.module_count)
+  local names = {}
+  for i, name in ipairs(facts.modules) do names[i] = name:match "^ambit%.(.*)" end
+  write_words(write, "read:", #names > 0 and names or { "none" })
+end
+
 local function write_libraries(write, facts)
   local names, mapped, resident, large = {}, 0, 0, {}
   for i, library in ipairs(facts.libraries) do
@@ -249,6 +256,7 @@ function explain.write(write, facts)
   write_times(write, facts)
   heading "1  In the process"
   write_plugins(write, facts)
+  write_modules(write, facts)
   write_libraries(write, facts)
   heading "2  Quantities"
   if #facts.mechanisms == 0 then write "  the scene has no mechanism\n" end
