@@ -1,7 +1,10 @@
 -- andrews.lua: Andrews' squeezer, seven bodies in a plane and three loops (Schiehlen, Multibody Systems Handbook, 1990;
 -- data of the IVP Test Set). What a drive torque of 0.033 N m does in the first 10 ms, proved.
---   ambit run andrews.lua 0.03      for as many seconds
+--   ambit run andrews.lua [0.03 [0.1%]]     for as many seconds; masses and moments of inertia within a tolerance
 local ambit = require "ambit"
+
+local finish, tolerance = tonumber(arg and arg[1]) or 0.01, arg and arg[2]
+local function datum(value, name) return tolerance and ambit.around(value, tolerance, name) or value end
 
 local m = ambit.mechanism "Andrews' squeezer"
 
@@ -10,6 +13,7 @@ local function hinge(name, from, x, y)
   return m:revolute { from = at, axis = "z", name = name }
 end
 local function body(at, mass, x, y, inertia)
+  mass, inertia = datum(mass, "mass"), datum(inertia, "moment of inertia")
   m:rigid_body { at = at, mass = mass, centre = { x, y, 0 }, inertia = { inertia, 0, 0, 0, inertia, 0, 0, 0, inertia } }
 end
 local function point(at, x, y) return m:rigid_link { from = at, offset = { x, y, 0 } } end
@@ -57,7 +61,7 @@ m:independent { "beta" } -- the other six speeds follow from it
 local initial = start.configuration
 initial["beta'"] = 0
 
-local finish, times = tonumber(arg and arg[1]) or 0.01, { 0 }
+local times = { 0 }
 for k = 1, 5 do times[k + 1] = finish * k / 5 end
 local run = ambit.simulate { m:dynamics(), initial = initial, t = times }
 

@@ -53,7 +53,7 @@ return {
   row("four_bar", "four-bar, lengths and masses 0.1 %, 3 turns under drive", "four_bar", { "0.1%" }, 1.9, 1e-6, 1.3),
   row("slider_crank", "slider-crank, lengths and masses 0.1 %, 3 turns under drive", "slider_crank", { "0.1%" }, 1.9,
     1e-6, 1.3),
-  row("andrews", "Andrews' squeezer, masses and moments of inertia 0.1 %", "andrews", { "0.03", "0.1%" }, 0.03, 1e-6,
+  row("andrews", "Andrews' squeezer, masses and moments of inertia 0.1 %", "../../andrews", { "0.03", "0.1%" }, 0.03, 1e-6,
     1.3),
   row("stewart", "Stewart platform on servo legs, radii and masses 0.1 %", "stewart", { "0.1%" }, 1, 1e-6, 1.3),
   { kind = "verify", name = "cart_pole", what = "cart-pole under LQR, stays within 5 degrees for 10 s",
