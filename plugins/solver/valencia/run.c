@@ -297,6 +297,7 @@ static void begin(valencia *s) {
   for (uint32_t i = 0; i < s->nx; i++) s->scale[i] = exp2(4 * ceil(log2(smaller(s->magnitude[i], 0x1p900)) / 4));
   for (uint32_t i = 0; i < s->nx; i++)
     s->limit[i] = s->options.width_max * larger(1, larger(fabs(s->lo[i]), fabs(s->hi[i])));
+  if (s->options.width_max == 0) explodes(s); /* the first step may be the one that is too wide */
 }
 
 static AMBIT_WORKER enum why work(valencia *s, ambit_sink *sink) {
