@@ -71,8 +71,4 @@ function methods:state(t)
   return core.in_unit(core.symbol(name), t.unit)
 end
 
-local state = {}
-
-state.methods = methods
-
-return state
+return { methods = methods }
