@@ -1,3 +1,2 @@
-# From inside: with the files of the plugin.
-file(GLOB lohner_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/plugins/solver/lohner/*.c)
-target_sources(test.plugins.solver_lohner_set PRIVATE ${lohner_sources})
+# From inside: with the objects of the plugin.
+target_sources(test.plugins.solver_lohner_set PRIVATE $<TARGET_OBJECTS:solver_lohner>)

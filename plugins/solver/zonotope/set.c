@@ -11,7 +11,11 @@ static int is_known(const zono *z, uint32_t i) { return z->unknown[i] != AMBIT_N
 
 static uint32_t count_terms(const zono *z) {
   uint32_t n = 0, cubic = 0;
-  for (uint32_t i = 0; i < z->m; i++) n += is_known(z, i), cubic += i < z->shape.cubic && is_known(z, i);
+  for (uint32_t i = 0; i < z->m; i++) {
+    if (!is_known(z, i)) continue;
+    n++;
+    if (i < z->shape.cubic) cubic++;
+  }
   return 1 + n + n * (n + 1) / 2 + cubic * (cubic + 1) * (cubic + 2) / 6;
 }
 
