@@ -97,6 +97,12 @@ add_test(NAME lua.linear_systems COMMAND ambit run --quiet tests/lua/linear_syst
 set_tests_properties(lua.linear_systems PROPERTIES TIMEOUT 600 ENVIRONMENT "${lua_environment}"
   PASS_REGULAR_EXPRESSION "200 linear systems, 0 failed\n")
 
+# Nonlinear systems in any units. `ambit run tests/lua/units_of_systems.lua 300` is its full length.
+add_test(NAME lua.units_of_systems COMMAND ambit run --quiet tests/lua/units_of_systems.lua 12
+  WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+set_tests_properties(lua.units_of_systems PROPERTIES TIMEOUT 600 ENVIRONMENT "${lua_environment}"
+  PASS_REGULAR_EXPRESSION "default: 0 of 12 depend[^\n]*\nlohner: 0 of 12[^\n]*\ntaylor_model: 0 of 12[^\n]*\nzonotope: 0 of 12[^\n]*\nstiff: 0 of 12[^\n]*\nvalencia: 0 of 12")
+
 # Motions of random mechanisms. Full length: `ambit run tests/lua/random_mechanisms.lua --mechanisms 200 --draws 500`.
 function(ambit_random_mechanisms name expected)
   add_test(NAME lua.random_mechanisms.${name} COMMAND ambit run --quiet tests/lua/random_mechanisms.lua --joints 4 --data 6

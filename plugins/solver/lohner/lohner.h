@@ -11,7 +11,7 @@
 #include "ball.h"
 #include <ambit/jet.h>
 #include <ambit/solver.h>
-#include <ambit/width.h>
+#include <ambit/ends.h>
 #include <ambit/work.h>
 
 #define PIECES_MAX 16
@@ -177,7 +177,8 @@ ambit_status lohner_run(void *self, ambit_sink *sink);
 
 /* step.c */
 double lohner_share_of_time(const lohner *s); /* that of the step in the run, 1 if it is a large one */
-enum why lohner_find_step(lohner *s);         /* series, a length, and its proof */
+double lohner_least_step(const lohner *s);
+enum why lohner_find_step(lohner *s); /* series, a length, and its proof */
 
 /* size.c, all after the series of the step */
 void lohner_choose_units(lohner *s); /* unit: sizes of states in the step */

@@ -22,7 +22,7 @@ static const ambit_param param[] = {
       "Hermite-Obreschkoff where slopes of the highest order limit the step" },
   { "step_max", "s", "", "inf", "longest step" },
   { "step_min", "s", "", "0",
-      "shortest step that is tried before the run gives up; 0: 2^-40 of the time span, and over wide sets also when "
+      "shortest step that is tried before the run gives up; 0: 2^-40 of the time passed, and over wide sets also when "
       "steps shrink so fast that the end is out of reach" },
   { "width_max", "1", "", "0",
       "the run ends when a state is wider than this times its initial magnitude (at least times 1); 0: when all "

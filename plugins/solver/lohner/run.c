@@ -167,7 +167,7 @@ static ambit_status explain(const lohner *s, enum why why) {
         "at t = %.9g s no step of at least %.3g s could be proved, with an enclosure up to %.3g wide: a solution may "
         "escape or leave the domain of the right-hand side near here%s; if not, split the initial set, lower "
         "`step_min` or raise `tolerance`",
-        s->t, s->options.step_min, width(s), rank);
+        s->t, lohner_least_step(s), width(s), rank);
   }
 }
 

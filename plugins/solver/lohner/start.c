@@ -13,7 +13,6 @@
 #define SHORT 0x1p-10          /* of the time span: the least first guess of a step */
 #define THIN 0x1p-40           /* relative radius up to which an initial box is a matter of rounding */
 #define LEAST_TOLERANCE 1e-22  /* far below the rounding errors of a step */
-#define RESOLUTION 0x1p-40     /* automatic step_min over the time span */
 #define LEAST_HISTORY 4        /* so that the older half is at least two groups, and condensing makes fewer of them */
 #define LARGEST_FOR_HISTORY 48 /* states; beyond it, moving the history would dominate */
 
@@ -281,6 +280,5 @@ enum why lohner_start(lohner *s) {
   /* an instant that is asked for close to the start says nothing about steps */
   double first = fabs(p->time[1] - p->time[0]), span = fabs(p->time[p->ntime - 1] - p->time[0]);
   s->guess = smaller(larger(first, SHORT * span), s->options.step_max);
-  if (s->options.step_min == 0) s->options.step_min = RESOLUTION * fabs(p->time[p->ntime - 1] - p->time[0]);
   return WHY_NOTHING;
 }

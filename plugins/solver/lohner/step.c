@@ -281,9 +281,10 @@ static int has_no_size(const lohner *s) {
 
 static enum why search(lohner *s) {
   double before = INFINITY;
-  double most = smaller(s->longest, s->options.step_max), length = smaller(larger(s->guess, s->options.step_min), most);
+  double most = smaller(s->longest, s->options.step_max), least = lohner_least_step(s);
+  double length = smaller(larger(s->guess, least), most);
   for (int i = 0; i < TRIES; i++) {
-    if (!plan(s, length) || (s->step.length < s->options.step_min && !s->at_instant)) return WHY_NO_STEP;
+    if (!plan(s, length) || (s->step.length < least && !s->at_instant)) return WHY_NO_STEP;
     ambit_work_try(s->counted);
     lohner_choose_units(s);
     double ratio = truncation(s), slope_ratio;
@@ -310,6 +311,11 @@ static enum why search(lohner *s) {
     }
   }
   return WHY_NO_STEP;
+}
+
+double lohner_least_step(const lohner *s) {
+  const double *time = s->problem.time;
+  return ambit_least_step(s->options.step_min, s->t, time[0], time[s->problem.ntime - 1]);
 }
 
 enum why lohner_find_step(lohner *s) {

@@ -55,8 +55,8 @@ static int open_vectors(stiff *s) {
     { &s->slopes.coefficient, nx * n * (SLOPE_ORDER + 1) }, { &s->slopes.tail, nx * n }, { &s->box, n },
     { &s->defect, nx * w * count }, { &s->defect_tail, nx }, { &s->gap, n }, { &s->gap_error, n }, { &s->radius, n },
     { &s->shift, n }, { &s->below, n }, { &s->lo, nx }, { &s->hi, nx }, { &s->tube_lo, nx }, { &s->tube_hi, nx },
-    { &s->limit, nx }, { &s->first_rate, nx }, { &s->dense_mid, nx * w }, { &s->dense_rad, nx * w },
-    { &s->set_middle, nx }, { &s->set_rest, nx } };
+    { &s->limit, nx }, { &s->dense_mid, nx * w }, { &s->dense_rad, nx * w }, { &s->set_middle, nx },
+    { &s->set_rest, nx } };
   for (size_t i = 0; i < sizeof list / sizeof *list; i++)
     if (!(*list[i].array = take(s, list[i].count, sizeof(double)))) return 0;
   s->slopes.count = take(s, nx * n, sizeof *s->slopes.count);
@@ -103,28 +103,50 @@ static int open_memory(stiff *s) {
   return s->eigen != NULL;
 }
 
+#define SQUARINGS 6
+
+/* The spectral radius of |A|, to a factor n^(1/64): by the trace of its power 64, which no change of units changes. A
+** is destroyed. */
+static double radius_of(uint32_t n, double *A) {
+  square next;
+  double logarithm = 0; /* of what A was divided by */
+  for (int k = 0; k <= SQUARINGS; k++) {
+    double most = 0, trace = 0;
+    for (uint32_t i = 0; i < n * n; i++) most = fmax(most, fabs(A[i]));
+    if (!(most > 0 && most < INFINITY)) return 0;
+    for (uint32_t i = 0; i < n; i++) trace += fabs(A[i * n + i]);
+    if (k == SQUARINGS) return trace > 0 ? exp((log(trace) + logarithm) / (1 << SQUARINGS)) : 0;
+    for (uint32_t i = 0; i < n * n; i++) A[i] = fabs(A[i]) / most;
+    logarithm = 2 * (logarithm + log(most));
+    matrix_multiply(n, n, n, A, A, next);
+    memcpy(A, next, (size_t)n * n * sizeof *A);
+  }
+  return 0;
+}
+
 /* parameters, and how fast things are at the start */
 static void prepare(stiff *s) {
   collocation *q = &s->q;
   uint32_t nx = s->nx;
-  double fastest = 0, size = 0;
+  square J;
+  double slowest = INFINITY;
   for (uint32_t i = 0; i < s->inputs; i++) q->x[i] = dd_long(s->start[i]);
   for (uint32_t i = nx; i < s->n; i++) {
     double reach = 1e-3 * fabs(s->start[i].hi) + s->start_rest[i];
     for (uint32_t j = 0; j < s->problem.nu; j++) reach += fabs(s->start_column[i * s->problem.nu + j]);
     q->size[i] = q->scale[i] = reach > 0 ? reach : 1;
   }
-  memcpy(real_input(q->rhs, 0), q->x, s->inputs * sizeof *q->x);
   memcpy(real_input(q->jacobian, 0), q->x, s->inputs * sizeof *q->x);
-  if (q->uses_time) *real_input(q->rhs, s->inputs) = *real_input(q->jacobian, s->inputs) = s->problem.time[0];
+  memcpy(real_input(q->rhs, 0), q->x, s->inputs * sizeof *q->x);
+  if (q->uses_time) *real_input(q->jacobian, s->inputs) = *real_input(q->rhs, s->inputs) = s->problem.time[0];
   real_run(q->rhs);
   real_run(q->jacobian);
-  for (uint32_t i = 0; i < nx; i++) {
-    for (uint32_t k = 0; k < nx; k++) s->first_rate[i] += fabs((double)real_output(q->jacobian, i * nx + k));
-    fastest = fmax(fastest, fabs((double)real_output(q->rhs, i)));
-    size = fmax(size, fabs(s->start[i].hi));
+  for (uint32_t i = 0; i < nx * nx; i++) J[i] = (double)real_output(q->jacobian, i);
+  for (uint32_t i = 0; i < nx; i++) { /* the slowest state that moves: a fast one may only be near zero */
+    double rate = fabs((double)real_output(q->rhs, i)) / fabs(s->start[i].hi);
+    if (rate > 0 && rate < slowest) slowest = rate;
   }
-  if (size > 0) s->first_rate[0] += fastest / size;
+  s->first_rate = radius_of(nx, J) + (slowest < INFINITY ? slowest : 0);
 }
 
 /* a polynomial of the unknowns, where their number allows it; then parameters need not be followed */

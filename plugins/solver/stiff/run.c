@@ -94,8 +94,7 @@ static int explodes(stiff *s) {
 /* a length to begin with, from rates and speeds at the start; the first steps make it better */
 static double first_length(const stiff *s) {
   const double *time = s->problem.time;
-  double span = fabs(time[s->problem.ntime - 1] - time[0]), rate = 0;
-  for (uint32_t i = 0; i < s->nx; i++) rate = fmax(rate, s->first_rate[i]);
+  double span = fabs(time[s->problem.ntime - 1] - time[0]), rate = s->first_rate;
   return rate > 0 ? fmin(span, 0.05 / rate) : span;
 }
 

@@ -13,7 +13,7 @@
 #include "field.h"
 #include "metzler.h"
 #include "splitting.h"
-#include <ambit/width.h>
+#include <ambit/ends.h>
 
 #define LEVELS 5
 #define PIECES_MAX 64
@@ -135,7 +135,8 @@ typedef struct stiff {
 
   /* -- the record */
   double *lo, *hi, *tube_lo, *tube_hi; /* [nx] */
-  double *limit, *first_rate;          /* [nx] */
+  double *limit;                       /* [nx] */
+  double first_rate;                   /* about the largest of the equations at the start */
   dd *dense_sum;                       /* [nx x (N + 1)] */
   double *dense_mid, *dense_rad;       /* [nx x (N + 1)] */
   uint32_t *exponent;                  /* [nu] zeros, where the set's only term is constant */

@@ -13,7 +13,7 @@
 #include <ambit/jet.h>
 #include <ambit/pool.h>
 #include <ambit/solver.h>
-#include <ambit/width.h>
+#include <ambit/ends.h>
 #include <ambit/work.h>
 
 /* Why a piece could not go on. */
@@ -131,7 +131,8 @@ typedef struct flow {
 ambit_status flow_open(const ambit_host *h, const ambit_problem *p, const double *option, void **self);
 void flow_close(void *self);
 ambit_status flow_choose(const ambit_host *h, const ambit_problem *p, const double *option, options *o);
-void flow_start(flow *f); /* piece 0 as at time[0] */
+double flow_least_step(const flow *f, double t); /* s */
+void flow_start(flow *f);                        /* piece 0 as at time[0] */
 
 /* run.c */
 ambit_status flow_run(void *self, ambit_sink *sink);

@@ -225,7 +225,6 @@ ambit_status flow_open(const ambit_host *h, const ambit_problem *p, const double
   if (!f->jet || !f->num)
     return h->fail(h, AMBIT_INVALID, "taylor_model: this kernel does not lend `%s` and `%s`", AMBIT_JET_SERVICE,
         AMBIT_NUM_SERVICE);
-  if (f->options.step_min == 0) f->options.step_min = flow_automatic_step_min(p);
   status = open_all(f);
   if (status == AMBIT_OK)
     *self = f;

@@ -2,7 +2,6 @@
 #include "flow.h"
 #include "start.h"
 
-#define RESOLUTION 0x1p-40    /* automatic step_min over the time span */
 #define LEAST_TOLERANCE 1e-20 /* far below the rounding errors of a step */
 #define MONOMIALS 130         /* that an automatic order stays below, whatever the set */
 #define MONOMIALS_MOST 800    /* ... if a wide set in many unknowns asks for more */
@@ -105,4 +104,7 @@ uint32_t flow_automatic_pieces(size_t bytes_of_piece, size_t monomials) {
   return most > few ? (uint32_t)few : most < 2 ? 2 : (uint32_t)most;
 }
 
-double flow_automatic_step_min(const ambit_problem *p) { return RESOLUTION * fabs(p->time[p->ntime - 1] - p->time[0]); }
+double flow_least_step(const flow *f, double t) {
+  const double *time = f->problem.time;
+  return ambit_least_step(f->options.step_min, t, time[0], time[f->problem.ntime - 1]);
+}

@@ -17,7 +17,7 @@ static const ambit_param param[] = {
       "most pieces that the uncertain data are split into; 0: what fits in 96 MB, at most 256" },
   { "outputs", "1", "integer", "100", "most records over the whole time span once there is more than one piece" },
   { "step_max", "s", "", "inf", "longest step" },
-  { "step_min", "s", "", "0", "shortest step that is tried before the run gives up; 0: 2^-40 of the time span" },
+  { "step_min", "s", "", "0", "shortest step that is tried before the run gives up; 0: 2^-40 of the time passed" },
   { "width_max", "1", "", "0",
       "the run ends when a state is wider than this times its initial magnitude (at least times 1); 0: when all "
       "are wider than 10 times what their polynomials are" },

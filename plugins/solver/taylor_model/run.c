@@ -189,7 +189,7 @@ static ambit_status explain(const flow *f, enum why why) {
         "at t = %.9g s no step of at least %.3g s could be proved, with a box up to %.3g wide%s: a solution may escape "
         "or leave the domain of the right-hand side near here; if not, raise `pieces_max` (%u now) or `order`, or "
         "lower `step_min`",
-        p->t, f->options.step_min, width, pieces, f->options.pieces_max);
+        p->t, flow_least_step(f, p->t), width, pieces, f->options.pieces_max);
   }
 }
 

@@ -37,12 +37,15 @@ static double norm_of(const worker *w, uint32_t i, uint32_t k) {
   return cell_norm(series_cell(w->series, w->flow->problem.rhs->nconst + i, k));
 }
 
-/* in which some state changes by its own size; at least the step */
+/* in which some state changes by its own size, or two exchange theirs; at least the step */
 static double natural_time(const worker *w) {
+  uint32_t nx = w->flow->nx;
   double least = INFINITY;
-  for (uint32_t i = 0; i < w->flow->nx; i++) {
+  for (uint32_t i = 0; i < nx; i++) {
     double size = norm_of(w, i, 0), first = norm_of(w, i, 1), second = norm_of(w, i, 2);
     if (size > 0) least = smaller(least, smaller(size / first, sqrt(size / second)));
+    for (uint32_t j = 0; j <= i; j++)
+      least = smaller(least, 1 / sqrt(w->rate[(size_t)i * nx + j] * w->rate[(size_t)j * nx + i]));
   }
   return least < INFINITY ? larger(least, w->step.length) : w->step.length;
 }

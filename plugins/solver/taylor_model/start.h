@@ -8,5 +8,5 @@ ambit_status start_open(flow *f); /* space and start_* of the initial set, and t
 uint32_t flow_automatic_order(uint32_t m, double width);
 void flow_choose_tolerances(options *o, uint32_t m, double width);
 uint32_t flow_automatic_pieces(size_t bytes_of_piece, size_t monomials);
-double flow_automatic_step_min(const ambit_problem *p);
+
 #endif

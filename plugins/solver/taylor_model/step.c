@@ -210,10 +210,10 @@ static enum why try_step(worker *w, piece *p, double goal) {
   enum why why = expand(w, p);
   if (why != WHY_NOTHING) return why;
   flow_find_rates(w, p);
-  double most = o->step_max, length = smaller(larger(p->guess, o->step_min), most);
+  double least = flow_least_step(w->flow, p->t), most = o->step_max, length = smaller(larger(p->guess, least), most);
   uint32_t failed = 0;
   for (int i = 0; i < TRIES; i++) {
-    if (!plan(w, p, goal, length) || (w->step.length < o->step_min && !w->at_goal)) return WHY_NO_STEP;
+    if (!plan(w, p, goal, length) || (w->step.length < least && !w->at_goal)) return WHY_NO_STEP;
     ambit_work_try(w->counted);
     int bounded = measure_defect(w), cut_short = w->at_goal || w->step.length < 0.99 * length;
     ratio r = bounded ? compare(w) : (ratio) { INFINITY, INFINITY };

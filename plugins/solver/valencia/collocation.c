@@ -187,7 +187,7 @@ static void find_noise(valencia *s, double *x) {
   uint32_t nx = s->nx, i = g->n / 2;
   const double *jacobian = g->jacobian + (size_t)i * nx * s->ndir;
   double half = middle(s->half), t = middle(s->time) + half * g->node[i],
-         later = t + larger(0x1p-20 * fabs(t), 0x1p-40);
+         later = t + 0x1p-20 * larger(fabs(t), fabs(half));
   for (uint32_t a = 0; a < nx; a++) x[a] = s->p[(size_t)a * s->terms.n];
   for (uint32_t a = 0; a < nx; a++) {
     s->noise[a] = fabs(g->rate[i * nx + a]);

@@ -55,12 +55,12 @@ static void gather(valencia *s, double *weight) {
     for (uint32_t j = s->basis.first[b]; j < s->basis.first[b + 1]; j++) weight[nx + j] = s->frozen ? 0 : s->last[b];
 }
 
-/* D: powers of 16 that the states have not exceeded so far, so that it changes seldom: every change of what is
-** orthogonal wraps the set once */
+/* D: powers of two, four to eight times what states were when they last exceeded theirs, so that it changes seldom:
+** every change of what is orthogonal wraps the set once */
 static void find_scale(valencia *s) {
   for (uint32_t i = 0; i < s->nx; i++) {
     double size = larger(smaller(larger(fabs(s->tube_lo[i]), fabs(s->tube_hi[i])), 0x1p900), 0x1p-900);
-    if (!(size <= s->scale[i])) s->scale[i] = exp2(4 * ceil(log2(size) / 4));
+    if (!(size <= s->scale[i])) s->scale[i] = exp2(2 + ceil(log2(size)));
   }
 }
 

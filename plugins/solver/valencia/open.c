@@ -25,14 +25,13 @@ static ambit_status check_options(const ambit_host *h, const double *o) {
   return AMBIT_OK;
 }
 
-static options choose_options(const ambit_problem *p, const double *o) {
-  double span = fabs(p->time[p->ntime - 1] - p->time[0]);
+static options choose_options(const double *o) {
   return (options) { .order = o[ORDER] > 0 ? (uint32_t)o[ORDER] : 10,
     .degree = (uint32_t)o[DEGREE],
     .tolerance = o[TOLERANCE] > 0 ? o[TOLERANCE] : 1e-12,
     .exponential = (enum exponential)o[EXPONENTIAL],
     .step_max = o[STEP_MAX],
-    .step_min = o[STEP_MIN] > 0 ? o[STEP_MIN] : 1e-13 * span,
+    .step_min = o[STEP_MIN],
     .width_max = o[WIDTH_MAX] };
 }
 
@@ -129,7 +128,7 @@ ambit_status valencia_open(const ambit_host *h, const ambit_problem *p, const do
   if (!s->num || !s->jet)
     return h->fail(
         h, AMBIT_INVALID, "valencia: this kernel does not lend `%s`", s->num ? AMBIT_JET_SERVICE : AMBIT_NUM_SERVICE);
-  s->options = choose_options(p, option);
+  s->options = choose_options(option);
   status = open_parts(s) ? open_origin(s) : no_memory(h);
   if (status == AMBIT_OK)
     *self = s;

@@ -5,9 +5,11 @@
 #include <string.h>
 
 #define FORGET 0.998 /* per step: how fast a state's size is forgotten */
-#define SHARE 0.02   /* of the width, which a step may add */
-#define TIGHT 1e-6   /* of the width, where p follows the unknowns by itself */
-#define MODEST 0.1   /* and may add if a shorter one would add it all the same */
+#define FILLED 1e-9  /* share of what others make of a state, that it counts as at least */
+#define NOTHING 1e-200
+#define SHARE 0.02 /* of the width, which a step may add */
+#define TIGHT 1e-6 /* of the width, where p follows the unknowns by itself */
+#define MODEST 0.1 /* and may add if a shorter one would add it all the same */
 #define GROW_MAX 2.5
 #define SHORT 1e-6 /* of the time span */
 #define NOISE 0.8  /* an error that does not shrink with the step is rounding */
@@ -91,17 +93,52 @@ static void find_hull(valencia *s) {
   }
 }
 
-static void note_magnitudes(valencia *s, double forget) {
-  double most = 0;
+/* A state that is zero, or next to it, counts as a small share of what the others make of it in the time in which some
+** state changes by its own size, or two exchange theirs: states are compared by derivatives only, whatever their
+** units. */
+static void fill_magnitudes(valencia *s, double t) {
+  stages *g = &s->stages;
+  double *x = s->scratch, time = INFINITY, least = INFINITY;
+  for (uint32_t i = 0; i < s->nx; i++) x[i] = 0.5 * s->lo[i] + 0.5 * s->hi[i];
+  int known = valencia_point(s, x, s->middle, t, g->right, g->jacobian), more = known;
+  for (uint32_t i = 0; i < s->nx && known; i++) {
+    if (s->magnitude[i] > NOTHING) time = smaller(time, s->magnitude[i] / fabs(g->right[i]));
+    for (uint32_t j = 0; j <= i; j++) {
+      double there = fabs(g->jacobian[(size_t)i * s->ndir + j]), back = fabs(g->jacobian[(size_t)j * s->ndir + i]);
+      time = smaller(time, 1 / sqrt(there * back));
+    }
+  }
+  for (uint32_t sweep = 0; sweep < s->nx && more && time < INFINITY; sweep++) {
+    more = 0;
+    for (uint32_t i = 0; i < s->nx; i++) {
+      double sum = 0;
+      for (uint32_t j = 0; j < s->nx; j++)
+        sum += FILLED * time * fabs(g->jacobian[(size_t)i * s->ndir + j]) * s->magnitude[j];
+      if (!(sum > s->magnitude[i] && sum < INFINITY)) continue;
+      more |= s->magnitude[i] <= NOTHING;
+      s->magnitude[i] = sum;
+    }
+  }
+  for (uint32_t i = 0; i < s->nx; i++)
+    if (s->magnitude[i] > NOTHING) least = smaller(least, s->magnitude[i]);
+  for (uint32_t i = 0; i < s->nx; i++)
+    if (s->magnitude[i] <= NOTHING) s->magnitude[i] = least < INFINITY ? FILLED * least : NOTHING;
+}
+
+static void note_magnitudes(valencia *s, double t, double forget) {
   for (uint32_t i = 0; i < s->nx; i++) {
     double now = larger(fabs(s->lo[i]), fabs(s->hi[i]));
-    s->magnitude[i] = larger(forget * s->magnitude[i], now < INFINITY ? now : 0);
-    most = larger(most, s->magnitude[i]);
+    s->magnitude[i] = larger(larger(forget * s->magnitude[i], now < INFINITY ? now : 0), NOTHING);
   }
-  for (uint32_t i = 0; i < s->nx; i++) s->magnitude[i] = larger(s->magnitude[i], 1e-9 * most + 1e-200);
+  fill_magnitudes(s, t);
 }
 
 /* -- steps */
+
+static double least_step(const valencia *s) {
+  const double *time = s->problem.time;
+  return ambit_least_step(s->options.step_min, s->t, time[0], time[s->problem.ntime - 1]);
+}
 
 /* the interval of time [t, t + h], or up to the next instant; a step that is too short for the clock is its least
 ** one */
@@ -167,7 +204,7 @@ static int is_too_short(valencia *s, double h, double last) {
   set_times(s, h);
   if (!(s->h < last)) return 1;
   /* an instant may be closer than the least step */
-  return s->h < s->options.step_min && (!s->at_instant || h < s->options.step_min);
+  return s->h < least_step(s) && (!s->at_instant || h < least_step(s));
 }
 
 /* The last step, of argument h: if it was proved, only with a larger error than wanted, it is the one to take. */
@@ -177,7 +214,7 @@ static enum why settle(valencia *s, double h, enum why why) {
 }
 
 static enum why try_steps(valencia *s) {
-  double h = larger(s->guess, s->options.step_min), tried = h, last = INFINITY, over_before = INFINITY,
+  double h = larger(s->guess, least_step(s)), tried = h, last = INFINITY, over_before = INFINITY,
          rate_before = INFINITY;
   enum why why = WHY_NO_CONTAIN;
   for (;;) {
@@ -273,7 +310,7 @@ static enum why advance(valencia *s) {
   find_hull(s);
   s->has_faces = s->kink && valencia_faces(s, s->face_lo, s->face_hi);
   if (s->has_faces) meet_faces(s);
-  note_magnitudes(s, FORGET);
+  note_magnitudes(s, s->t_next, FORGET);
   if (s->options.width_max == 0 && explodes(s)) return WHY_WIDE;
   for (uint32_t i = 0; i < s->nx; i++) {
     s->culprit = i;
@@ -290,11 +327,11 @@ static void begin(valencia *s) {
   memcpy(s->w, s->start_w, s->nx * sizeof *s->w);
   for (uint32_t k = 0; k < s->nx * s->nx; k++) s->b[k] = k % (s->nx + 1) == 0;
   s->t = p->time[0], s->next = 1, s->has_faces = 0, s->rate_known = 0;
-  s->guess = smaller(larger(0.01 * fabs(p->time[p->ntime - 1] - p->time[0]), s->options.step_min), s->options.step_max);
+  s->guess = smaller(larger(0.01 * fabs(p->time[p->ntime - 1] - p->time[0]), least_step(s)), s->options.step_max);
   find_hull(s);
   memset(s->magnitude, 0, s->nx * sizeof *s->magnitude);
-  note_magnitudes(s, 0);
-  for (uint32_t i = 0; i < s->nx; i++) s->scale[i] = exp2(4 * ceil(log2(smaller(s->magnitude[i], 0x1p900)) / 4));
+  note_magnitudes(s, s->t, 0);
+  for (uint32_t i = 0; i < s->nx; i++) s->scale[i] = exp2(2 + ceil(log2(smaller(s->magnitude[i], 0x1p900))));
   for (uint32_t i = 0; i < s->nx; i++)
     s->limit[i] = s->options.width_max * larger(1, larger(fabs(s->lo[i]), fabs(s->hi[i])));
   if (s->options.width_max == 0) explodes(s); /* the first step may be the one that is too wide */
@@ -347,7 +384,7 @@ static ambit_status explain(const valencia *s, enum why why) {
         "at t = %.9g s no error bound of a step of at least %.3g s maps into itself, with an enclosure up to %.3g "
         "wide%s: "
         "a solution may escape near here; if not, split the initial set, lower `step_min` or raise `tolerance`",
-        s->t, s->options.step_min, widest(s), kink);
+        s->t, least_step(s), widest(s), kink);
   }
 }
 

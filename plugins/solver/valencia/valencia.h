@@ -15,7 +15,7 @@
 #include <ambit/meter.h>
 #include <ambit/num.h>
 #include <ambit/solver.h>
-#include <ambit/width.h>
+#include <ambit/ends.h>
 
 #define TERMS_MAX 512u /* of P, for each state */
 

@@ -168,8 +168,6 @@ ambit_status zono_open(const ambit_host *h, const ambit_problem *p, const double
   if (!z) return no_memory(h);
   z->host = h, z->options = o;
   memcpy(&z->problem, p, p->size < sizeof z->problem ? p->size : sizeof z->problem);
-  const double *time = z->problem.time;
-  if (z->options.step_min == 0) z->options.step_min = 0x1p-40 * fabs(time[z->problem.ntime - 1] - time[0]);
   ambit_status status = open_all(z);
   if (status == AMBIT_OK) *self = z;
   return status;

@@ -10,7 +10,7 @@ static const ambit_param param[] = {
       "the "
       "data" },
   { "step_max", "s", "", "inf", "longest step" },
-  { "step_min", "s", "", "0", "shortest step that is tried before the run gives up; 0: 2^-40 of the time span" },
+  { "step_min", "s", "", "0", "shortest step that is tried before the run gives up; 0: 2^-40 of the time passed" },
   { "width_max", "1", "", "0",
       "the run ends when a state is wider than this times its initial magnitude (at least times 1); 0: when all "
       "are wider than 10 times what they are to first order, midpoint and movement with the data" },

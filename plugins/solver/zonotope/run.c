@@ -8,9 +8,11 @@
 #include <ambit/code.h>
 #include <stdio.h>
 
-#define GROW 3.0     /* longest step, in multiples of the last one */
-#define CREEP 1e6    /* steps to the end, at the present pace, that are too many */
-#define CREEP_FOR 30 /* steps in a row */
+#define GROW 3.0      /* longest step, in multiples of the last one */
+#define CREEP 1e6     /* steps to the end, at the present pace, that are too many ... */
+#define SHRUNK 0.0625 /* if steps are so much shorter than they have been, or ... */
+#define NEVER 1.7e10  /* steps, even if they shrink no more */
+#define CREEP_FOR 30  /* steps in a row */
 
 static int fails(zono *z, enum why why) {
   z->why = why;
@@ -38,6 +40,11 @@ static double longest(const zono *z) {
   return left < 0 ? -most : most;
 }
 
+static double least_step(const zono *z) {
+  const double *time = z->problem.time;
+  return ambit_least_step(z->options.step_min, z->t, time[0], time[z->problem.ntime - 1]);
+}
+
 /* 1: proved for some length, set in z */
 static int prove_some(zono *z, double h) {
   enum why why;
@@ -46,8 +53,7 @@ static int prove_some(zono *z, double h) {
     z->why = WHY_NOTHING, z->detail = NULL;
     if (zono_defects(z) && zono_prove(z)) return 1;
     why = z->why == WHY_NOTHING ? WHY_GROWTH : z->why;
-    if (fabs(h) * 0.5 < z->options.step_min || z->t + 0.5 * h == z->t)
-      return fails(z, why == WHY_GROWTH ? WHY_STEP : why);
+    if (fabs(h) * 0.5 < least_step(z) || z->t + 0.5 * h == z->t) return fails(z, why == WHY_GROWTH ? WHY_STEP : why);
     h *= 0.5;
   }
 }
@@ -56,7 +62,7 @@ static int step(zono *z) {
   zono_choose_order(z);
   if (!zono_series(z)) return 0;
   double h = zono_choose_step(z, longest(z));
-  if (!(fabs(h) >= z->options.step_min || fabs(h) == fabs(longest(z))) || z->t + h == z->t) return fails(z, WHY_STEP);
+  if (!(fabs(h) >= least_step(z) || fabs(h) == fabs(longest(z))) || z->t + h == z->t) return fails(z, WHY_STEP);
   return prove_some(z, h);
 }
 
@@ -100,12 +106,15 @@ static int advance(zono *z) {
 
 static void work(zono *z) {
   uint32_t slow = 0;
+  double most = 0;
   zono_start(z);
   zono_hull(z);
   for (uint32_t i = 0; i < z->nx; i++)
     z->limit[i] = z->options.width_max * fmax(1, fmax(fabs(z->lo[i]), fabs(z->hi[i])));
   while (z->next < z->problem.ntime && advance(z)) {
-    slow = fabs(z->problem.time[z->problem.ntime - 1] - z->t) > CREEP * z->guess ? slow + 1 : 0;
+    double left = fabs(z->problem.time[z->problem.ntime - 1] - z->t);
+    most = fmax(most, z->guess);
+    slow = left > (z->guess < SHRUNK * most ? CREEP : NEVER) * z->guess ? slow + 1 : 0;
     if (slow > CREEP_FOR) {
       z->why = WHY_CREEP;
       return;
@@ -170,7 +179,7 @@ static ambit_status explain(const zono *z) {
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_STEP,
         "at t = %.9g s no step of at least %.3g s could be proved, with an enclosure up to %.3g wide%s: a solution may "
         "escape or leave the domain of the equations near here; if not, narrow the data or lower `step_min`",
-        z->t, z->options.step_min, width, from);
+        z->t, least_step(z), width, from);
   }
 }
 

@@ -32,7 +32,7 @@
 #include "row.h"
 #include <ambit/num.h>
 #include <ambit/solver.h>
-#include <ambit/width.h>
+#include <ambit/ends.h>
 #include <math.h>
 
 /* Why a step could not be made. */
