@@ -2,6 +2,7 @@
 #include "lua/track.h"
 #include "base/vector.h"
 #include "model/dense.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -156,14 +157,25 @@ static int set(lua_State *L) {
   return 1;
 }
 
-/* track_rest(track) -> {width of state i that the run's unknowns do not explain, ...}, at the end; nil: not known */
-static int rest(lua_State *L) {
+/* The width of state i that the terms of degree 1 give over the box of the unknowns. */
+static double linear_width(const ambit_set *s, size_t i) {
+  double sum = 0;
+  for (size_t t = 0; t < s->nterm; t++) {
+    uint64_t degree = 0;
+    for (size_t j = 0; j < s->nu; j++) degree += s->exponent[t * s->nu + j];
+    if (degree == 1) sum += fabs(s->coefficient[i * s->nterm + t]);
+  }
+  return 2 * sum;
+}
+
+/* track_linear(track) -> {width of state i to first order in the run's unknowns, ...}, at the end; nil: not known */
+static int linear(lua_State *L) {
   const ambit_track *track = self(L);
   const ambit_set *s = &track->set.set;
   if (!s->nterm) return 0;
   lua_createtable(L, (int)track->nx, 0);
   for (size_t i = 0; i < track->nx; i++) {
-    lua_pushnumber(L, 2 * s->rest[i]);
+    lua_pushnumber(L, linear_width(s, i));
     lua_rawseti(L, -2, (lua_Integer)i + 1);
   }
   return 1;
@@ -226,7 +238,7 @@ static int find(lua_State *L) {
 void ambit_lua_open_track(lua_State *L, ambit_lua *core) {
   static const luaL_Reg meta[] = { { "__gc", close }, { NULL, NULL } };
   static const luaL_Reg functions[] = { { "track_step", step }, { "track_value", value }, { "track_count", count },
-    { "track_find", find }, { "track_dense", dense }, { "track_set", set }, { "track_rest", rest },
+    { "track_find", find }, { "track_dense", dense }, { "track_set", set }, { "track_linear", linear },
     { "track_join", extend }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
   ambit_lua_new_type(L, core, AMBIT_TYPE_TRACK, meta);

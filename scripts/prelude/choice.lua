@@ -17,15 +17,15 @@ local SHARE = 0.01      -- of a state's widest hull, below which its width at a 
 
 -- -- how wide is it?
 
--- Are all sets at the end mostly functions of the data? Then they are tight, and nothing need be drawn to see it. The
--- part that is not is known to the solver; a set without such a part says nothing.
+-- Are all sets at the end hardly wider than they are to first order in the data? Then they are tight, and nothing need
+-- be drawn to see it. A solver whose set is not a function of the data says nothing about it.
 local function is_plainly_tight(run)
-  local rest = core.track_rest(run.track)
-  if not rest then return false end
+  local linear = core.track_linear(run.track)
+  if not linear then return false end
   for i, name in ipairs(run.states) do
     local x = run.x[name]
     local width = x:width()
-    if width > VISIBLE * x:mag() and not (rest[i] * LOOSE <= width * (LOOSE - 1)) then return false end
+    if width > VISIBLE * x:mag() and not (width <= LOOSE * linear[i]) then return false end
   end
   return true
 end

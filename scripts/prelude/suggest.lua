@@ -79,14 +79,14 @@ end
 -- The solvers that are installed, have all options of `keys` and work with the arithmetic (nil: any); plugins are
 -- loaded only if there is something to ask them. others: the keys that are no options, for messages.
 function suggest.candidates(keys, others, arithmetic, what)
-  local names, fitting = {}, {}
-  for i, rule in ipairs(rules()) do names[i] = rule.name end
+  local names, fitting, list = {}, {}, rules()
+  for i, rule in ipairs(list) do names[i] = rule.name end
   if #names == 0 then check.fail("%s: no solver is installed that proves its results", what) end
   for _, name in ipairs(names) do
     local declaration = (#keys > 0 or arithmetic) and option.declaration("solver", name)
     if not declaration or (knows(declaration, keys) and works_with(declaration, arithmetic)) then
       fitting[#fitting + 1] = name
-      fitting[name] = true
+      fitting[name] = list[name]
     end
   end
   if #fitting > 0 then return fitting end
@@ -98,15 +98,13 @@ end
 -- The fitting solvers that these facts suit, best first: { { solver, reason, score }, ... }.
 local function ranked(facts, fitting)
   local list = {}
-  for _, rule in ipairs(rules()) do
-    if fitting[rule.name] then
-      local score, reason = rule.suits(facts)
-      if score ~= nil and not (math.type(score) and score >= 0 and score <= 1 and type(reason) == "string") then
-        check.fail("solver `%s`: its rule gave %s, %s: expected a score from 0 to 1 and a reason, or nil", rule.name,
-          check.shown(score), check.shown(reason))
-      end
-      if score then list[#list + 1] = { solver = rule.name, reason = reason, score = score } end
+  for _, name in ipairs(fitting) do
+    local score, reason = fitting[name](facts)
+    if score ~= nil and not (math.type(score) and score >= 0 and score <= 1 and type(reason) == "string") then
+      check.fail("solver `%s`: its rule gave %s, %s: expected a score from 0 to 1 and a reason, or nil", name,
+        check.shown(score), check.shown(reason))
     end
+    if score then list[#list + 1] = { solver = name, reason = reason, score = score } end
   end
   table.sort(list, function(a, b)
     if a.score ~= b.score then return a.score > b.score end

@@ -1,6 +1,7 @@
 -- What happens where the solver that suits best fails, and who may be chosen at all.
 local ambit = require "ambit"
 local core = require "ambit.core"
+local suggest = require "ambit.suggest"
 
 local function chain(n, tolerance)
   local m = ambit.mechanism { "chain", gravity = { 0, "-9.81", 0 } }
@@ -14,6 +15,18 @@ local function chain(n, tolerance)
   return m:dynamics(), initial
 end
 
+-- What suits may change; here lohner is asked first, then zonotope.
+local function with_lohner_first(question)
+  local own = suggest.solver
+  suggest.solver = function() -- luacheck: ignore
+    return { solver = "lohner", reason = "first here", others = { { solver = "zonotope", reason = "next", score = 1 } } }
+  end
+  local good, run = pcall(ambit.simulate, question)
+  suggest.solver = own
+  assert(good, run)
+  return run
+end
+
 local function hull(question)
   question.n = 100
   return ambit.sample(question)
@@ -23,9 +36,9 @@ describe("a run of the solver that suits", function()
   it("is done again by another where it gets too wide, and says so", function()
     local system, initial = chain(2, "0.1%")
     local first = ambit.simulate { system, initial = initial, t = { 0, 1 }, solver = "lohner" }
-    local run = ambit.simulate { system, initial = initial, t = { 0, 1 } }
+    local run = with_lohner_first { system, initial = initial, t = { 0, 1 } }
     assert.equal("complete", run.status)
-    assert.is_true(#run.tried >= 2 and run.tried[1].solver == "lohner")
+    assert.is_true(#run.tried == 2 and run.tried[1].solver == "lohner")
     assert.matches("times as wide as sampled", run.tried[1].outcome)
     assert.equal(run.tried[#run.tried].solver, run.solver)
     assert.is_true(first.overestimate > 2 and run.overestimate < 1.5, first.overestimate)
@@ -39,7 +52,32 @@ describe("a run of the solver that suits", function()
     local system, initial = chain(2, "0.1%")
     local alone = ambit.simulate { system, initial = initial, t = { 0, 2 }, solver = "lohner" }
     assert.equal("unable", alone.status)
-    assert.equal("complete", ambit.simulate { system, initial = initial, t = { 0, 2 } }.status)
+    local run = with_lohner_first { system, initial = initial, t = { 0, 2 } }
+    assert.equal("complete", run.status)
+    assert.same({ { solver = "zonotope", t_from = 0, t = 2 } }, run.parts)
+  end)
+
+  it("is gone on from where it ended with a tight set", function()
+    local system, initial = chain(2, "0.1%")
+    local simulate = core.simulate
+    core.simulate = function(s, solver, a, o, p, i, times, ...) -- luacheck: ignore
+      local track, facts, report = simulate(s, solver, a, o, p, i, solver == "lohner" and { 0, 0.25 } or times, ...)
+      if solver == "lohner" then facts.status, facts.code, facts.reason = "unable", "unable.step", "made to" end
+      return track, facts, report
+    end
+    local good, run = pcall(with_lohner_first, { system, initial = initial, t = { 0, 0.5, 1 }, dense = true })
+    core.simulate = simulate
+    assert(good, run)
+    assert.equal("complete", run.status)
+    assert.same({ { solver = "lohner", t_from = 0, t = 0.25 }, { solver = "zonotope", t_from = 0.25, t = 1 } }, run.parts)
+    local whole = ambit.simulate { system, initial = initial, t = { 0, 0.5, 1 }, solver = "zonotope", dense = true }
+    assert.is_nil(run:overestimation(hull { system, initial = initial, t = { 0, 0.5, 1 } }).contradiction)
+    for _, t in ipairs { 0, 0.1, 0.25, 0.5, 0.7, 1 } do -- dense on both sides of the seam
+      local inside, outer = whole:at(t).q1, run:at(t).q1
+      assert.is_true(outer.lo <= inside.hi and inside.lo <= outer.hi and outer:width() < 2 * inside:width(), t)
+    end
+    local set = ambit.evaluate { { run:set().q1 }, arithmetic = "interval" }[1]
+    assert.is_true(set:width() < 2 * whole.x.q1:width())
   end)
 
   it("stays as it is where it is tight, and nothing is drawn", function()
@@ -72,9 +110,10 @@ describe("a run of the solver that suits", function()
 
   it("keeps its events when another goes on", function()
     local system, initial = chain(2, "0.1%")
-    local run = ambit.simulate { system, initial = initial, t = { 0, 2 },
+    local run = with_lohner_first { system, initial = initial, t = { 0, 2 },
       events = { { name = "low", g = function(s) return s.q1 end } } }
     assert.equal("complete", run.status)
+    assert.equal("zonotope", run.solver)
     assert.is_true(#run.events >= 1 and run.events[1].name == "low")
   end)
 end)

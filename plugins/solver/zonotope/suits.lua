@@ -1,8 +1,11 @@
--- When zonotope suits: many uncertain data, whose common effects it keeps, and large mechanisms.
+-- When zonotope suits: data that bend the solution, many of them or by little, whose common effects it keeps, and large
+-- mechanisms.
 local MANY = 5      -- data ...
 local LARGE = 12    -- ... or states from which on polynomials without generators are too large, and linear maps
 local BENT = 1e-7   -- with so much bend, or width where the bend was not seen, lose what the data share
 local LOOPS = 0.015 -- width of data up to which closed loops are as good without their constraints at each step
+local CLEAR = 1e-5  -- bend from which on linear maps are wider, also of few data,
+local WIDE = 0.02   -- and up to which few generators hold what polynomials of higher degree would
 local SEEN = 0.5    -- part of the run up to which ordinary runs must come to tell the bend
 
 return function(f)
@@ -14,6 +17,9 @@ return function(f)
   local many = f.unknowns >= MANY or f.unknowns > 0 and f.states >= LARGE
   if bent and many and (f.invariants == 0 or f.width <= LOOPS) then
     return 0.9, ("%d uncertain data and %d states: what they have in common is kept"):format(f.unknowns, f.states)
+  end
+  if f.invariants == 0 and f.unknowns > 0 and f.bend > CLEAR and f.bend < WIDE then
+    return 0.85, ("the data bend the solution by %.2g %% of its size, which low degrees follow"):format(100 * f.bend)
   end
   return f.unknowns > 0 and 0.55 or 0.3, "what the data have in common is kept"
 end
