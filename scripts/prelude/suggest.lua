@@ -119,7 +119,6 @@ function suggest.solver(q, fitting)
   local facts, problem = core.look(q.system.system, "", nil, {}, {}, q.initial, q.times)
   if not facts then return { solver = fitting[1], reason = problem, others = {} } end -- the run itself will say so
   local list = ranked(facts, fitting)
-  while list[1] and not option.declaration("solver", list[1].solver).rigorous do table.remove(list, 1) end
   local first, others = list[1], {}
   if not first then return { solver = fitting[1], reason = "none suits", facts = facts, others = others } end
   for i = 2, #list do
@@ -127,6 +126,14 @@ function suggest.solver(q, fitting)
   end
   local reason = #fitting > 1 and first.reason or "the only one that fits the given options and arithmetic"
   return { solver = first.solver, reason = reason, facts = facts, others = others }
+end
+
+-- The suggestion, or the best of its others that proves its results; loads those that are looked at.
+function suggest.proving(suggestion)
+  local others = suggestion.others
+  if option.declaration("solver", suggestion.solver).rigorous or #others == 0 then return suggestion end
+  return suggest.proving { solver = others[1].solver, reason = others[1].reason, facts = suggestion.facts,
+    others = table.move(others, 2, #others, 1, {}) }
 end
 
 -- The arithmetic that a solver takes unless another is named.
