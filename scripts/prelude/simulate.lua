@@ -2,7 +2,6 @@
 -- }.
 local assemble_data = require "ambit.assemble_data"
 local check = require "ambit.check"
-local choice = require "ambit.choice"
 local core = require "ambit.core"
 local event = require "ambit.event"
 local instant = require "ambit.instant"
@@ -205,7 +204,7 @@ function verb.simulate(t)
   q.run_options = verb.run_options(t, q)
   event.request(t.events, q)
   session.ask_simulation(q)
-  local result = q.suggestion and choice.solve(q, asking(t, q)) or verb.solve(q)
+  local result = q.suggestion and require "ambit.choice".solve(q, asking(t, q)) or verb.solve(q)
   session.finish("simulate", result, result.report,
     { "solver", result.solver, "arithmetic", result.arithmetic, "options", q.settings, "t_start",
       instant.first(q.times), "t_end", instant.final(q.times) })

@@ -5,7 +5,6 @@
 -- proved when all boxes are, and the boxes cover the data.
 local box = require "ambit.verify.box"
 local carry = require "ambit.verify.carry"
-local choice = require "ambit.choice"
 local code = require "ambit.code"
 local core = require "ambit.core"
 
@@ -195,6 +194,8 @@ end
 
 -- -> the root, whether another solver took over
 local function ask_others(job, root)
+  if #job.others == 0 or not box.is_open(job, root) then return root, false end
+  local choice = require "ambit.choice" -- seldom needed
   local limit, taken = math.max(OTHERS_LEAST, OTHERS_MORE * (core.cpu() - job.start)), false
   for other in choice.proving(job.others) do
     if not box.is_open(job, root) or box.is_spent(job) then break end
