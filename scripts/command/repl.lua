@@ -89,7 +89,15 @@ function command.run(words)
   local env, read = environment(), reader()
   local interactive = core.terminal "stdin"
   local failed = false
-  local function exit() return (not interactive) and (failed and 1 or code.exit(session.worst)) or 0 end
+  local function exit()
+    if interactive then return 0 end
+    if not failed then
+      scene.watch_finalisers(code.exit(session.worst), session.worst, function(_, ended)
+        io.stderr:write("ambit: ", ended, " in a finaliser at the end\n")
+      end)
+    end
+    return failed and 1 or code.exit(session.worst)
+  end
   _G.os.exit = scene.leave_by(function(wish) return wish ~= 0 and wish or exit() end)
   if interactive then print(("ambit %s; Ctrl-D leaves"):format(ambit.version)) end
   for chunk in function() return read_chunk(read, env) end do

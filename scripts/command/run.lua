@@ -37,16 +37,6 @@ local function worst_of(problem)
   return session.worst
 end
 
--- Verbs may still run in finalisers while Lua closes: they can make the exit code worse, too.
-local function watch_finalisers(exit, worst)
-  function session.closing(ended)
-    if exit ~= code.exit(worst) or not code.is_worse(ended, worst) then return end
-    exit, worst = code.exit(ended), ended
-    complain(("%s (%s), in a finaliser at the end"):format(sentences[exit], ended))
-    core.leave_with(exit)
-  end
-end
-
 -- The end of the scene, however it came: the last record, what is to be said, the exit code. problem: the error that
 -- ended it; wish: what os.exit asked for, which may not make it better.
 local function finish(problem, wish)
@@ -61,7 +51,9 @@ local function finish(problem, wish)
   if signalled then complain "interrupted: what was recorded up to there is kept" end
   local sentence = not problem and sentences[code.exit(worst)]
   if sentence then complain(("%s (%s): see status, code and reason of the verbs"):format(sentence, worst)) end
-  watch_finalisers(exit, worst)
+  scene.watch_finalisers(exit, worst, function(worse, ended)
+    complain(("%s (%s), in a finaliser at the end"):format(sentences[worse], ended))
+  end)
   return exit
 end
 

@@ -1,7 +1,9 @@
 -- scene.lua -- running a script the way `lua` would: its words in `arg`, errors with a traceback of the script's own
 -- lines.
+local code = require "ambit.code"
 local core = require "ambit.core"
 local provenance = require "ambit.provenance"
+local session = require "ambit.session"
 
 local scene = {
   leave = {}, -- raised where os.exit may not end the process
@@ -46,6 +48,16 @@ function scene.leave_by(finish)
     if math.type(wish) ~= "integer" then error("os.exit: expected true, false or a whole number", 2) end
     if wish ~= 0 and wish % 256 == 0 then wish = 1 end
     core.leave(finish(wish))
+  end
+end
+
+-- Verbs may still run in finalisers while Lua closes: they can make the exit code worse, too. tell(exit, code): it is.
+function scene.watch_finalisers(exit, worst, tell)
+  function session.closing(ended)
+    if exit ~= code.exit(worst) or not code.is_worse(ended, worst) then return end
+    exit, worst = code.exit(ended), ended
+    tell(exit, ended)
+    core.leave_with(exit)
   end
 end
 

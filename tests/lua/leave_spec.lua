@@ -134,6 +134,9 @@ describe("ambit repl", function()
     end
     assert.equal(1, (repl(faulty .. 'faulty "unsure"\nerror "no"\n')))
     assert.equal(3, (repl(faulty .. 'faulty "unsure"\nos.exit(0)\n')))
+    local code, output = repl(faulty .. 'setmetatable({}, { __gc = function() faulty "unsure" end })\n')
+    assert.equal(3, code, output)
+    assert.truthy(output:find("unable.width in a finaliser at the end", 1, true), output)
     assert.equal(1, (repl "os.exit(256)\n"))
     assert.equal(0, (repl "sqrt(between(-1, 1))\n")) -- nothing was asked: what it is is shown
   end)
