@@ -98,6 +98,7 @@ end
 
 -- The tests of an area, ready to run, each with the seconds that it used when it last passed.
 function trial.tests(area, place, log)
+  build_loaded(place, log) -- first: new tests of the tree are listed from then on
   local list, passed = tests_of(area, place), {}
   local path, commit = place .. ".passed", output_of(("git -C %s rev-parse HEAD"):format(place)):match "%x+"
   if exists(path) then
@@ -105,7 +106,6 @@ function trial.tests(area, place, log)
       passed[name] = { seconds = tonumber(seconds), now = at == commit or passed[name] and passed[name].now }
     end
   end
-  build_loaded(place, log)
   for _, test in ipairs(list) do
     local before = passed[test.name] or { seconds = 10 }
     test.seconds, test.passed, test.note = before.seconds, before.now, ("%s %s"):format(commit, test.name)
