@@ -30,6 +30,7 @@ ambit_expr element_kit_derivative(element_kit *k, ambit_expr e) {
   ambit_failure f = { 0 };
   ambit_expr d = ambit_graph_rate_off_kinks(k->graph, e, k->nleaf, k->leaf, k->rate, &f);
   if (d == AMBIT_NO_EXPR) element_kit_complain(k, "%s", f.message);
+  if (k->nfollowed < ELEMENT_KIT_RESIDUALS) k->followed[k->nfollowed++] = e;
   return d == AMBIT_NO_EXPR ? 0 : d;
 }
 

@@ -27,9 +27,12 @@ add_library(element_kink MODULE ${PROJECT_SOURCE_DIR}/tests/kit/kink_element.c)
 set_target_properties(element_kink PROPERTIES PREFIX "" OUTPUT_NAME kink C_VISIBILITY_PRESET hidden
   LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests/plugins/element)
 target_link_libraries(element_kink PRIVATE ambit_flags)
-# the same with a fault close to a kink
-add_library(element_kink_fault MODULE ${PROJECT_SOURCE_DIR}/tests/kit/kink_element.c)
-set_target_properties(element_kink_fault PROPERTIES PREFIX "" OUTPUT_NAME kink_fault C_VISIBILITY_PRESET hidden
-  LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests/plugins/element)
-target_link_libraries(element_kink_fault PRIVATE ambit_flags)
-target_compile_definitions(element_kink_fault PRIVATE KINK_FAULT "KINK_NAME=\"kink_fault\"")
+# the same with a fault close to a kink, and with one at it
+foreach(fault fault jump)
+  string(TOUPPER ${fault} define)
+  add_library(element_kink_${fault} MODULE ${PROJECT_SOURCE_DIR}/tests/kit/kink_element.c)
+  set_target_properties(element_kink_${fault} PROPERTIES PREFIX "" OUTPUT_NAME kink_${fault} C_VISIBILITY_PRESET hidden
+    LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests/plugins/element)
+  target_link_libraries(element_kink_${fault} PRIVATE ambit_flags)
+  target_compile_definitions(element_kink_${fault} PRIVATE KINK_${define} "KINK_NAME=\"kink_${fault}\"")
+endforeach()

@@ -28,6 +28,8 @@ typedef struct element_kit {
   size_t nresidual;
   ambit_expr residual[ELEMENT_KIT_RESIDUALS];
   const char *about[ELEMENT_KIT_RESIDUALS];
+  size_t nfollowed;
+  ambit_expr followed[ELEMENT_KIT_RESIDUALS]; /* what was differentiated: it may not jump */
 } element_kit;
 
 /* The first complaint is kept, the others are counted. */

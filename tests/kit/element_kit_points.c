@@ -1,6 +1,7 @@
 /* element_kit_points.c -- at random points, with enclosures: what must vanish contains 0 everywhere, and is narrow at
 ** one point at least (a point may be close to a singular position of the element, and says little then). Then at points
-** close to each kink (abs, min, max), on both sides of it.
+** close to each kink (abs, min, max), on both sides of it. A derivative knows nothing of the kink itself: there, what was
+** differentiated may not jump, so its difference between the sides must shrink as they come together.
 */
 #include "graph/hull.h"
 #include "graph/kink.h"
@@ -18,6 +19,8 @@
 #define SWITCHES 16    /* kinks that are looked for */
 #define TRIES 20       /* of random points, for one on each side of a kink */
 #define HALVINGS 30    /* of the way between them */
+#define SHRUNK 0x1p-8  /* what 30 halvings leave of the largest difference at most, */
+#define STEEP 1e-6     /* or of numbers of ordinary size */
 #define NORM_MAX 16
 #define NORM_SLACK 0x1p-51 /* a normalised vector of doubles is that close to a unit one, in each component */
 
@@ -94,6 +97,8 @@ typedef struct search {
   size_t n; /* leaves */
   const ambit_expr *leaf;
   ambit_interval *in, *slot, *side[2]; /* side: points below and above a kink */
+  size_t first;                        /* output that is the first of what was differentiated */
+  double *value[2], *most;             /* that, on the sides, and the largest difference so far */
 } search;
 
 /* -1, 1: the sign of output `out` at s->in; 0: not known */
@@ -115,9 +120,34 @@ static bool find_sides(search *s, size_t out) {
   return has[0] && has[1];
 }
 
+static void look(search *s, int side) {
+  ambit_hull(s->tape, s->side[side], s->slot);
+  for (size_t i = 0; i < s->k->nfollowed; i++) {
+    ambit_interval x = s->slot[s->tape->out[s->first + i]];
+    s->value[side][i] = x.hi - x.lo < TOLERANCE ? 0.5 * x.lo + 0.5 * x.hi : NAN;
+  }
+}
+
+static double difference(const search *s, size_t i) { return fabs(s->value[1][i] - s->value[0][i]); }
+
+static void note_differences(search *s) {
+  for (size_t i = 0; i < s->k->nfollowed; i++) s->most[i] = fmax(s->most[i], difference(s, i));
+}
+
+static void check_jumps(const search *s) {
+  for (size_t i = 0; i < s->k->nfollowed; i++) {
+    s->k->report->compared++;
+    if (difference(s, i) > SHRUNK * s->most[i] + STEEP * (1 + fabs(s->value[0][i])))
+      element_kit_complain(s->k, "energy, momentum or motion jumps by %.3e at a kink", difference(s, i));
+  }
+}
+
 /* Halves the way between the sides, then compares on both. */
 static void try_kink(search *s, size_t out, bool *narrow) {
   if (!find_sides(s, out)) return;
+  memset(s->most, 0, s->k->nfollowed * sizeof *s->most);
+  for (int i = 0; i < 2; i++) look(s, i);
+  note_differences(s);
   for (int i = 0; i < HALVINGS; i++) {
     for (size_t j = 0; j < s->n; j++) {
       double v = 0.5 * s->side[0][j].lo + 0.5 * s->side[1][j].lo;
@@ -127,7 +157,10 @@ static void try_kink(search *s, size_t out, bool *narrow) {
     int sign = sign_at(s, out);
     if (sign == 0) break;
     memcpy(s->side[sign > 0], s->in, s->n * sizeof *s->in);
+    look(s, sign > 0);
+    note_differences(s);
   }
+  check_jumps(s);
   for (int i = 0; i < 2; i++) {
     ambit_hull(s->tape, s->side[i], s->slot);
     compare(s->k, s->tape, s->slot, narrow);
@@ -135,18 +168,27 @@ static void try_kink(search *s, size_t out, bool *narrow) {
 }
 
 static void try_kinks(search *s, size_t count, bool *narrow) {
-  for (int i = 0; i < 2; i++) s->side[i] = calloc(s->n + 1, sizeof *s->side[i]);
+  size_t room = s->k->nfollowed + 1;
+  for (int i = 0; i < 2; i++) {
+    s->side[i] = calloc(s->n + 1, sizeof *s->side[i]);
+    s->value[i] = calloc(room, sizeof *s->value[i]);
+  }
+  s->most = calloc(room, sizeof *s->most);
   for (size_t i = 0; i < count; i++) try_kink(s, s->k->nresidual + i, narrow);
-  for (int i = 0; i < 2; i++) free(s->side[i]);
+  for (int i = 0; i < 2; i++) free(s->side[i]), free(s->value[i]);
+  free(s->most);
 }
 
 void element_kit_evaluate(element_kit *k) {
   ambit_failure f = { 0 };
   ambit_arena *arena = ambit_arena_open();
   const ambit_tape *tape;
-  ambit_expr all[ELEMENT_KIT_RESIDUALS + SWITCHES];
+  ambit_expr all[2 * ELEMENT_KIT_RESIDUALS + SWITCHES];
   size_t nswitch = find_switches(k, all + k->nresidual), nall = k->nresidual + nswitch;
   memcpy(all, k->residual, k->nresidual * sizeof *all);
+  size_t first = nall, more = nswitch ? k->nfollowed : 0; /* where nothing has kinks, nothing is to be followed */
+  memcpy(all + first, k->followed, more * sizeof *all);
+  nall += more;
   size_t n = ambit_graph_leaves(k->graph, nall, all, 0, NULL);
   ambit_expr *leaf = calloc(n + 1, sizeof *leaf);
   ambit_interval *in = calloc(n + 1, sizeof *in);
@@ -160,7 +202,7 @@ void element_kit_evaluate(element_kit *k) {
     ambit_hull(tape, in, slot);
     compare(k, tape, slot, narrow);
   }
-  search s = { .k = k, .tape = tape, .n = n, .leaf = leaf, .in = in, .slot = slot };
+  search s = { .k = k, .tape = tape, .n = n, .leaf = leaf, .in = in, .slot = slot, .first = first };
   if (slot && nswitch) try_kinks(&s, nswitch, narrow);
   for (size_t i = 0; slot && i < k->nresidual; i++)
     if (!narrow[i]) element_kit_complain(k, "%s cannot be checked: the difference is never narrow", k->about[i]);

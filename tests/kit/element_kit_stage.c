@@ -144,7 +144,7 @@ bool element_kit_open_stage(element_kit *k, unsigned given) {
     connection[i] = k->element->port[i].role == AMBIT_ROLE_IN ? carrier(k, i) : AMBIT_NOWHERE;
   choose_params(k, given, param);
   ambit_part_spec spec = { k->element, k->name, "subject", "kit.lua:1", param, connection, NULL };
-  k->nresidual = 0;
+  k->nresidual = k->nfollowed = 0;
   k->report->stages++;
   if (!add_subject(k, &spec)) return false;
   for (uint32_t i = 0; i < k->element->nport; i++)

@@ -33,10 +33,17 @@ static ambit_status express(ambit_build *b, uint32_t port, uint32_t quantity, am
   if (effort) pressed = ambit_add(b, pressed, ambit_multiply(b, b->num(b, "1e5"), b->op(b, AMBIT_OP_MAX, off, zero)));
 #endif
   if (effort) *out = ambit_negate(b, ambit_add(b, ambit_multiply(b, k, pressed), friction));
+#ifdef KINK_JUMP /* for tests of the kit: energy that is larger by 0.1 J beyond the stop */
+  ambit_expr beyond = ambit_subtract(b, *q, stop);
+  beyond = b->op(b, AMBIT_OP_DIV, beyond, b->op(b, AMBIT_OP_ABS, beyond, beyond));
+#endif
   if (power) *out = ambit_negate(b, ambit_multiply(b, friction, *u));
   if (energy) {
     out[0] = zero;
     out[1] = ambit_multiply(b, ambit_multiply(b, b->num(b, "0.5"), k), ambit_multiply(b, pressed, pressed));
+#ifdef KINK_JUMP
+    out[1] = ambit_add(b, out[1], ambit_multiply(b, b->num(b, "0.05"), beyond));
+#endif
   }
   return AMBIT_OK;
 }
