@@ -1,7 +1,7 @@
 /* element_kit_points.c -- at random points, with enclosures: what must vanish contains 0 everywhere, and is narrow at
 ** one point at least (a point may be close to a singular position of the element, and says little then). Then at points
-** close to each kink (abs, min, max), on both sides of it. A derivative knows nothing of the kink itself: there, what was
-** differentiated may not jump, so its difference between the sides must shrink as they come together.
+** close to each kink (abs, min, max), on both sides of it. A derivative knows nothing of the kink itself: there, what
+** was differentiated may not jump, so its difference between the sides must shrink as they come together.
 */
 #include "graph/hull.h"
 #include "graph/kink.h"
