@@ -107,4 +107,8 @@ return {
     "steps that are too long for their rates fail in the proof, which takes longer",
   ["plugins/solver/stiff/step.c | guard 1 | if (too_fast(s, m)) return WHY_FAST;"] =
     "steps that are too long for their rates fail in the proof, which takes longer",
+  ["framework/graph/polynomial.c | radius 1 | for (size_t k = 0; k < ring->nlost && !known; k++) known = ring->lost[k] == atom;"] =
+    "what vanished is noted twice, and sooner there is too much of it: then nothing is rewritten",
+  ["framework/graph/polynomial.c | guard 1 | if (p.n > 64 * ring->limit / q.n) return fail(ring);"] =
+    "a limit of time and memory: what is multiplied out is right whatever its length",
 }
