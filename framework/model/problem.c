@@ -212,7 +212,9 @@ static ambit_status seal_initial(build *b) {
   memcpy(out + nx, b->input + nx, np * sizeof *out);
   ambit_status status = ambit_unknowns_leaves(b->graph, b->arena, nx + np, out, &nu, &b->unknown, b->f);
   if (status != AMBIT_OK) return status;
-  b->p->nu = (uint32_t)nu;
+  const char **name = room(b, nu + 1, sizeof *name);
+  if (!name || !ambit_graph_leaf_names(b->graph, b->arena, nu, b->unknown, name)) return no_memory(b);
+  b->p->nu = (uint32_t)nu, b->p->unknown_name = name;
   if (b->q->unknown) *b->q->unknown = b->unknown;
   return ambit_tape_seal(
       b->graph, b->arena, nx + np, out, nu, b->unknown, 0, AMBIT_TAPE_SERIES | b->q->seal, &b->initial, b->f);

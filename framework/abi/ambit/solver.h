@@ -83,6 +83,7 @@ typedef struct ambit_problem {
   void *const *worker;
   const ambit_reduction *reduction; /* AMBIT_SOLVES_REDUCTION; else NULL */
   const ambit_implicit *implicit;   /* AMBIT_WANT_IMPLICIT; else NULL */
+  const char *const *unknown_name;  /* [nu] names of the data, for messages */
 } ambit_problem;
 
 /* A set of states that still knows what it depends on: for every u in the box of the unknowns, with

@@ -93,8 +93,8 @@ int sweep_coefficients(zono *z); /* C, L, J of proof from forms over [0, h] */
 int sweep_weights(zono *z);      /* weight, weight_L: at the centre and the start */
 /* inverse.c: w->lambda from w->matrix; 0: a pivot is 0 */
 int inverse_find(zono *z, const sweeps *w);
-/* origin.c: the shares of the origins in E_i, largest first: "third order in the data 60 %, ..." */
-void origin_text(const zono *z, uint32_t i, char *text, size_t room);
+/* origin.c: where the width comes from, as text that follows a clause; empty where there is nothing to say */
+void origin_text(const zono *z, char *text, size_t room);
 /* slope.c: forms of slots and of derivatives */
 void slope_open(double gaps[TIME_ORDERS]);
 int slope_forms(zono *z, const sweeps *w, double h);

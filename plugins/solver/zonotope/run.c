@@ -124,28 +124,12 @@ static void work(zono *z) {
 
 /* -- reasons */
 
-/* where the width comes from that is not the data's own: of the state that has most of it */
-static void tell_origins(const zono *z, char *text, size_t room) {
-  double most = 0;
-  uint32_t worst = 0;
-  for (uint32_t i = 0; i < z->nx; i++) {
-    double share = z->E[i] / fmax(z->hi[i] - z->lo[i], 1e-300);
-    if (share > most) most = share, worst = i;
-  }
-  int at = snprintf(text, room, " (of `%s` %.0f %% are errors of the method: ", z->problem.name[worst], 200 * most);
-  if (!(most > 0.005)) at = 0, text[0] = 0;
-  if (at <= 0 || (size_t)at + 2 >= room) return;
-  origin_text(z, worst, text + at, room - (size_t)at - 1);
-  size_t end = strlen(text);
-  memcpy(text + end, ")", 2);
-}
-
 static ambit_status explain(const zono *z) {
   const ambit_host *h = z->host;
   double width = 0;
-  char from[300];
+  char from[600];
   for (uint32_t i = 0; i < z->nx; i++) width = fmax(width, z->hi[i] - z->lo[i]);
-  tell_origins(z, from, sizeof from);
+  origin_text(z, from, sizeof from);
   switch (z->why) {
   case WHY_NOTHING: return AMBIT_OK;
   case WHY_STOPPED: return AMBIT_STOPPED;
@@ -172,9 +156,9 @@ static ambit_status explain(const zono *z) {
         z->problem.name[z->culprit], z->t, from);
   case WHY_CREEP:
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_CREEP,
-        "at t = %.9g s steps over an enclosure up to %.3g wide, now of %.3g s, are so short that the end is out of "
+        "at t = %.9g s steps over an enclosure up to %.3g wide%s, now of %.3g s, are so short that the end is out of "
         "reach: a solution may escape near here; if not, narrow the data",
-        z->t, width, z->guess);
+        z->t, width, from, z->guess);
   default:
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_STEP,
         "at t = %.9g s no step of at least %.3g s could be proved, with an enclosure up to %.3g wide%s: a solution may "
