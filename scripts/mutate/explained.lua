@@ -111,4 +111,6 @@ return {
     "what vanished is noted twice, and sooner there is too much of it: then nothing is rewritten",
   ["framework/graph/polynomial.c | guard 1 | if (p.n > 64 * ring->limit / q.n) return fail(ring);"] =
     "a limit of time and memory: what is multiplied out is right whatever its length",
+  ["framework/graph/tail_value.c | guard 1 | if (!(floor > 0)) return INFINITY;"] =
+    "a floor of 0 then gives 0/0, which claims nothing either",
 }
