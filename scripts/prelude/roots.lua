@@ -14,14 +14,18 @@ local uncertain = require "ambit.uncertain"
 
 local verb = {}
 
--- One end of a range: an infinite number, or anything that is one number in the unit.
+-- Of ranges with ends that are no doubles: the part that is asked for for certain, { lo, hi }.
+local asked = setmetatable({}, { __mode = "k" })
+
+-- One end of a range, outward and inward: an infinite number, or anything that is one number in the unit.
 local function bound(value, side, unit, what)
-  if value == math.huge or value == -math.huge then return value end
+  if value == math.huge or value == -math.huge then return value, value end
   local e = core.expression(value, unit, what)
   if not core.is_constant(e) then
     check.fail("%s: the ends of a range are known numbers, not uncertain themselves", what)
   end
-  return core.interval(e)[side]
+  local x = core.interval(e)
+  return x[side], x[side == "lo" and "hi" or "lo"]
 end
 
 -- interval(...), whose messages are made to say what they are about
@@ -39,11 +43,14 @@ function verb.range(value, what, unit)
   if kind == "table" then
     check.keys(value, {}, what, 2)
     if value[1] == nil or value[2] == nil then check.fail("%s: expected { lo, hi }", what) end
-    local lo, hi = bound(value[1], "lo", unit, what), bound(value[2], "hi", unit, what)
+    local lo, inner_lo = bound(value[1], "lo", unit, what)
+    local hi, inner_hi = bound(value[2], "hi", unit, what)
     if lo > hi then
       check.fail("%s: the range is empty: %s is greater than %s", what, core.literal(lo), core.literal(hi))
     end
-    return interval(what, lo, hi)
+    local range = interval(what, lo, hi)
+    asked[range] = { lo = inner_lo, hi = inner_hi }
+    return range
   end
   if kind == "function" or kind == "boolean" or kind == "nil" then
     check.fail("%s: expected { lo, hi }, an enclosure or a text, got %s", what, kind)
@@ -100,8 +107,11 @@ local function named(names, facts, value)
   return evaluate.with_status(point, facts)
 end
 
--- a lies within b
-local function is_inside(a, b) return a.lo >= b.lo and a.hi <= b.hi end
+-- Does x lie within what is asked for?
+local function is_inside(x, range)
+  local a = asked[range] or range
+  return x.lo >= a.lo and x.hi <= a.hi
+end
 
 local function precedes(names)
   return function(a, b)

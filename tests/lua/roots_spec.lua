@@ -62,6 +62,11 @@ describe("roots", function()
     local r = ambit.roots { function(s) return s.x ^ 2 - 2 end, box = { x = { 0, math.sqrt(2) } } }
     assert.equal("complete", r.status)
     for _, p in ipairs(r.proved) do assert.equal(p.x.hi <= math.sqrt(2), p.inside) end
+    for _, root in ipairs { "0.10000000000000000000001", "0.1" } do -- behind the end that is text, and at it
+      local edge = ambit.roots { function(s) return s.x - root end, box = { x = { 0, "0.1" } } }
+      assert.is_true(#edge.proved == 1 and not edge.proved[1].inside)
+    end
+    assert.is_true(ambit.roots({ function(s) return s.x - "0.0999" end, box = { x = { 0, "0.1" } } }).proved[1].inside)
     local zero = ambit.roots { function(s) return s.x * (s.x - 1) end, box = { x = { 0, 1 } } }
     assert.equal(2, #zero.proved)
     local none = ambit.roots { function(s) return s.x * (s.x - 1) end, box = { x = { "0.001", "0.999" } } }
