@@ -120,3 +120,5 @@ ambit_random_mechanisms(beyond "motions, [0-9]+ values: [1-9][0-9]* outside\n" -
 # Does any solution of random equations leave what was proved? At length: --systems 2000 --draws 50
 add_test(NAME lua.random_equations COMMAND ambit run ${CMAKE_CURRENT_LIST_DIR}/random_equations.lua --systems 60 --draws 6)
 set_tests_properties(lua.random_equations PROPERTIES TIMEOUT 300 ENVIRONMENT "${lua_environment}")
+add_test(NAME lua.random_equations.kinks COMMAND ambit run ${CMAKE_CURRENT_LIST_DIR}/random_equations.lua --kinks --systems 30 --draws 6)
+set_tests_properties(lua.random_equations.kinks PROPERTIES TIMEOUT 300 ENVIRONMENT "${lua_environment}")

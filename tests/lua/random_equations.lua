@@ -1,13 +1,14 @@
 -- random_equations.lua -- does any solution of random equations leave what was proved about it?
 --   ambit run tests/lua/random_equations.lua [--solver NAME] [--systems N] [--draws N] [--seed N] [--beyond X]
---     [--verbose]
+--     [--kinks] [--verbose]
 --
 -- Systems of 1 to 8 states and 1 to 10 data of .01 to 10 %, of every operation that a tape may hold, forwards and
 -- backwards in time; solutions for drawn data and initial values, most of them corners, are integrated in extended
 -- precision (tests/oracle/equations_lua.c) and must lie inside, at ends of steps and between; and at the end of the run
 -- in the set for just these data (run:set()), which is much narrower. Needs the test module
 -- `equations` in LUA_CPATH. --beyond 2: data are drawn from twice their ranges, so that solutions must be found
--- outside. Exit 1 if a solution is outside.
+-- outside. --kinks: with abs, min and max that solutions cross, forces with two slopes and dead zones among them.
+-- Exit 1 if a solution is outside.
 local ambit = require "ambit"
 local core = require "ambit.core"
 local session = require "ambit.session"
@@ -18,8 +19,8 @@ do
   local i = 1
   while arg[i] do
     local key = arg[i]:match "^%-%-(%a+)$"
-    if key == "verbose" then
-      o.verbose, i = true, i + 1
+    if key == "verbose" or key == "kinks" then
+      o[key], i = true, i + 1
     elseif key and o[key] and arg[i + 1] then
       o[key], i = tonumber(arg[i + 1]) or arg[i + 1], i + 2
     else
@@ -82,8 +83,26 @@ local function random_system()
     function(d) return emit("max", tame(expression(d)), number(-1.5)) end,
     function(d) return emit("neg", expression(d)) end,
   }
+  -- a law with two slopes, a dead zone, a saturation, and kinks of any two expressions
+  local zero = o.kinks and number(0)
+  local kinked = {
+    function(d)
+      local x = expression(d)
+      return emit("sub", emit("max", x, zero), emit("mul", number(0.4 * unit()), emit("min", x, zero)))
+    end,
+    function(d)
+      local x, gap = expression(d), number(0.2 * unit())
+      return emit("add", emit("max", emit("sub", x, gap), zero), emit("min", emit("add", x, gap), zero))
+    end,
+    function(d) return emit("max", emit("min", expression(d), number(unit())), number(-unit())) end,
+    function(d) return emit("abs", expression(d)) end,
+    function(d) return emit("max", expression(d), expression(d)) end,
+    function(d) return emit("min", expression(d), expression(d)) end,
+  }
+  if o.kinks then table.move(kinked, 1, #kinked, #kinds + 1, kinds) end
   -- half of the systems hold few kinds of operations, so that each kind is the worst in some system
-  local few = unit() < 0.5 and { kinds[pick(#kinds)], kinds[pick(6)], kinds[3] } or kinds
+  local few = unit() < 0.5 and { o.kinks and kinked[pick(#kinked)] or kinds[pick(#kinds)], kinds[pick(6)], kinds[3] }
+    or kinds
   local polynomial = few ~= kinds and unit() < 0.5
   if polynomial then few = { kinds[1], kinds[3], kinds[5] } end
   function expression(d)

@@ -104,9 +104,9 @@ static void check_defects(const zono *z, const point *p, int regime) {
   const ambit_tape *t = z->program.tape;
   for (uint32_t i = 0; i < t->ninstr; i++) {
     uint32_t op = t->op[i], j = t->dst[i];
-    if (op == AMBIT_OP_ABS || op == AMBIT_OP_MIN || op == AMBIT_OP_MAX) continue; /* up to zono_spread() */
     long double a = slot_at(z, t->a[i], p), b = slot_at(z, t->b[i], p), to = slot_at(z, j, p);
-    long double off = operation(op, a, b) - to;
+    uint32_t twin = twin_of(z, i);
+    long double off = (twin < SLOTS ? a + b - slot_at(z, twin, p) : operation(op, a, b)) - to;
     if (op == AMBIT_OP_ATAN2) off = remainderl(off, 2 * acosl(-1)); /* zono_spread() keeps away from the cut */
     off = fabsl(off) - slack(z, i, a, b);
     if (!(off <= z->r[j])) fail_msg("opcode %u in regime %d: off by %Lg, bound %g", op, regime, off, z->r[j]);
@@ -128,11 +128,11 @@ static void check_spread(const zono *z, const point *p, const double *input, con
     uint32_t op = t->op[i], j = t->dst[i];
     long double a = slot_at(z, t->a[i], p), b = slot_at(z, t->b[i], p), by_a, by_b;
     slopes_at(op, a, b, &by_a, &by_b);
-    if (op == AMBIT_OP_ABS) by_a = z->branch[i];
-    if (op == AMBIT_OP_MIN || op == AMBIT_OP_MAX) by_a = z->branch[i] > 0, by_b = z->branch[i] < 0;
+    kink_slopes(z, i, &by_a, &by_b);
     star[j] = operation(op, star[t->a[i]], star[t->b[i]]);
     off[j] = star[j] - slot_at(z, j, p);
-    long double lump = fabsl(off[j] - by_a * off[t->a[i]] - by_b * off[t->b[i]]);
+    long double by_twin = twin_of(z, i) < SLOTS ? off[twin_of(z, i)] : 0;
+    long double lump = fabsl(off[j] - by_a * off[t->a[i]] - by_b * off[t->b[i]] + by_twin);
     long double less = 4 * slack(z, i, a, b) + 4 * slack(z, i, star[t->a[i]], star[t->b[i]]);
     if (!(lump - less <= z->rr[j])) fail_msg("opcode %u: a lump of %Lg, bound %g", op, lump, z->rr[j]);
     if (!(fabsl(off[j]) - less <= delta[j])) fail_msg("opcode %u: moves by %Lg, bound %g", op, off[j], delta[j]);
@@ -168,7 +168,7 @@ static void every_operation_is_within_its_bounds(void **unused) {
     open_one(&z, &k, tried[n % TRIED], &s);
     z.h = regime == OF_DATA ? 0 : pick(2) ? 1 : -1;
     if (zono_series(&z) && zono_defects(&z)) {
-      for (int m = 0; m < 12; m++) {
+      for (int m = 0; m < 24; m++) {
         point p;
         draw_point(&z, &p, z.h);
         check_defects(&z, &p, regime);

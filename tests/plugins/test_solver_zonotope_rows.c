@@ -171,18 +171,33 @@ static void is_zero(const checker *c, uint32_t op, uint32_t k) {
       fail_msg("opcode %u, order %u, coefficient %u: %Lg of %Lg", op, k, i, c->sum[i], c->size);
 }
 
+/* the line for abs, min or max; for a second one of the same operands, what the first leaves of a + b */
+static void add_line(checker *c, uint32_t i, uint32_t k) {
+  const ambit_tape *t = c->z->program.tape;
+  long double by_a = 0, by_b = 0, offset = c->z->kinks->of[i].offset;
+  kink_slopes(c->z, i, &by_a, &by_b);
+  if (by_a != 0) add(c, (double)by_a, t->a[i], k);
+  if (by_b != 0) add(c, (double)by_b, t->b[i], k);
+  if (twin_of(c->z, i) < SLOTS)
+    add(c, -1, twin_of(c->z, i), k);
+  else if (k == 0)
+    c->sum[0] += t->op[i] == AMBIT_OP_ABS ? offset : t->op[i] == AMBIT_OP_MAX ? offset / 2 : -offset / 2;
+}
+
 static void check(checker *c, uint32_t i, uint32_t k) {
   const ambit_tape *t = c->z->program.tape;
   uint32_t op = t->op[i], z = t->dst[i], a = t->a[i], b = t->b[i], q = t->aux[i];
   int weighted = op != AMBIT_OP_ADD && op != AMBIT_OP_SUB && op != AMBIT_OP_NEG && op != AMBIT_OP_MUL &&
-                 op != AMBIT_OP_SQR && op != AMBIT_OP_DIV && op != AMBIT_OP_SQRT && op != AMBIT_OP_ABS;
+                 op != AMBIT_OP_SQR && op != AMBIT_OP_DIV && op != AMBIT_OP_SQRT && !is_kinked(op);
   if (weighted && k == 0) return; /* Taylor polynomials: next test */
   clear(c);
   switch (op) {
   case AMBIT_OP_ADD: add(c, 1, a, k), add(c, 1, b, k), add(c, -1, z, k); break;
   case AMBIT_OP_SUB: add(c, 1, a, k), add(c, -1, b, k), add(c, -1, z, k); break;
   case AMBIT_OP_NEG: add(c, 1, a, k), add(c, 1, z, k); break;
-  case AMBIT_OP_ABS: add(c, 1, a, k), add(c, -1, z, k); break;
+  case AMBIT_OP_ABS:
+  case AMBIT_OP_MIN:
+  case AMBIT_OP_MAX: add_line(c, i, k), add(c, -1, z, k); break;
   case AMBIT_OP_MUL: convolve(c, 1, a, b, k, 0), add(c, -1, z, k); break;
   case AMBIT_OP_SQR: convolve(c, 1, a, a, k, 0), add(c, -1, z, k); break;
   case AMBIT_OP_DIV: convolve(c, 1, z, b, k, 0), add(c, -1, a, k); break;

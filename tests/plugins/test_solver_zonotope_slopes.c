@@ -22,6 +22,8 @@ static void sweep_all(const zono *z, const point *p, sweep_at *w) {
     for (uint32_t i = t->ninstr; i-- > 0;) {
       long double by_a, by_b;
       slopes_at(t->op[i], w->value[t->a[i]], w->value[t->b[i]], &by_a, &by_b);
+      kink_slopes(z, i, &by_a, &by_b);
+      if (twin_of(z, i) < SLOTS) x[twin_of(z, i)] -= x[t->dst[i]];
       x[t->a[i]] += by_a * x[t->dst[i]];
       if (by_b != 0) x[t->b[i]] += by_b * x[t->dst[i]];
     }

@@ -6,6 +6,7 @@
 #include "oracle.h"
 #include "num/service.h"
 #include "solver/zonotope/implicit.h"
+#include "solver/zonotope/kink.h"
 #include "solver/zonotope/proof.h"
 #include <setjmp.h>
 #include <stdarg.h>
@@ -99,7 +100,7 @@ static inline uint32_t any(maker *k, uint32_t from) {
 /* one more operation on what there is; results stay of moderate size */
 static inline uint32_t grow(maker *k, uint32_t a, uint32_t b) {
   uint32_t small = put_pair(k, AMBIT_OP_SIN, AMBIT_OP_COS, a), n;
-  switch (pick(12)) {
+  switch (pick(14)) {
   case 0: return put(k, AMBIT_OP_ADD, small, b);
   case 1: return put(k, AMBIT_OP_SUB, a, small);
   case 2: return put(k, AMBIT_OP_MUL, small, b);
@@ -120,9 +121,11 @@ static inline uint32_t grow(maker *k, uint32_t a, uint32_t b) {
     small = put(k, AMBIT_OP_ATAN2, y, x), k->aux[k->tape.ninstr - 1] = n;
     return small;
   }
-  default:
-    return put(k, AMBIT_OP_ABS, positive(k, b), 0),
-           k->b[k->tape.ninstr - 1] = k->a[k->tape.ninstr - 1], k->tape.nconst + k->tape.nin + k->tape.ninstr - 1;
+  case 11: return put(k, AMBIT_OP_ABS, pick(2) ? small : positive(k, b), a);
+  case 12:
+    n = put(k, AMBIT_OP_MIN, small, b);
+    return pick(2) ? n : put(k, AMBIT_OP_SUB, put(k, AMBIT_OP_MAX, b, small), n);
+  default: return put(k, AMBIT_OP_MAX, small, b);
   }
 }
 
@@ -145,6 +148,19 @@ static inline void make_empty(maker *k, uint32_t nconst, uint32_t nx, uint32_t n
     .degree = k->degree };
   for (uint32_t i = 0; i < nx + na; i++) k->degree[nconst + i] = AMBIT_DEGREE_ANY;
   k->degree[nconst + nx + na + np] = 1;
+}
+
+/* abs, min and max as the step takes them: a and b times these, less the twin's slot; others are left as they are */
+static inline void kink_slopes(const zono *z, uint32_t i, long double *by_a, long double *by_b) {
+  double a, b;
+  if (!is_kinked(z->program.tape->op[i])) return;
+  kink_shares(z, i, &a, &b);
+  *by_a = has_twin(z, i) ? 1 : a, *by_b = has_twin(z, i) ? 1 : b;
+}
+
+static inline uint32_t twin_of(const zono *z, uint32_t i) {
+  const ambit_tape *t = z->program.tape;
+  return is_kinked(t->op[i]) && has_twin(z, i) ? t->dst[z->kinks->of[i].twin] : SLOTS;
 }
 
 /* two stages, the second with what the first found */

@@ -1,7 +1,8 @@
--- When valencia suits: equations with kinks that the solution crosses. It needs no derivatives of higher order.
+-- When valencia suits: equations with kinks that the solution crosses, or that are only continuous. It needs no
+-- derivatives of higher order.
 return function(f)
   if f.kink then
-    return 1, ("the solution crosses the kink of `%s`, and Taylor series need smooth equations"):format(f.kink)
+    return 0.9, ("the solution crosses the kink of `%s`, and Taylor series need smooth equations"):format(f.kink)
   end
   return f.kinks > 0 and 0.25 or 0.1, "it needs no Taylor series"
 end

@@ -6,6 +6,7 @@
 ** function solves it too, with what was dropped as its right-hand side. Quotients and roots are tested afterwards:
 ** their rows are multiplied out again. Proofs: docs/numerics/zonotope.md, section 4.
 */
+#include "kink.h"
 #include "proof.h"
 #include "value.h"
 
@@ -118,6 +119,8 @@ static double order0(const zono *z, uint32_t i) {
 
 /* -- all of it, once a step */
 
+static double size_of(const zono *z, uint32_t slot, uint32_t k) { return k <= last(z, slot) ? total(z, slot, k) : 0; }
+
 static void drop_sum(zono *z, uint32_t dst) {
   for (uint32_t k = 0; k <= last(z, dst); k++) drop_at(z, dst)[k] = 2 * UNIT * total(z, dst, k);
 }
@@ -147,7 +150,8 @@ static void prepare(zono *z, uint32_t i) {
   case AMBIT_OP_ABS:
   case AMBIT_OP_MIN:
   case AMBIT_OP_MAX:
-    for (uint32_t k = 0; k <= last(z, dst); k++) drop[k] = 0;
+    for (uint32_t k = 0; k <= last(z, dst); k++)
+      drop[k] = 8 * UNIT * (size_of(z, a, k) + (op == AMBIT_OP_ABS ? 0 : size_of(z, b, k)));
     return;
   case AMBIT_OP_MUL: drop_product(z, dst, a, b, 0); return;
   case AMBIT_OP_SQR: drop_product(z, dst, a, a, 0); return;
@@ -271,6 +275,9 @@ static double evaluate(zono *z, uint32_t i, double length) {
   case AMBIT_OP_COS: return turning(z, i, length);
   case AMBIT_OP_ATAN:
   case AMBIT_OP_ATAN2: return angle(z, i, length);
+  case AMBIT_OP_ABS:
+  case AMBIT_OP_MIN:
+  case AMBIT_OP_MAX: return kink_defect(z, i, sum, length);
   default: return sum;
   }
 }
@@ -316,9 +323,7 @@ int defect_evaluate(zono *z, double length) {
   for (uint32_t i = 0; i < t->ninstr; i++) {
     double r = evaluate(z, i, length);
     if (!(r < INFINITY)) return z->why = WHY_UNDEFINED, z->culprit = t->dst[i], 0;
-    uint32_t op = t->op[i];
-    int exact = op == AMBIT_OP_ABS || op == AMBIT_OP_MIN || op == AMBIT_OP_MAX;
-    z->r[t->dst[i]] = exact ? 0 : r * ABOVE + LEAST;
+    z->r[t->dst[i]] = r == 0 && is_kinked(t->op[i]) ? 0 : r * ABOVE + LEAST;
   }
   bound_outputs(z, length);
   return 1;

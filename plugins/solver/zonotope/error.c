@@ -4,6 +4,7 @@
 ** rho; |theta_j| <= rr_j as long as |z| <= zeta. If the bound of z that follows is below zeta, it holds over the whole
 ** step, and the solution exists there (docs/numerics/zonotope.md, section 5).
 */
+#include "kink.h"
 #include "proof.h"
 #include "value.h"
 
@@ -12,21 +13,6 @@
 #define ROOMY 1.2 /* a new guess over the bound that the last one gave */
 
 /* -- |Delta| of all slots, and lumps: what an operation fails by, and terms of second order */
-
-/* lower bound of |a - b| over the step */
-static double apart(const zono *z, uint32_t a, uint32_t b) {
-  double length = fabs(z->h), power = 1, off = 0, centre = 0;
-  terms sum;
-  for (uint32_t k = 0; k <= z->K; k++, power *= length) {
-    terms_clear(&sum);
-    if (k < orders(z, a)) terms_row(&z->shape, &sum, 1, row_at(z, a, k));
-    if (k < orders(z, b)) terms_row(&z->shape, &sum, -1, row_at(z, b, k));
-    terms_sum(&z->shape, &sum, z->proof->end, 1);
-    if (k == 0) centre = fabs(z->proof->end[0]), off = row_moving(&z->shape, z->proof->end);
-    if (k > 0) off += row_total(&z->shape, z->proof->end) * power;
-  }
-  return centre - off * ABOVE - 1e-14 * (z->proof->high[a] + z->proof->high[b]);
-}
 
 static double larger(double a, double b) { return a > b ? a : b; }
 
@@ -51,6 +37,13 @@ static move move_angle(const zono *z, uint32_t i, double d) {
   const double *y = row_at(z, t->a[i], 0), *x = row_at(z, t->b[i], 0);
   int clear = (x[0] > 0 && b > d) || (y[0] != 0 && a > d); /* of the cut */
   return clear ? (move) { d / r, d * d / (2 * near * near) } : no_move();
+}
+
+static move move_kink(const zono *z, uint32_t i, double da, double db) {
+  double share_a, share_b;
+  if (has_twin(z, i)) return (move) { larger(da, db) + z->r[z->program.tape->dst[z->kinks->of[i].twin]], 0 };
+  kink_shares(z, i, &share_a, &share_b);
+  return (move) { fabs(share_a) * da + fabs(share_b) * db, kink_second(z, i, da + db) };
 }
 
 static move move_of(zono *z, uint32_t i, double da, double db) {
@@ -78,8 +71,7 @@ static move move_of(zono *z, uint32_t i, double da, double db) {
         move) { (high[t->aux[i]] + z->r[t->aux[i]]) * da, 0.5 * value_of(z, AMBIT_OP_COSH, high[a] + da, 0) * da * da };
   case AMBIT_OP_ATAN: return (move) { da, 0.5 * da * da };
   case AMBIT_OP_ATAN2: return move_angle(z, i, da + db);
-  case AMBIT_OP_ABS: return near > 0 ? (move) { da, 0 } : no_move();
-  default: return apart(z, a, b) > da + db ? (move) { z->branch[i] > 0 ? da : db, 0 } : no_move();
+  default: return move_kink(z, i, da, db);
   }
 }
 
@@ -91,7 +83,7 @@ static int has_second(uint32_t op) {
 static int outside(zono *z, uint32_t i) {
   const ambit_tape *t = z->program.tape;
   uint32_t op = t->op[i];
-  int kinked = op == AMBIT_OP_ABS || op == AMBIT_OP_MIN || op == AMBIT_OP_MAX;
+  int kinked = is_kinked(op);
   z->why = kinked ? WHY_KINK : WHY_UNDEFINED, z->culprit = t->dst[i];
   z->detail = kinked && t->kink ? t->kink[i] : NULL;
   return 0;

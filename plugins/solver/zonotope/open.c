@@ -1,5 +1,6 @@
 /* open.c -- memory, and which slots depend on which unknowns. */
 #include "implicit.h"
+#include "kink.h"
 #include <ambit/code.h>
 
 #define ROOM 400e6    /* bytes that rows may take at the highest order */
@@ -73,8 +74,8 @@ int zono_open_rows(zono *z) {
   z->nslot = t->nslot, z->nout = t->nout;
   z->num = h->service(h, AMBIT_NUM_SERVICE);
   z->first = room(h, t->nslot, sizeof *z->first), z->at = room(h, t->nslot, sizeof *z->at);
-  z->has_inverse = room(h, t->ninstr, sizeof *z->has_inverse), z->branch = room(h, t->ninstr, 1);
-  if (!z->num || !z->first || !z->at || !z->has_inverse || !z->branch || !open_program(z)) return 0;
+  z->has_inverse = room(h, t->ninstr, sizeof *z->has_inverse);
+  if (!z->num || !z->first || !z->at || !z->has_inverse || !open_program(z) || !kinks_open(z)) return 0;
   for (uint32_t i = 0; i < t->nslot; i++) {
     size_t n = t->degree[i] ? z->K_max + 1u : 1u, cubed = z->shape.cubed < n ? z->shape.cubed : n;
     z->first[i] = rows, z->at[i] = at;

@@ -4,6 +4,7 @@
 ** from what rows drop at order 0 and grows with h. A step is the longest over which it at most doubles, but for what is
 ** negligible beside the state's motion and beside its set. No proof depends on anything here.
 */
+#include "kink.h"
 #include "proof.h"
 
 #define GROWTH 2.0
@@ -21,7 +22,7 @@ static void find_rates(const zono *z, double *rate) {
   for (uint32_t n = 0; n < p->ntarget; n++) {
     const double *C = p->weight + (size_t)n * z->nslot, *L = p->weight_L + (size_t)n * z->na;
     double sum = 0;
-    for (uint32_t j = 0; j < z->nslot; j++) sum += fabs(C[j]) * z->r[j];
+    for (uint32_t j = 0; j < z->nslot; j++) sum += z->kinks->is_slot[j] ? 0 : fabs(C[j]) * z->r[j];
     for (uint32_t q = 0; q < z->na; q++) sum += fabs(L[q]) * z->rr_out[z->nx + q];
     target[n] = sum;
   }
@@ -63,7 +64,7 @@ static int fits(zono *z, double length, const double *start) {
   const proof *p = z->proof;
   double *rate = p->grow, *half = p->zeta_new;
   int known = 0; /* half */
-  if (!defect_evaluate(z, length)) return 0;
+  if (!defect_evaluate(z, length) || !kinks_fit(z, length)) return 0;
   find_rates(z, rate);
   for (uint32_t i = 0; i < z->nx; i++) {
     double size, set;
@@ -80,6 +81,7 @@ static int fits(zono *z, double length, const double *start) {
 double zono_choose_step(zono *z, double h_most) {
   proof *p = z->proof;
   double *start = p->zeta, most = fabs(h_most), length = most, above = 0;
+  z->h = h_most; /* its sign */
   defect_prepare(z);
   p->prepared = 1, p->rho_before = 0;
   if (p->patience > 0) p->patience--;
@@ -91,6 +93,7 @@ double zono_choose_step(zono *z, double h_most) {
     if (!(p->spread[i] > 0)) p->spread[i] = size > 0 ? size : 1;
   }
   if (!defect_evaluate(z, 0) || !sweep_weights(z)) return 0;
+  kinks_start(z, most);
   find_rates(z, start);
   for (uint32_t n = 0; n < TRIES && !fits(z, length, start); n++) above = length, length *= 0.5;
   for (uint32_t n = 0; n < REFINE && above > 0; n++) {

@@ -4,6 +4,7 @@
 ** length (defect.c), how far solutions can be from the rows (zono_prove), and the set at the end (zono_finish). Where
 ** the proof fails the step is made shorter with the same rows.
 */
+#include "kink.h"
 #include "proof.h"
 #include <ambit/code.h>
 #include <stdio.h>
@@ -98,6 +99,7 @@ static int advance(zono *z) {
   zono_hull(z);
   if (is_wide(z)) return fails(z, WHY_WIDE);
   z->guess = fabs(z->h), z->t = z->t_next;
+  kinks_note(z);
   z->next += z->t == z->problem.time[z->next];
   r.t_to = z->t, r.order = z->K;
   r.lo = z->lo, r.hi = z->hi, r.tube_lo = z->tube_lo, r.tube_hi = z->tube_hi;

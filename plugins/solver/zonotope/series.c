@@ -5,27 +5,9 @@
 ** new.
 */
 #include "implicit.h"
+#include "kink.h"
 
 /* -- one instruction */
-
-static int is_kinked(uint32_t op) { return op == AMBIT_OP_ABS || op == AMBIT_OP_MIN || op == AMBIT_OP_MAX; }
-
-/* the sign that the operand's constant has now; whether it has it everywhere is up to the proof */
-static void choose_branch(zono *z, uint32_t i) {
-  const ambit_tape *t = z->program.tape;
-  double a = row_at(z, t->a[i], 0)[0], b = row_at(z, t->b[i], 0)[0];
-  int first = t->op[i] == AMBIT_OP_ABS ? a >= 0 : t->op[i] == AMBIT_OP_MIN ? a <= b : a >= b;
-  z->branch[i] = first ? 1 : -1;
-}
-
-static void put_branch(zono *z, uint32_t i, uint32_t k) {
-  const ambit_tape *t = z->program.tape;
-  int absolute = t->op[i] == AMBIT_OP_ABS;
-  if (k == 0) choose_branch(z, i);
-  uint32_t from = absolute || z->branch[i] > 0 ? t->a[i] : t->b[i];
-  row_scale(
-      &z->shape, row_at(z, t->dst[i], k), absolute ? z->branch[i] : 1, coefficient(z, from, k), has_triples(z, k));
-}
 
 /* terms of order k of a b, with (last) or without those that have order k of an operand that depends on stage
 ** `level` */
@@ -78,7 +60,7 @@ static int evaluate(zono *z, uint32_t i, uint32_t k) {
   uint32_t op = t->op[i], dst = t->dst[i];
   if (k > t->degree[dst]) return 1;
   if (op == AMBIT_OP_MUL) return put_product(z, i, k), 1;
-  if (is_kinked(op)) return put_branch(z, i, k), 1;
+  if (is_kinked(op)) return kink_row(z, i, k), 1;
   terms sum;
   terms_clear(&sum);
   switch (op) {

@@ -1,5 +1,5 @@
--- When zonotope suits: data that bend the solution, many of them or by little, whose common effects it keeps, and large
--- mechanisms.
+-- When zonotope suits: data that bend the solution, many of them or by little, whose common effects it keeps, large
+-- mechanisms, and kinks that the set crosses.
 local MANY = 5      -- data ...
 local LARGE = 12    -- ... or states from which on polynomials without generators are too large, and linear maps
 local BENT = 1e-7   -- with so much bend, or width where the bend was not seen, lose what the data share
@@ -9,7 +9,9 @@ local WIDE = 0.02   -- and up to which few generators hold what polynomials of h
 local SEEN = 0.5    -- part of the run up to which ordinary runs must come to tell the bend
 
 return function(f)
-  if f.kink then return 0.1, "polynomials and generators, up to the kink" end
+  if f.kink then
+    return 1, ("the solution crosses the kink of `%s`: a line takes its place meanwhile"):format(f.kink)
+  end
   if f.unknowns == 0 and f.states >= 2 * LARGE and f.seen < SEEN then
     return 0.9, ("%d states with large equations"):format(f.states)
   end

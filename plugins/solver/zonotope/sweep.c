@@ -6,6 +6,7 @@
 ** unknowns a is by how much the row fails, rho; the true coefficients are C + rho C_a (close_rows), C_a those of the
 ** unknowns.
 */
+#include "kink.h"
 #include "proof.h"
 
 #define TURNS 12
@@ -48,7 +49,7 @@ static void pass(const zono *z, const sweeps *w, uint32_t i, int inner) {
   const double *slope =
       z->proof->slope_at[dst] == AMBIT_NO_SLOT ? NULL : proof_form(w, w->slope, z->proof->slope_at[dst]);
   int to_a = !inner || z->program.level[sa], to_b = !inner || z->program.level[sb];
-  double *a = adjoint(w, sa), *b = adjoint(w, sb);
+  double *a = adjoint(w, sa), *b = adjoint(w, sb), share_a, share_b;
   switch (op) {
   case AMBIT_OP_ADD:
   case AMBIT_OP_SUB:
@@ -61,9 +62,17 @@ static void pass(const zono *z, const sweeps *w, uint32_t i, int inner) {
     if (to_b) form_product(f, b, 1, x, va);
     return;
   case AMBIT_OP_SQR: form_product(f, a, 2, x, va); return;
-  case AMBIT_OP_ABS: form_add(f, a, z->branch[i], x); return;
+  case AMBIT_OP_ABS:
   case AMBIT_OP_MIN:
-  case AMBIT_OP_MAX: form_add(f, z->branch[i] > 0 ? a : b, 1, x); return;
+  case AMBIT_OP_MAX:
+    kink_shares(z, i, &share_a, &share_b);
+    if (has_twin(z, i)) {
+      share_a = share_b = 1;
+      form_add(f, adjoint(w, t->dst[z->kinks->of[i].twin]), -1, x);
+    }
+    if (to_a && share_a != 0) form_add(f, a, share_a, x);
+    if (to_b && share_b != 0) form_add(f, b, share_b, x);
+    return;
   case AMBIT_OP_COS: form_product(f, a, -1, x, slope); return;
   case AMBIT_OP_DIV:
   case AMBIT_OP_ATAN2:

@@ -20,7 +20,7 @@
 **   ATAN           z_k = (a_k - 1/k sum_{1 <= j < k} j z_j (*) q_(k-j)) (*) i_0,   q its aux slot, i_0 that of q_0
 **   ATAN2          z_k = 1/k (sum_{1 <= j <= k} j (b_(k-j) (*) a_j - a_(k-j) (*) b_j)
 **                             - sum_{1 <= j < k} j z_j (*) q_(k-j)) (*) i_0
-**   ABS MIN MAX    a copy (ABS: perhaps negated), chosen by `branch`
+**   ABS MIN MAX    a multiple of a, or of a and b, plus a constant: those of kink.c
 ** and for k = 0 of a function the Taylor polynomial of degree 3 about the constant of its operand.
 ** Each coefficient of a sum of n products is got by at most 10 n + 14 operations in doubles, in any order, contracted
 ** or not; the divisions by k and factors j are among them. i_0 is inverse_at(): b_0 (*) i_0 = 1 but for rounding. No
@@ -39,7 +39,7 @@
 enum why {
   WHY_NOTHING,
   WHY_UNDEFINED, /* an operation outside its domain, or not finite */
-  WHY_KINK,      /* abs, min or max meets its kink */
+  WHY_KINK,      /* abs, min or max of an unknown meets its kink */
   WHY_PIVOT,     /* a pivot of the implicit equations may vanish */
   WHY_GROWTH,    /* the bound of the distance could not be closed */
   WHY_WIDE,
@@ -82,7 +82,7 @@ typedef struct zono {
   size_t *at;            /* [nslot] where it is in `row` */
   double *inverse;       /* [ninverse x stride] */
   uint32_t *has_inverse; /* [ninstr] number of the inverse + 1, 0: none */
-  int8_t *branch;        /* [ninstr] ABS, MIN, MAX: 1 as it is or the first, -1 negated or the second */
+  struct kinks *kinks;   /* kink.c */
   /* -- the set */
   uint32_t *unknown;             /* [m] which of the problem's unknowns datum j is; AMBIT_NO_SLOT: the solver's own */
   double *about, *scale;         /* [m] datum j is about_j + scale_j xi_j; 0 and 1 of the solver's own */

@@ -1,0 +1,190 @@
+/* kink.c -- abs, min and max where the set crosses their kink: a line in the place of the kink, and by how much the
+** operation differs from it.
+**
+** d is the operand of abs, or the difference a - b of min and max, which are b + (d -+ |d|) / 2. For any slope and
+** offset, |d| = slope d + offset + theta, |theta| <= miss, the largest at the ends of d's range and at 0. Off the kink
+** the slope is 1 or -1 and misses nothing; across it, slope and offset of the line that misses least over the range at
+** the start of the step, moved on as far as in the last step. Proof: docs/numerics/zonotope.md, section 5.
+*/
+#include "kink.h"
+#include "proof.h"
+
+#define GRID 0x1p20 /* slopes are multiples of 1 / GRID, so that (1 + slope) / 2 and (1 - slope) / 2 are exact */
+
+static double larger(double a, double b) { return a > b ? a : b; }
+static double smaller(double a, double b) { return a < b ? a : b; }
+
+/* of order k of the operand, times scale */
+static void add_operand(const zono *z, terms *sum, uint32_t i, uint32_t k, double scale) {
+  const ambit_tape *t = z->program.tape;
+  terms_row(&z->shape, sum, scale, coefficient(z, t->a[i], k));
+  if (t->op[i] != AMBIT_OP_ABS) terms_row(&z->shape, sum, -scale, coefficient(z, t->b[i], k));
+}
+
+/* constant and the size of the rest of order 0 (plus scale times order 1) of the operand */
+static double centre_of(const zono *z, uint32_t i, double scale, double *moving) {
+  terms sum;
+  terms_clear(&sum);
+  add_operand(z, &sum, i, 0, 1);
+  if (scale != 0) add_operand(z, &sum, i, 1, scale);
+  terms_sum(&z->shape, &sum, z->kinks->row, 1);
+  *moving = row_moving(&z->shape, z->kinks->row);
+  return z->kinks->row[0];
+}
+
+/* sum of the sizes of orders `first` and above of both operands */
+static double size_of(const zono *z, uint32_t i, uint32_t first, double length) {
+  const ambit_tape *t = z->program.tape;
+  double sum = 0, power = 1;
+  for (uint32_t k = 0; k <= z->K; k++, power *= length) {
+    if (k < first) continue;
+    sum += row_total(&z->shape, coefficient(z, t->a[i], k)) * power;
+    if (t->op[i] != AMBIT_OP_ABS) sum += row_total(&z->shape, coefficient(z, t->b[i], k)) * power;
+  }
+  return sum;
+}
+
+/* -- phase 1 */
+
+static void choose_line(zono *z, uint32_t i) {
+  kink *k = &z->kinks->of[i];
+  double m, c = centre_of(z, i, 0, &m), lo = c - m, hi = c + m;
+  int crossed = lo < 0 && hi > 0 && z->kinks->may_cross[i];
+  k->slope = c > 0 || (c == 0 && k->drift >= 0) ? 1 : -1;
+  k->offset = 0;
+  if (!crossed) return;
+  if (k->drift > 0) hi += k->drift;
+  if (k->drift < 0) lo += k->drift;
+  k->slope = nearbyint((hi + lo) / (hi - lo) * GRID) / GRID;
+  k->offset = -lo * (hi / (hi - lo));
+}
+
+void kink_shares(const zono *z, uint32_t i, double *a, double *b) {
+  double slope = z->kinks->of[i].slope;
+  uint32_t op = z->program.tape->op[i];
+  *a = op == AMBIT_OP_ABS ? slope : op == AMBIT_OP_MAX ? 0.5 * (1 + slope) : 0.5 * (1 - slope);
+  *b = op == AMBIT_OP_ABS ? 0 : 1 - *a;
+}
+
+static double offset_share(uint32_t op) { return op == AMBIT_OP_ABS ? 1 : op == AMBIT_OP_MAX ? 0.5 : -0.5; }
+
+void kink_row(zono *z, uint32_t i, uint32_t k) {
+  const ambit_tape *t = z->program.tape;
+  double share_a, share_b;
+  terms sum;
+  if (k == 0) choose_line(z, i);
+  kink_shares(z, i, &share_a, &share_b);
+  terms_clear(&sum);
+  if (has_twin(z, i)) {
+    share_a = share_b = 1;
+    terms_row(&z->shape, &sum, -1, coefficient(z, t->dst[z->kinks->of[i].twin], k));
+  } else if (k == 0)
+    sum.c = offset_share(t->op[i]) * z->kinks->of[i].offset;
+  if (share_a != 0) terms_row(&z->shape, &sum, share_a, coefficient(z, t->a[i], k));
+  if (share_b != 0) terms_row(&z->shape, &sum, share_b, coefficient(z, t->b[i], k));
+  terms_sum(&z->shape, &sum, row_at(z, t->dst[i], k), has_triples(z, k));
+}
+
+/* -- phase 2 */
+
+static int is_exact(const kink *k) { return k->offset == 0 && fabs(k->slope) == 1; }
+
+/* greatest | |d| - slope d - offset | over [lo, hi] */
+static double miss(const kink *k, double lo, double hi) {
+  double most = larger(fabs(fabs(lo) - k->slope * lo - k->offset), fabs(fabs(hi) - k->slope * hi - k->offset));
+  if (lo < 0 && hi > 0) most = larger(most, fabs(k->offset));
+  return most > 0 || !is_exact(k) ? most + 8 * UNIT * (fabs(lo) + fabs(hi) + fabs(k->offset)) : 0;
+}
+
+/* The range of the operand: the parts of orders 0 and 1 are convex in time, so they are greatest at the ends. */
+static void find_range(zono *z, uint32_t i, double length) {
+  kink *k = &z->kinks->of[i];
+  double h = z->h < 0 ? -length : length, from, to = 0;
+  double first = centre_of(z, i, 0, &from), last = centre_of(z, i, h, &to), later = size_of(z, i, 2, length);
+  double more = later + 1e-9 * (larger(from, to) + later + fabs(last - first)) + 1e-14 * size_of(z, i, 0, length);
+  k->lo = smaller(first - from, last - to) - more, k->hi = larger(first + from, last + to) + more;
+  k->moved = last - first;
+}
+
+double kink_defect(zono *z, uint32_t i, double rounding, double length) {
+  const kink *k = &z->kinks->of[i];
+  find_range(z, i, length);
+  if (has_twin(z, i)) return rounding;
+  double share = z->program.tape->op[i] == AMBIT_OP_ABS ? 1 : 0.5, off = miss(k, k->lo, k->hi);
+  return share * (off + 4 * UNIT * fabs(k->offset)) + (is_exact(k) ? 0 : rounding);
+}
+
+double kink_second(const zono *z, uint32_t i, double distance) {
+  const kink *k = &z->kinks->of[i];
+  double lo = k->lo - distance, hi = k->hi + distance;
+  if (!z->kinks->may_cross[i] && lo <= 0 && hi >= 0) return -1;
+  double share = z->program.tape->op[i] == AMBIT_OP_ABS ? 1 : 0.5, most = miss(k, lo, hi);
+  return share * (larger(most - miss(k, k->lo, k->hi), 0) + 4 * UNIT * most);
+}
+
+/* -- the length of a step: lines are chosen at its start, so what they miss may grow only so much until its end */
+
+#define GROWTH 1.25
+#define BESIDE_WIDTH 0.02 /* of d; */
+#define BESIDE_STEP 1e-6  /* of what d moves in a step of the usual length: a kink between exact states */
+
+void kinks_start(zono *z, double longest) {
+  if (z->kinks->usual == 0) z->kinks->usual = longest;
+  for (uint32_t i = 0; i < z->program.tape->ninstr; i++) {
+    kink *k = &z->kinks->of[i];
+    if (!is_kinked(z->program.tape->op[i]) || has_twin(z, i)) continue;
+    k->missed = miss(k, k->lo, k->hi), k->width = 0.5 * (k->hi - k->lo);
+  }
+}
+
+int kinks_fit(const zono *z, double length) {
+  for (uint32_t i = 0; i < z->program.tape->ninstr; i++) {
+    const kink *k = &z->kinks->of[i];
+    if (!is_kinked(z->program.tape->op[i]) || has_twin(z, i)) continue;
+    double least = length > 0 ? BESIDE_STEP * z->kinks->usual * fabs(k->moved) / length : 0;
+    if (miss(k, k->lo, k->hi) > GROWTH * k->missed + BESIDE_WIDTH * k->width + least) return 0;
+  }
+  return 1;
+}
+
+void kinks_note(zono *z) {
+  double length = fabs(z->h), faded = 0.97 * z->kinks->usual;
+  z->kinks->usual = length > faded ? length : faded;
+  for (uint32_t i = 0; i < z->program.tape->ninstr; i++)
+    if (is_kinked(z->program.tape->op[i])) z->kinks->of[i].drift = z->kinks->of[i].moved;
+}
+
+/* -- memory */
+
+static int is_pair(uint32_t op) { return op == AMBIT_OP_MIN || op == AMBIT_OP_MAX; }
+
+/* min(a, b) + max(a, b) = a + b */
+static void find_twins(zono *z) {
+  const ambit_tape *t = z->program.tape;
+  for (uint32_t i = 0; i < t->ninstr; i++) {
+    uint32_t twin = i;
+    for (uint32_t j = 0; j < i && is_pair(t->op[i]) && twin == i; j++) {
+      int same = t->a[i] == t->a[j] && t->b[i] == t->b[j], turned = t->a[i] == t->b[j] && t->b[i] == t->a[j];
+      if (is_pair(t->op[j]) && t->op[j] != t->op[i] && (same || turned)) twin = j;
+    }
+    z->kinks->of[i].twin = twin;
+    if (!z->kinks->may_cross[i]) z->kinks->may_cross[twin] = 0;
+    z->kinks->is_slot[t->dst[i]] = (uint8_t)is_kinked(t->op[i]);
+  }
+}
+
+int kinks_open(zono *z) {
+  const ambit_host *h = z->host;
+  const ambit_tape *t = z->program.tape;
+  kinks *k = z->kinks = h->alloc(h, sizeof *k);
+  if (!k) return 0;
+  k->of = h->alloc(h, (t->ninstr + 1u) * sizeof *k->of);
+  k->may_cross = h->alloc(h, t->ninstr + 1u);
+  k->row = h->alloc(h, z->shape.stride * sizeof(double));
+  k->is_slot = h->alloc(h, t->nslot);
+  if (!k->of || !k->may_cross || !k->row || !k->is_slot) return 0;
+  /* equations must be affine in the unknowns that they are solved for */
+  for (uint32_t i = 0; i < t->ninstr; i++) k->may_cross[i] = !z->program.needed || !z->program.needed[t->dst[i]];
+  find_twins(z);
+  return 1;
+}

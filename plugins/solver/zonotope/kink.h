@@ -1,0 +1,38 @@
+/* kink.h -- abs, min and max: which line stands for each of them in a step, and what it misses. */
+#ifndef ZONOTOPE_KINK_H
+#define ZONOTOPE_KINK_H
+#include "zonotope.h"
+
+typedef struct kink {
+  double slope, offset; /* |d| is about slope d + offset */
+  double lo, hi;        /* d over the step, along the polynomials */
+  double moved, drift;  /* of d's constant in this step, in the last one */
+  double missed, width; /* at the start of the step: by how much the line differs, half width of d */
+  uint32_t twin;        /* an earlier min or max of the same operands, of which this is a + b less; itself: none */
+} kink;
+
+typedef struct kinks {
+  kink *of;           /* [ninstr] */
+  uint8_t *may_cross; /* [ninstr] 0: an equation that is solved for unknowns depends on them through it */
+  double *row;        /* [stride] */
+  double usual;       /* length of steps away from kinks */
+  uint8_t *is_slot;   /* [nslot] of a kinked instruction */
+} kinks;
+
+static inline int is_kinked(uint32_t op) { return op == AMBIT_OP_ABS || op == AMBIT_OP_MIN || op == AMBIT_OP_MAX; }
+
+int kinks_open(zono *z); /* the program is open; 0: no memory */
+/* phase 1: order k of instruction i */
+void kink_row(zono *z, uint32_t i, uint32_t k);
+static inline int has_twin(const zono *z, uint32_t i) { return z->kinks->of[i].twin != i; }
+/* what the result is of its operands: a and b times these, plus a constant */
+void kink_shares(const zono *z, uint32_t i, double *a, double *b);
+/* phase 2: by how much the result differs over the step; rounding: of its rows, if they are no copies */
+double kink_defect(zono *z, uint32_t i, double rounding, double length);
+/* by how much more along values of the operand that are at most `distance` away; < 0: the kink may not be crossed */
+double kink_second(const zono *z, uint32_t i, double distance);
+void kinks_start(zono *z, double longest); /* defects are those of length 0; the longest step that may be tried */
+/* are defects over this length, the last that were found, small enough? No proof depends on it. */
+int kinks_fit(const zono *z, double length);
+void kinks_note(zono *z); /* the step is done */
+#endif
