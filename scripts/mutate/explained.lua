@@ -113,4 +113,6 @@ return {
     "a limit of time and memory: what is multiplied out is right whatever its length",
   ["framework/graph/tail_value.c | guard 1 | if (!(floor > 0)) return INFINITY;"] =
     "a floor of 0 then gives 0/0, which claims nothing either",
+  ["plugins/solver/lohner/start.c | unit 1 | return i < s->nx ? o->rad[i] > THIN * fabs(o->mid[i]) + 0x1p-1000 : o->rad[i] > 0;"] =
+    "which boxes get a column of their own: either way all of the box is in the set",
 }

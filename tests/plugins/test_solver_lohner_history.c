@@ -157,6 +157,39 @@ static void rounding_is_paid_for(void **unused) {
   }
 }
 
+/* what products lose that are below the smallest number: heavy columns make more of it than one rounding */
+static void underflow_is_paid_for(void **unused) {
+  (void)unused;
+  rig r;
+  enum { N = 3 };
+  double M[N * N], before[N * N], rest[N], pad[N] = { 0 }, box[N] = { 1e6, 2e6, 3e6 };
+  open_rig(&r, N, 8);
+  ambit_rounding old = ambit_round_up();
+  push(&r.g, box);
+  random_matrix(&r, M);
+  for (uint32_t i = 0; i < N * N; i++) M[i] *= 0x1p-500;
+  sum(&r.g, rest);
+  multiply(&r.g, M, rest, pad);
+  for (uint32_t i = 0; i < N; i++)
+    for (uint32_t c = 0; c < N; c++) before[i * N + c] = r.g.direction[i * r.g.pitch + c];
+  random_matrix(&r, M);
+  for (uint32_t i = 0; i < N * N; i++) M[i] *= 0x1p-574;
+  for (uint32_t i = 0; i < N; i++) pad[i] = 0;
+  sum(&r.g, rest);
+  multiply(&r.g, M, rest, pad);
+  ambit_rounding_restore(old);
+  for (uint32_t i = 0; i < N; i++) {
+    long double lost = 0;
+    for (uint32_t c = 0; c < N; c++) {
+      long double exact = 0;
+      for (uint32_t j = 0; j < N; j++) exact += (long double)M[i * N + j] * before[j * N + c];
+      lost += fabsl(exact - r.g.direction[i * r.g.pitch + c]) * r.g.weight[c];
+    }
+    assert_true(lost <= pad[i] && lost > 0x1p-1060L);
+  }
+  close_rig(&r);
+}
+
 /* -- frames */
 
 static AMBIT_WORKER double defect(uint32_t n, const double *Q) { return frame_defect(n, Q); }
@@ -225,6 +258,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(no_point_is_lost),
     cmocka_unit_test(rounding_is_paid_for),
+    cmocka_unit_test(underflow_is_paid_for),
     cmocka_unit_test(frames_are_orthogonal_and_say_how_much),
     cmocka_unit_test(bad_frames_are_seen),
   };
