@@ -3,6 +3,24 @@
 return {
   ["plugins/solver/valencia/slope.c | logic 2 | if (!(b.lo > 0 || a.lo > 0 || a.hi < 0)) return (slopes) { unbounded, unbounded };"] =
     "no interval is on both sides of 0: slopes are unbounded more often, and the enclosure wider",
+  ["plugins/solver/zonotope/close.c | relation 1 | while (x[j] < pivot) j--;"] =
+    "which generators are kept is free: all others go to the box",
+  ["plugins/solver/zonotope/close.c | extremum 1 | sum += u, most = fmax(most, u);"] =
+    "which generators are kept is free: all others go to the box",
+  ["plugins/solver/zonotope/close.c | relation 1 | if (!(p->spread[i] > 0)) p->spread[i] = 1;"] =
+    "which generators are kept is free: all others go to the box",
+  ["plugins/solver/zonotope/error.c | extremum 1 | case AMBIT_OP_COS: return (move) { fmin(1, high[t->aux[i]] + r) * da, 0.5 * da * da };"] =
+    "the larger of two bounds",
+  ["plugins/solver/zonotope/implicit.c | guard 1 | if (!m->has_partial || !m->changed || !m->stage_at) return 0;"] =
+    "memory that ran out for one array ran out for the next",
+  ["plugins/solver/zonotope/implicit.c | logic 1 | return m->partial && m->change && m->factor && m->inverse && m->y;"] =
+    "memory that ran out for one array ran out for the next",
+  ["plugins/solver/zonotope/range.c | term 1 | if (z->h_error > 0) more += z->h_error * (p->high[slot_out(z)[i]] + p->delta[slot_out(z)[i]]);"] =
+    "half a unit in the last place of the step: less than what is charged beside it for rounding of the form",
+  ["plugins/solver/zonotope/run.c | unit 1 | int at_goal = !(fabs(h) < fabs(goal - z->t) * (1 - 0x1p-40));"] =
+    "a further step of less than 2^-40 of the last one: the same proof",
+  ["plugins/solver/zonotope/run.c | unit 1 | z->h_error = 0x1p-52 * fabs(z->h);"] =
+    "half a unit in the last place of the step: less than what is charged beside it for rounding of the rows' sums",
   ["plugins/solver/valencia/faces.c | bound 1 | int largest = upper == (s->half.hi > 0);"] =
     "both ends of half a step have the same sign",
   ["plugins/solver/valencia/terms.c | logic 3 | if (!t->exponent || !t->parent || !t->sample || !t->q || !t->r) return 0;"] =
