@@ -248,4 +248,25 @@ end } }
     assert.is_true(run.x.angle:width() < 1e-12) -- the mass cancels
     assert.is_true(math.abs(run.x.angle:mid() - 0.01 * math.cos(math.sqrt(9.81))) < 1e-6)
   end)
+
+  it("takes elements in C that are not Ambit's own, in implicit form", function()
+    -- pressed against the stop of tests/kit/kink_element.c all the time, its drag 0: m x'' = -k (x + 1)
+    local m = ambit.mechanism { "slide" }
+    local at, joint = m:prismatic { from = m.world, axis = "x", name = "x" }
+    m:point_mass { at = at, mass = between("0.9", "1.1") }
+    m:kink { joint = joint, stiffness = "0.01", stop = -1, drag = 0 }
+    local run = ambit.simulate { m:dynamics(), initial = { x = between("0.99", "1.01"), ["x'"] = "0.3" }, t = { 0, 2 },
+      solver = "zonotope" }
+    assert.equal("complete", run.status)
+    local lo, hi = math.huge, -math.huge
+    for _, x0 in ipairs { 0.99, 1.01 } do
+      for k = 0, 20 do
+        local w = math.sqrt(0.01 / (0.9 + 0.01 * k))
+        local x = (x0 + 1) * math.cos(2 * w) + 0.3 / w * math.sin(2 * w) - 1
+        lo, hi = math.min(lo, x), math.max(hi, x)
+        assert.is_true(run.x.x:contains(x))
+      end
+    end
+    assert.is_true(run.x.x:width() <= 1.02 * (hi - lo))
+  end)
 end)
