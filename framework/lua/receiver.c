@@ -37,6 +37,7 @@ static int32_t emit(ambit_sink *s, const ambit_record *record) {
 
 static int32_t progress(ambit_sink *s, double done, const char *message) {
   ambit_receiver *r = (ambit_receiver *)(void *)s;
+  if (!r->track) r->pace.t = done; /* of a silent receiver, the whole is 1 */
   ambit_progress_draw(&r->progress, done, message);
   return is_to_stop(r);
 }
@@ -56,7 +57,7 @@ ambit_receiver ambit_receiver_push(lua_State *L, size_t nx, const char *const *n
 }
 
 ambit_receiver ambit_receiver_silent(void) {
-  return (ambit_receiver) { .sink = { sizeof(ambit_sink), NULL, progress } };
+  return (ambit_receiver) { .sink = { sizeof(ambit_sink), NULL, progress }, .pace = { .last = 1 } };
 }
 
 void ambit_receiver_begin(lua_State *L, ambit_receiver *r) {

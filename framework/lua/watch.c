@@ -76,12 +76,12 @@ static void push_outcome(
   set_flag(L, "impossible", result->status == AMBIT_DOMAIN);
 }
 
-/* watch(as simulate, {g}, {name}, {kind}, {unknown}, {lo}, {hi}, cuts [, {limit}, {rivals} [, threads [, last]]]) ->
-** {finding},
+/* watch(as simulate, {g}, {name}, {kind}, {unknown}, {lo}, {hi}, cuts [, {limit}, {rivals} [, threads [, last
+** [, patience]]]]) -> {finding},
 ** {status, reason, t_reached, rigorous, impossible: no solution meets the constraints, gave_up: a limit is exceeded},
 ** report */
 static int watch(lua_State *L) {
-  lua_settop(L, 18);
+  lua_settop(L, 19);
   ambit_simulate_request q = ambit_lua_simulate_request(L);
   ambit_watch_request request = { .system = q.system, .cuts = (uint32_t)luaL_checkinteger(L, 14) };
   request.initial = q.initial;
@@ -91,6 +91,7 @@ static int watch(lua_State *L) {
   request.condition = conditions(L, &request.ncondition);
   read_box(L, &request, &q);
   ambit_receiver to = ambit_receiver_silent();
+  to.pace.patience = luaL_optnumber(L, 19, 0);
   request.outer = &to.sink;
   ambit_watch_finding *finding = lua_newuserdatauv(L, (request.ncondition + 1) * sizeof *finding, 0);
   ambit_simulate_result result = { 0 };

@@ -11,6 +11,7 @@ local LOOSE = 1.5       -- times the sampled hull: what is wider is worth anothe
 local TIGHT = 1.2       -- ... and from what is not, another one can go on
 local PATIENCE = 2      -- s of CPU time after which it is asked whether the end is in reach
 local MORE, LEAST = 10, 5 -- CPU time of a further solver: so many times that of the first, and so many seconds
+local PIECES = { 8, 64 } -- into which the data are cut where every solver fails
 local DRAWS, MOST = 8, 128 -- draws of the hull for each datum, and at most
 local VISIBLE = 1e-6    -- width of a hull, in parts of its state, below which it is mostly rounding
 local SHARE = 0.01      -- of a state's widest hull, below which its width at a time does not matter
@@ -177,6 +178,54 @@ local function may_go_on(run, was_limit)
   return run.status == "complete" or run.status == "unable" or run.status == "stopped" and was_limit
 end
 
+-- One after the other of the ways to go on, each within `limit` s: -> the best run, and is it good? try.left: the
+-- fields of the request that differ.
+local function try_all(state, ways)
+  for try in ways do
+    local left, from = try.left or {}, try.from
+    local last = state.tried[#state.tried]
+    core.record("way_back", { "solver", try.solver, "pieces", try.pieces, "t", from and from.t_reached
+      or state.q.times[1], "after", last.solver, "because", last.outcome })
+    local run
+    local was_limit = choice.within(state.limit, function()
+      left.patience = PATIENCE
+      run = state.ask(try, left)
+    end)
+    if from then run = joined(from, run, state.q) end
+    local good = judge(run, state.q, state.hull)
+    state.tried[#state.tried + 1] = { solver = try.solver, pieces = try.pieces, outcome = describe(run) }
+    local better = is_better(run, state.best)
+    if better then state.best, state.by = run, try end
+    if good or not may_go_on(run, was_limit) then return true end
+    if try.pieces and not better then return false end
+  end
+  return false
+end
+
+-- The next best solvers, the first of which goes on from what the run reached, if that is tight.
+local function other_solvers(state)
+  local next_one = choice.proving(state.q.suggestion.others)
+  local from = goes_on(state.best, state.q) and state.best or nil
+  return function()
+    local other = next_one()
+    if not other then return nil end
+    local try = { solver = other.solver, reason = other.reason, from = from, left = from and rest_of(state.q, from) }
+    from = nil
+    return try
+  end
+end
+
+-- The best solver until now, with the data that matter most cut.
+local function cut_data(state)
+  local i = 0
+  return function()
+    i = i + 1
+    local n = not state.q.events and PIECES[i]
+    return n and { solver = state.by.solver, pieces = n, left = { pieces = n },
+      reason = ("%s; the data are cut into %d parts, since whole they get too wide"):format(state.by.reason, n) }
+  end
+end
+
 -- q: a request with a suggestion; ask({ solver, reason }, changes) -> its run. changes: what is not as in the request.
 function choice.solve(q, ask)
   local others = q.suggestion.others
@@ -184,27 +233,12 @@ function choice.solve(q, ask)
   local hull = {}
   if judge(first, q, hull) or #others == 0 or not may_go_on(first) then return first end
   if q.run_options.pieces or q.run_options.unknown or is_beyond(first, q) then return first end
-  local best, tried = first, { { solver = first.solver, outcome = describe(first) } }
-  local limit = math.max(LEAST, MORE * first.cpu_seconds)
-  local from = goes_on(first, q) and first or nil
-  for other in choice.proving(others) do
-    local left = from and rest_of(q, from) or {}
-    core.record("way_back", { "solver", other.solver, "t", from and from.t_reached or q.times[1], "after",
-      tried[#tried].solver, "because", tried[#tried].outcome })
-    local run
-    local was_limit = choice.within(limit, function()
-      left.patience = PATIENCE
-      run = ask(other, left)
-    end)
-    if from then run = joined(from, run, q) end
-    from = nil
-    local good = judge(run, q, hull)
-    tried[#tried + 1] = { solver = other.solver, outcome = describe(run) }
-    if is_better(run, best) then best = run end
-    if good or not may_go_on(run, was_limit) then break end
-  end
-  best.tried = tried
-  return best
+  local state = { q = q, ask = ask, hull = hull, best = first, by = q.suggestion,
+    limit = math.max(LEAST, MORE * first.cpu_seconds),
+    tried = { { solver = first.solver, outcome = describe(first) } } }
+  if not try_all(state, other_solvers(state)) and first.report.unknowns > 0 then try_all(state, cut_data(state)) end
+  state.best.tried = state.tried
+  return state.best
 end
 
 return choice

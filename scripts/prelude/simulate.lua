@@ -188,7 +188,8 @@ local function asking(t, q)
     local own = other.solver == q.solver and q or q.by(other.solver)
     if next(changes) then own = setmetatable(changes, { __index = own }) end
     if changes.patience then
-      own.run_options = setmetatable({ patience = changes.patience }, { __index = q.run_options })
+      local more = { patience = changes.patience, pieces = changes.pieces }
+      own.run_options = setmetatable(more, { __index = q.run_options })
     end
     if other.solver ~= q.solver then event.request(t.events, own) end
     local run = verb.solve(own)

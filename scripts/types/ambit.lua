@@ -441,7 +441,7 @@ function ambit.evaluate(t) end
 ---@field solver_reason string why this one was taken
 ---@field overestimate number? estimate, not proved: widest enclosure by the hull of samples; nil: no uncertain data
 ---@field parts { solver: string, t_from: number, t: number }[] which solver made which part
----@field tried { solver: string, outcome: string }[]? who was asked, if the first choice was not good enough
+---@field tried { solver: string, pieces: integer?, outcome: string }[]? who was asked, if the first choice was not good enough
 ---@field arithmetic string
 ---@field rigorous boolean are these proved enclosures?
 ---@field states string[]

@@ -117,3 +117,27 @@ describe("a run of the solver that suits", function()
     assert.is_true(#run.events >= 1 and run.events[1].name == "low")
   end)
 end)
+
+describe("verify", function()
+  it("asks another solver where the first is open, and ends one that makes no way", function()
+    local o = ambit.ode { states = { "x", "v" }, equations = function(s) return { s.v, -s.x - s.v / 10 } end }
+    local asked, watch, own = {}, core.watch, suggest.solver
+    core.watch = function(s, solver, ...) -- luacheck: ignore
+      local findings, outcome, report = watch(s, solver, ...)
+      assert.equal(2, (select(17, ...))) -- patience
+      if solver == "taylor_model" then outcome.status = "unable" findings[1].holds = false findings[1].hi = math.huge end
+      asked[#asked + 1] = solver
+      return findings, outcome, report
+    end
+    suggest.solver = function() -- luacheck: ignore
+      return { solver = "taylor_model", reason = "first", others = { { solver = "zonotope", reason = "next", score = 1 } } }
+    end
+    local good, report = pcall(ambit.verify, { o, initial = { ambit.around(1, "1%"), 0 }, t = { 0, 3 },
+      safe = function(s) return s.x - "1.02" end })
+    core.watch, suggest.solver = watch, own
+    assert(good, report)
+    assert.equal("proved", report.status)
+    assert.equal("zonotope", asked[#asked])
+    assert.equal("taylor_model", asked[1])
+  end)
+end)

@@ -5,7 +5,9 @@ local LARGE = 12    -- ... or states from which on polynomials without generator
 local BENT = 1e-7   -- with so much bend, or width where the bend was not seen, lose what the data share
 local LOOPS = 0.015 -- width of data up to which closed loops are as good without their constraints at each step
 local CLEAR = 1e-5  -- bend from which on linear maps are wider, also of few data,
-local WIDE = 0.02   -- and up to which few generators hold what polynomials of higher degree would
+local WIDE = 0.02   -- and up to which few generators hold what polynomials of higher degree would;
+local WIDEST = 0.2  -- of more than FEW data, in which such polynomials are slow
+local FEW = 3
 local SEEN = 0.5    -- part of the run up to which ordinary runs must come to tell the bend
 
 return function(f)
@@ -20,7 +22,7 @@ return function(f)
   if bent and many and (f.invariants == 0 or f.width <= LOOPS) then
     return 0.9, ("%d uncertain data and %d states: what they have in common is kept"):format(f.unknowns, f.states)
   end
-  if f.invariants == 0 and f.unknowns > 0 and f.bend > CLEAR and f.bend < WIDE then
+  if f.invariants == 0 and f.unknowns > 0 and f.bend > CLEAR and f.bend < (f.unknowns > FEW and WIDEST or WIDE) then
     return 0.85, ("the data bend the solution by %.2g %% of its size, which low degrees follow"):format(100 * f.bend)
   end
   return f.unknowns > 0 and 0.55 or 0.3, "what the data have in common is kept"

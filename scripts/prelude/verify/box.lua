@@ -10,6 +10,7 @@ local core = require "ambit.core"
 
 local box = {}
 
+local PATIENCE = 2 -- s of CPU time after which a run that makes no way ends, where other solvers can be asked
 local CUTS = 64 -- in time, for a condition in a step of a run
 
 -- What a run watches: each condition and, where it is carried as a state, that state behind all of them.
@@ -47,8 +48,8 @@ function box.run(job, b)
   job.runs = job.runs + 1
   local g, names, kinds, of = watched(job)
   local findings, outcome, report = core.watch(q.system.system, q.solver, q.arithmetic, q.options,
-    q.arithmetic_options, q.initial, job.times, g, names, kinds, job.unknowns, b.lo, b.hi, CUTS, nil,
-    nil, nil, job.asked.times.last)
+    q.arithmetic_options, q.initial, job.times, g, names, kinds, job.unknowns, b.lo, b.hi, CUTS, nil, nil, nil,
+    job.asked.times.last, #job.others > 0 and PATIENCE or nil)
   job.report = job.report or report
   code.refuse_broken(outcome)
   job.stopped = outcome.status == "stopped"
