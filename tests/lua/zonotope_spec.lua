@@ -55,6 +55,42 @@ describe("zonotope", function()
     check(second.x, x0s, ws, 3, 0.02)
   end)
 
+  it("holds terms of degree 4 in the data, which cancel between products and change within a step", function()
+    local function hold(rates, initial, exact, t)
+      local names = {}
+      for name in pairs(initial) do names[#names + 1] = name end
+      table.sort(names)
+      local run = ambit.simulate { ambit.ode { states = names, parameters = { p = between("0.5", "1.5") },
+        equations = rates }, initial = initial, t = { 0, t }, solver = "zonotope" }
+      assert.equal("complete", run.status)
+      local lo, hi = math.huge, -math.huge
+      for k = 0, 20 do
+        local value = exact(0.5 + k / 20)
+        lo, hi = math.min(lo, value), math.max(hi, value)
+        assert.is_true(run.x.w.lo <= value + 1e-13 and value - 1e-13 <= run.x.w.hi)
+      end
+      return run.x.w:width() / (hi - lo)
+    end
+    for _, t in ipairs { 1, -1 } do
+      local wider = hold(function(_, q)
+        local a = q.p * q.p
+        return { w = a * a - (0.5 - a * q.p) * q.p }
+      end, { w = 0 }, function(p) return (2 * p ^ 4 - 0.5 * p) * t end, t)
+      assert.is_true(wider < 1.1)
+      hold(function(s, q)
+        local u = s.u * s.u
+        return { u = q.p, w = u * u }
+      end, { u = 1, w = 0 }, function(p) return ((1 + p * t) ^ 5 - 1) / (5 * p) end, t)
+      hold(function(s, q)
+        local u = s.u * s.u
+        return { u = -q.p * s.u, w = u * u - s.w }
+      end, { u = 1, w = 0 }, function(p) return (math.exp(-t) - math.exp(-4 * p * t)) / (4 * p - 1) end, t)
+      wider = hold(function(s, q) return { u = 1, w = q.p * (s.u * s.w) * q.p } end, { u = 0, w = 1 },
+        function(p) return math.exp(p * p * t * t / 2) end, t)
+      assert.is_true(wider < 1.1)
+    end
+  end)
+
   it("finds events in time", function()
     local run = ambit.simulate(question { events = { { name = "zero", g = function(s) return s.x end } } })
     assert.equal(1, #run.events)

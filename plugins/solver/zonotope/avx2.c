@@ -2,6 +2,9 @@
 #if defined(__x86_64__)
 #define VARIANT sum_avx2
 #include "sum.h"
+#define MULTIPLY quartic_avx2
+#define ADD add_avx2
+#include "multiply.h"
 #else
 typedef int nothing_here;
 #endif

@@ -1,13 +1,12 @@
 /* close.c -- the set at the end of the step.
 **
 ** x(h) = Y(xi) + Y_eps eps + sum_j xi_j Y_j eps + z(h). Old generators move with Y_eps / E; what the mixed terms do to
-** them is bounded column by column and put into a box, with rounding. Each lump is two new generators (kernel.c): one
-** symbol for all states. What K and C vary by besides goes into the box. Then generators are reduced [Girard 2005]: in
-** units of the states' sizes, the columns that are nearest to an axis, or shortest, become a box.
+** them is bounded column by column and put into a box, with rounding. What z(h) adds is in distance.c. Then generators
+** are reduced [Girard 2005]: in units of the states' sizes, the columns that are nearest to an axis, or shortest,
+** become a box.
 */
 #include "proof.h"
-
-static double *box(const zono *z, enum origin from, uint32_t i) { return z->proof->boxes + from * z->nx + i; }
+#include "quartic.h"
 
 /* -- the polynomials */
 
@@ -42,18 +41,24 @@ static void turn(zono *z) {
   }
 }
 
-/* sum over columns of |y G / E| */
-static double through(const zono *z, const double *y, double *to) {
+/* to := y G / E, column by column */
+static void through(const zono *z, const double *y, double *to) {
   const proof *p = z->proof;
   uint32_t n = z->ngen;
-  double sum = 0;
   memset(to, 0, n * sizeof *to);
   for (uint32_t k = 0; k < z->nx; k++) {
     const double *from = p->turned + (size_t)k * n;
     if (y[k] == 0) continue;
     for (uint32_t c = 0; c < n; c++) to[c] += y[k] * from[c];
   }
-  for (uint32_t c = 0; c < n; c++) sum += fabs(to[c]);
+}
+
+double close_through(const zono *z, const double *y) {
+  double *to = z->proof->turned + (size_t)z->nx * z->ngen, sum = 0;
+  through(z, y, to);
+  for (uint32_t c = 0; c < z->ngen; c++) sum += fabs(to[c]);
+  for (uint32_t k = 0; k < z->nx; k++)
+    if (z->E[k] > 0) sum += fabs(y[k]) * quartic_size(z, k) / z->E[k];
   return sum;
 }
 
@@ -67,107 +72,16 @@ static void move_generators(zono *z) {
   for (uint32_t i = 0; i < z->nx; i++) {
     const double *y = p->end + (size_t)i * s->stride;
     double mixed = 0;
-    for (uint32_t j = 0; j < s->mixed; j++) mixed += through(z, y + s->mix + (size_t)j * z->nx, moved);
+    for (uint32_t j = 0; j < s->mixed; j++) mixed += close_through(z, y + s->mix + (size_t)j * z->nx);
+    for (uint32_t k = 0; k < z->nx; k++) p->grow[k] = z->E[k] > 0 ? y[s->eps + k] / z->E[k] : 0;
+    quartic_move(z, i, p->grow);
     through(z, y + s->eps, moved);
     for (uint32_t c = 0; c < z->ngen; c++) p->columns[(size_t)c * z->nx + i] = moved[c];
-    /* E is rounded up, so sums of |G| / E are at most 1 */
+    /* E is rounded up, so sums of |G| / E, with those of terms of degree 4, are at most 1 */
     double rounded = 2 * (z->nx + 4) * UNIT * (row_r(s, y) + row_x(s, y));
     *box(z, FROM_MIXED, i) += mixed * ABOVE;
     *box(z, FROM_START, i) += rounded;
   }
-}
-
-/* -- new generators */
-
-/* x'_i's coefficient of the lump of slot j, and its half width */
-static double weight_of(const zono *z, uint32_t i, uint32_t j) {
-  const proof *p = z->proof;
-  return p->link[i] == LINK_STATE ? 0 : p->C[(size_t)p->link_to[i] * z->nslot + j];
-}
-static double half_width(const zono *z, uint32_t i, uint32_t j) {
-  const proof *p = z->proof;
-  return p->link[i] == LINK_STATE ? 0 : p->dC[(size_t)p->link_to[i] * z->nslot + j];
-}
-
-typedef struct sums {
-  double *centre, *width; /* [nx] of |C_j| rr_j, dC_j rr_j */
-} sums;
-
-static double times(const zono *z, const double *matrix, uint32_t i, const double *c) {
-  double sum = 0;
-  for (uint32_t l = 0; l < z->nx; l++) sum += matrix[(size_t)i * z->nx + l] * c[l];
-  return sum;
-}
-
-/* Two more columns, for the integrals of theta and of theta (2 tau - 1), which is at most half of the bound of the
-** first: h size mean c, h / 2 size tilt c. Returns their number. */
-static uint32_t add_lump(zono *z, uint32_t at, double size, const double *c, const sums *sum, enum origin from) {
-  proof *p = z->proof;
-  uint32_t nx = z->nx;
-  double *mean = p->columns + (size_t)at * nx, *tilt = mean + nx, any = 0, tilted = 0;
-  for (uint32_t i = 0; i < nx; i++) any += fabs(c[i]), sum->centre[i] += fabs(c[i]) * size;
-  if (any == 0) return at;
-  for (uint32_t i = 0; i < nx; i++) {
-    mean[i] = z->h * size * times(z, p->mean, i, c);
-    tilt[i] = 0.5 * z->h * size * times(z, p->tilt, i, c);
-    tilted += fabs(tilt[i]);
-  }
-  p->origin[at] = p->origin[at + 1] = (uint8_t)from;
-  return at + 1 + (tilted > 0);
-}
-
-static enum origin origin_of(const zono *z, uint32_t j) {
-  double r = z->r[j], square = z->rr[j] - r, late = z->proof->late[j];
-  return square > r ? FROM_SQUARE : 2 * late > r ? FROM_TIME : FROM_DEGREE;
-}
-
-static uint32_t add_lumps(zono *z, uint32_t at, const sums *sum) {
-  proof *p = z->proof;
-  uint32_t nx = z->nx;
-  double *c = p->grow;
-  for (uint32_t j = 0; j < z->nslot; j++) {
-    if (z->rr[j] == 0) continue;
-    for (uint32_t i = 0; i < nx; i++) c[i] = weight_of(z, i, j), sum->width[i] += half_width(z, i, j) * z->rr[j];
-    at = add_lump(z, at, z->rr[j], c, sum, origin_of(z, j));
-  }
-  for (uint32_t q = 0; q < z->na; q++) {
-    double size = z->rr_out[nx + q];
-    for (uint32_t i = 0; i < nx; i++) {
-      size_t n = p->link[i] == LINK_STATE ? 0 : (size_t)p->link_to[i] * z->na + q;
-      c[i] = p->link[i] == LINK_STATE ? 0 : p->L[n];
-      sum->width[i] += p->link[i] == LINK_STATE ? 0 : p->dL[n] * size;
-    }
-    at = add_lump(z, at, size, c, sum, FROM_START);
-  }
-  for (uint32_t l = 0; l < nx; l++) {
-    for (uint32_t i = 0; i < nx; i++) c[i] = i == l;
-    at = add_lump(z, at, z->rr_out[l], c, sum, FROM_TIME);
-  }
-  return at;
-}
-
-/* generators and the box of what they do not hold; returns the number of columns */
-static uint32_t add_distance(zono *z, uint32_t at) {
-  proof *p = z->proof;
-  uint32_t nx = z->nx;
-  sums sum = { p->work, p->work + nx };
-  memset(p->work, 0, 3 * nx * sizeof(double));
-  at = add_lumps(z, at, &sum);
-  double *square = p->work + 2 * (size_t)nx;
-  for (uint32_t i = 0; i < nx; i++)
-    for (uint32_t j = 0; j < nx; j++) square[i] += p->dJ[(size_t)i * nx + j] * p->zeta[j];
-  for (uint32_t i = 0; i < nx; i++) {
-    double kernel = 0, slope = 0, second = 0, size = 0;
-    for (uint32_t l = 0; l < nx; l++) {
-      double reach = p->reach[(size_t)i * nx + l];
-      kernel += p->wobble[(size_t)i * nx + l] * sum.centre[l];
-      slope += reach * sum.width[l], second += reach * square[l], size += reach * sum.centre[l];
-    }
-    *box(z, FROM_KERNEL, i) += (kernel + 4 * (nx + 4) * UNIT * size) * ABOVE;
-    *box(z, FROM_SLOPE, i) += slope * ABOVE;
-    *box(z, FROM_JACOBIAN, i) += second * ABOVE;
-  }
-  return at;
 }
 
 /* -- reduction */
@@ -268,7 +182,7 @@ static void find_sizes(zono *z) {
   for (uint32_t i = 0; i < z->nx; i++) {
     double sum = 0;
     for (uint32_t c = 0; c < z->ngen; c++) sum += fabs(z->G[(size_t)c * z->nx + i]);
-    z->E[i] = sum * ABOVE;
+    z->E[i] = (sum + quartic_size(z, i)) * ABOVE;
   }
 }
 
@@ -278,7 +192,8 @@ void zono_finish(zono *z) {
   memset(p->boxes, 0, ORIGINS * (size_t)z->nx * sizeof(double));
   find_end(z);
   move_generators(z);
-  uint32_t n = add_distance(z, z->ngen);
+  uint32_t n = distance_add(z, z->ngen);
+  quartic_finish(z);
   reduce(z, n);
   for (uint32_t i = 0; i < z->nx; i++) {
     double *to = z->P + (size_t)i * s->stride;

@@ -1,5 +1,6 @@
 /* memory.c -- what phase 2 needs, all at once, and how each x' is found. */
 #include "proof.h"
+#include "quartic.h"
 
 static int doubles(const ambit_host *h, size_t n, double **to) {
   *to = h->alloc(h, (n ? n : 1) * sizeof(double));
@@ -89,23 +90,24 @@ static int open_targets(zono *z) {
 static int open_states(zono *z) {
   proof *p = z->proof;
   const ambit_host *h = z->host;
-  size_t nx = z->nx, square = nx * nx, columns = z->ngen_max + 2 * ((size_t)z->nslot + z->nout) + nx;
+  size_t nx = z->nx, square = nx * nx, columns = z->ngen_max + 2 * ((size_t)z->nslot + z->nout + nx) + nx;
   double **matrix[] = { &p->J, &p->dJ, &p->mean, &p->tilt, &p->reach, &p->wobble, &p->power, &p->power_new, &p->size,
     &p->size_new, &p->jacobian_size };
   for (size_t n = 0; n < sizeof matrix / sizeof *matrix; n++)
     if (!doubles(h, square, matrix[n])) return 0;
   return doubles(h, nx, &p->zeta) && doubles(h, nx, &p->zeta_new) && doubles(h, z->na, &p->alpha) &&
-         doubles(h, z->na, &p->alpha_new) && doubles(h, nx, &p->grow) && doubles(h, ORIGINS * nx, &p->boxes) &&
-         doubles(h, nx, &p->spread) && doubles(h, nx, &p->unit) && doubles(h, 4 * (nx + z->na), &p->work) &&
-         doubles(h, columns * nx, &p->columns) && doubles(h, (z->ngen_max + nx) * (nx + 1), &p->turned) &&
-         doubles(h, columns, &p->score) && (p->origin = h->alloc(h, columns + 1)) != NULL &&
-         (p->from = h->alloc(h, z->ngen_max + nx + 1)) != NULL && doubles(h, 2 * z->shape.m, &p->range) &&
-         doubles(h, columns, &p->sorted);
+         doubles(h, z->na, &p->alpha_new) && doubles(h, nx, &p->grow) && doubles(h, nx, &p->grow_path) &&
+         doubles(h, ORIGINS * nx, &p->boxes) && doubles(h, nx, &p->spread) && doubles(h, nx, &p->unit) &&
+         doubles(h, 4 * (nx + z->na), &p->work) && doubles(h, columns * nx, &p->columns) &&
+         doubles(h, (z->ngen_max + nx) * (nx + 1), &p->turned) && doubles(h, columns, &p->score) &&
+         (p->origin = h->alloc(h, columns + 1)) != NULL && (p->from = h->alloc(h, z->ngen_max + nx + 1)) != NULL &&
+         doubles(h, 2 * z->shape.m, &p->range) && doubles(h, columns, &p->sorted);
 }
 
 int zono_open_proof(zono *z) {
   proof *p = z->proof = z->host->alloc(z->host, sizeof *p);
   if (!p || !open_slots(z) || !open_targets(z) || !open_states(z)) return 0;
+  if (!quartic_open(z)) return 0;
   slope_open(p->gap);
   if ((z->problem.wish & AMBIT_WISH_DENSE) && z->nx && !dense_open(z)) return 0;
   return !(z->problem.wish & AMBIT_WISH_SET) || !z->nx || set_open(z);

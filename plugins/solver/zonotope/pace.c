@@ -1,13 +1,13 @@
 /* pace.c -- the length of a step and the order in time, by need.
 **
 ** What the lumps add to each state per second, weighed with coefficients at the set's centre, is rate_i(h). It starts
-** from what rows drop at order 0 and grows with h. A step is the longest over which it at most doubles, but for what is
-** negligible beside the state's motion and beside its set. No proof depends on anything here.
+** from what rows drop at order 0 and grows with h. A step is the longest over which it grows by half at most, but for
+** what is negligible beside the state's motion and beside its set. No proof depends on anything here.
 */
 #include "kink.h"
 #include "proof.h"
 
-#define GROWTH 2.0
+#define GROWTH 1.5
 #define TRIES 60
 #define REFINE 4
 #define BESIDE_SET 1e-5     /* share of the set that truncation may add in a step */

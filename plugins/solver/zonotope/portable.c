@@ -1,3 +1,6 @@
 /* portable.c -- sums of rows for every machine. */
 #define VARIANT sum_portable
 #include "sum.h"
+#define MULTIPLY quartic_portable
+#define ADD add_portable
+#include "multiply.h"

@@ -63,21 +63,22 @@ typedef struct proof {
   double *input;             /* [nin] */
   double *mean, *tilt, *reach, *wobble;                        /* [nx x nx] of K(s) = e^(J (h - s)), see kernel.c */
   double *power, *power_new, *size, *size_new, *jacobian_size; /* [nx x nx] */
-  double *grow;                                                /* [nx] per state: sums for bounds */
+  double *grow, *grow_path;                                    /* [nx] per state: sums for bounds */
   double *columns;                                             /* [(ngen_max + 2 (nslot + nout) + nx) x nx] */
-  double *turned;         /* [nx x (ngen_max + 4)] old generators, state by state */
-  double *score, *sorted; /* one of each column */
-  double *end;            /* [nx x stride] rows at the end of the step */
-  double *spread;         /* [nx] sizes of states' sets, for weights */
-  double *unit;           /* [nx] of the states, for norms */
-  double *work;           /* [4 nx + na] */
-  double rho_before;      /* of a longer step that was tried; 0: none */
-  uint32_t patience;      /* steps that are not halved for it */
-  int prepared;           /* total and drop are those of the rows */
-  double *boxes;          /* [ORIGINS x nx] what goes into the box */
-  uint8_t *origin, *from; /* of columns, of z->G */
-  double *late;           /* [nslot] what of z->r is FROM_TIME */
-  double *range;          /* [2 m] */
+  double *turned;          /* [nx x (ngen_max + 4)] old generators, state by state */
+  double *score, *sorted;  /* one of each column */
+  double *end;             /* [nx x stride] rows at the end of the step */
+  double *spread;          /* [nx] sizes of states' sets, for weights */
+  double *unit;            /* [nx] of the states, for norms */
+  double *work;            /* [4 nx + na] */
+  double rho_before;       /* of a longer step that was tried; 0: none */
+  uint32_t patience;       /* steps that are not halved for it */
+  int prepared;            /* total and drop are those of the rows */
+  double *boxes;           /* [ORIGINS x nx] what goes into the box */
+  uint8_t *origin, *from;  /* of columns, of z->G */
+  struct quartic *quartic; /* quartic.c */
+  double *late;            /* [nslot] what of z->r is FROM_TIME */
+  double *range;           /* [2 m] */
   /* records */
   double *dense_mid, *dense_rad, *dense_column;
   ambit_set set;
@@ -101,8 +102,14 @@ int slope_forms(zono *z, const sweeps *w, double h);
 /* set.c, dense.c; 0: no memory */
 int set_open(zono *z);
 int dense_open(zono *z);
+/* close.c: a bound of sum_k y_k eps_k, column by column; after old generators were moved */
+double close_through(const zono *z, const double *y);
+/* distance.c: columns from number `at` on, and the box of what they do not hold; returns the number of columns */
+uint32_t distance_add(zono *z, uint32_t at);
 /* kernel.c: mean, reach, wobble from J and |h|; 0: too long */
 int kernel_find(zono *z);
 
+/* what goes into the box */
+static inline double *box(const zono *z, enum origin from, uint32_t i) { return z->proof->boxes + from * z->nx + i; }
 static inline double *proof_form(const sweeps *w, double *array, size_t n) { return array + n * w->forms.stride; }
 #endif
