@@ -12,7 +12,8 @@ local TRIED = 0.15 -- score from which on a solver is tried where better ones fa
 
 local known = {} -- rules by file, read once; false: there is none
 
--- The rule of the solver whose shared library is `file`, or nil. It sees numbers and texts only.
+-- The rule of the solver whose shared library is `file`, or nil. It sees numbers and texts only, and as one of Ambit's
+-- own modules (by the name of its chunk) methods of strings that a scene cannot change.
 local function rule_of(file)
   local path = file:gsub("%.so$", "") .. ".lua"
   if known[path] ~= nil then return known[path] or nil end
@@ -23,7 +24,7 @@ local function rule_of(file)
   source:close()
   local problem = core.distrusted(path)
   if problem then check.fail("%s: %s", path, problem) end
-  local chunk, wrong = load(text, "@" .. path, "t", { math = math })
+  local chunk, wrong = load(text, "=(ambit) " .. path, "t", { math = math })
   if not chunk then check.fail("%s", wrong) end
   local suits = chunk()
   if type(suits) ~= "function" then check.fail("%s: expected a file that returns a function of the facts", path) end
