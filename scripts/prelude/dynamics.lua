@@ -93,8 +93,31 @@ end
 -- What holds the mechanism at rest against the field of gravity alone.
 function methods:gravity_torque() return shaped(by_speed(self, core.gravity_torque(self.handle), "W")) end
 
--- The generalised forces of a motion q, q', q''.
-function methods:inverse_dynamics() return shaped(by_speed(self, core.inverse(self.handle), "W")) end
+-- Leaves and values of core.substitute for { name of a coordinate, speed or acceleration = value }.
+local function read_motion(self, t, what)
+  local unit, leaf, leaves, values = {}, {}, {}, {}
+  local function known(name, e, of) leaf[name], unit[name] = e, of end
+  for _, c in ipairs(core.coordinates(self.handle)) do known(c.name, c.q, c.unit) end
+  for _, s in ipairs(core.speeds(self.handle)) do
+    known(s.name, s.u, s.unit)
+    known(s.du_name, s.du, s.unit .. "/s")
+  end
+  check.keys(check.table(t, what), check.sorted(leaf), what)
+  for i, name in ipairs(check.sorted(t)) do
+    leaves[i] = leaf[name]
+    values[i] = core.expression(t[name], unit[name], ("%s: %s"):format(what, name))
+    core.refuse_plain({ values[i] }, ("%s: %s"):format(what, name), true)
+  end
+  return leaves, values
+end
+
+-- The generalised forces of a motion q, q', q''. t: { ["a''"] = value, ... }: what is put in for variables by name, as
+-- a controller does with the accelerations that it wants.
+function methods:inverse_dynamics(t)
+  local list = core.inverse(self.handle)
+  if t ~= nil then list = core.substitute(list, read_motion(self, t, "inverse_dynamics")) end
+  return shaped(by_speed(self, list, "W"))
+end
 
 -- The accelerations as functions of q, q' and forces named tau_beta1, ...; form: "mass_matrix" | "articulated".
 function methods:forward_dynamics(t)

@@ -73,6 +73,7 @@ local homes = {
   assemble = "assemble",
   dynamics = [[energy power coordinate_names speed_names coordinates mass_matrix generalised_forces bias gravity_torque
     inverse_dynamics forward_dynamics jacobian dynamics]],
+  limit = "limit_excess limit_events limit_stops",
   load = "load link limits tolerances",
   loops = "constraints independent reference redundant multipliers of_states rank",
   measure = [[position orientation velocity angular_velocity acceleration distance relative_pose relative_velocity angle

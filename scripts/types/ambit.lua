@@ -241,6 +241,13 @@ function mechanism:coordinates() end
 ---@param t { [1]: string, unit: string?, rate: ambit.datum|fun(q: table<string, ambit.expression>, x: ambit.expression, t: ambit.expression): ambit.datum }
 ---@return ambit.expression # the state
 function mechanism:state(t) end
+---@return table<string, ambit.expression> # above 0 where a limit of the robot's file is exceeded; for `safe` of verify
+function mechanism:limit_excess() end
+---@return table[] # events of simulate: each limit of the robot's file, where it is passed
+function mechanism:limit_events() end
+---@param t { stiffness: ambit.datum?, slide_stiffness: ambit.datum?, damping: ambit.datum? }
+---@return string[] # joints that are pushed back from now on where they exceed a limit
+function mechanism:limit_stops(t) end
 ---@param joint ambit.frame|ambit.joint
 ---@return ambit.expression
 function mechanism:coordinate(joint) end
@@ -252,8 +259,9 @@ function mechanism:bias() end
 function mechanism:gravity_torque() end
 ---@return ambit.expression[] # h(q, q') of M q'' = h
 function mechanism:generalised_forces() end
+---@param motion? table<string, ambit.datum> what is put in for coordinates, speeds or accelerations, by name
 ---@return ambit.expression[] # tau for given q, q', q''
-function mechanism:inverse_dynamics() end
+function mechanism:inverse_dynamics(motion) end
 ---@param t? { form: "mass_matrix"|"articulated" }
 ---@return ambit.expression[] # q'' for given q, q' and tau_beta1, ...
 function mechanism:forward_dynamics(t) end
