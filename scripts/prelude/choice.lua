@@ -10,7 +10,7 @@ local choice = {}
 local LOOSE = 1.5       -- times the sampled hull: what is wider is worth another solver ...
 local TIGHT = 1.2       -- ... and from what is not, another one can go on
 local PATIENCE = 2      -- s of CPU time after which it is asked whether the end is in reach
-local MORE, LEAST = 10, 5 -- CPU time of a further solver: so many times that of the first, and so many seconds
+local MORE, LEAST = 4, 5 -- CPU time of a further solver: so many times that of the first, and so many seconds
 local PIECES = { 8, 64 } -- into which the data are cut where every solver fails
 local DRAWS, MOST = 8, 128 -- draws of the hull for each datum, and at most
 local VISIBLE = 1e-6    -- width of a hull, in parts of its state, below which it is mostly rounding
@@ -193,7 +193,7 @@ local function try_all(state, ways)
     end)
     if from then run = joined(from, run, state.q) end
     local good = judge(run, state.q, state.hull)
-    state.tried[#state.tried + 1] = { solver = try.solver, pieces = try.pieces, outcome = describe(run) }
+    state.tried[#state.tried + 1] = { solver = try.solver, pieces = try.pieces, outcome = describe(run), run = run }
     local better = is_better(run, state.best)
     if better then state.best, state.by = run, try end
     if good or not may_go_on(run, was_limit) then return true end
@@ -235,10 +235,15 @@ function choice.solve(q, ask)
   if q.run_options.pieces or q.run_options.unknown or is_beyond(first, q) then return first end
   local state = { q = q, ask = ask, hull = hull, best = first, by = q.suggestion,
     limit = math.max(LEAST, MORE * first.cpu_seconds),
-    tried = { { solver = first.solver, outcome = describe(first) } } }
+    tried = { { solver = first.solver, outcome = describe(first), run = first } } }
   if not try_all(state, other_solvers(state)) and first.report.unknowns > 0 then try_all(state, cut_data(state)) end
-  state.best.tried = state.tried
-  return state.best
+  local best = state.best
+  if best.status == "unable" then
+    require "ambit.choice_reason".add(q, best, state.tried, choice.within)
+  end
+  for _, try in ipairs(state.tried) do try.run = nil end
+  best.tried = state.tried
+  return best
 end
 
 return choice

@@ -16,10 +16,11 @@ local function chain(n, tolerance)
 end
 
 -- What suits may change; here lohner is asked first, then zonotope.
-local function with_lohner_first(question)
+local function with_lohner_first(question, other)
   local own = suggest.solver
   suggest.solver = function() -- luacheck: ignore
-    return { solver = "lohner", reason = "first here", others = { { solver = "zonotope", reason = "next", score = 1 } } }
+    local next_one = { solver = other or "zonotope", reason = "next", score = 1 }
+    return { solver = "lohner", reason = "first here", others = { next_one } }
   end
   local good, run = pcall(ambit.simulate, question)
   suggest.solver = own
@@ -106,6 +107,19 @@ describe("a run of the solver that suits", function()
     assert.equal("unable", run.status)
     assert.is_true(run.t_reached < 1 / 0.99)
     assert.is_nil(run.tried)
+  end)
+
+  it("that nobody completes says who was tried, and which narrower data would do", function()
+    local system, initial = chain(2, "1%")
+    local run = with_lohner_first({ system, initial = initial, t = { 0, 1.6 } }, "valencia")
+    assert.equal("unable", run.status)
+    assert.matches("tried besides: `", run.reason)
+    local part = run.reason:match "with data (.-) as wide, `lohner` completes"
+    local percent = ({ half = "0.5%", ["a quarter"] = "0.25%", ["a tenth"] = "0.1%", ["a hundredth"] = "0.01%" })[part]
+    assert.truthy(percent, run.reason)
+    system, initial = chain(2, percent)
+    local narrow = ambit.simulate { system, initial = initial, t = { 0, 1.6 }, solver = "lohner" }
+    assert.equal("complete", narrow.status) -- the advice is true
   end)
 
   it("keeps its events when another goes on", function()
