@@ -103,6 +103,12 @@ add_test(NAME lua.units_of_systems COMMAND ambit run --quiet tests/lua/units_of_
 set_tests_properties(lua.units_of_systems PROPERTIES TIMEOUT 600 ENVIRONMENT "${lua_environment}"
   PASS_REGULAR_EXPRESSION "default: 0 of 12 depend[^\n]*\nlohner: 0 of 12[^\n]*\ntaylor_model: 0 of 12[^\n]*\nzonotope: 0 of 12[^\n]*\nstiff: 0 of 12[^\n]*\nvalencia: 0 of 12")
 
+# Springs and dampers of any stiffness for stiff. `ambit run tests/lua/springs_and_dampers.lua 200` is its full length.
+add_test(NAME lua.springs_and_dampers COMMAND ambit run --quiet tests/lua/springs_and_dampers.lua 30
+  WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+set_tests_properties(lua.springs_and_dampers PROPERTIES TIMEOUT 600 ENVIRONMENT "${lua_environment}"
+  PASS_REGULAR_EXPRESSION "30 springs and dampers, 0 failed\n")
+
 # Motions of random mechanisms. Full length: `ambit run tests/lua/random_mechanisms.lua --mechanisms 200 --draws 500`.
 function(ambit_random_mechanisms name expected)
   add_test(NAME lua.random_mechanisms.${name} COMMAND ambit run --quiet tests/lua/random_mechanisms.lua --joints 4 --data 6

@@ -5,6 +5,7 @@
 ** as corrections do not shrink fast.
 */
 #include "collocation.h"
+#include <float.h>
 #include <string.h>
 
 #define ITERATIONS 25
@@ -23,6 +24,7 @@ int collocation_open(const ambit_host *h, collocation *q) {
   q->c = h->alloc(h, (N + 1) * n * sizeof *q->c);
   q->size = h->alloc(h, m * sizeof *q->size);
   q->least = h->alloc(h, n * sizeof *q->least);
+  q->lost = h->alloc(h, n * sizeof *q->lost);
   q->unit = h->alloc(h, n * sizeof *q->unit);
   q->scale = h->alloc(h, m * sizeof *q->scale);
   q->A = h->alloc(h, N * n * N * n * sizeof *q->A);
@@ -31,8 +33,8 @@ int collocation_open(const ambit_host *h, collocation *q) {
   q->f = h->alloc(h, n * sizeof *q->f);
   q->row = h->alloc(h, N * n * sizeof *q->row);
   for (size_t a = 0; q->least && a < n; a++) q->least[a] = TINY;
-  return q->x && q->Z && q->c && q->size && q->least && q->unit && q->scale && q->A && q->residual && q->J && q->f &&
-         q->row;
+  return q->x && q->Z && q->c && q->size && q->least && q->lost && q->unit && q->scale && q->A && q->residual && q->J &&
+         q->f && q->row;
 }
 
 static void put(const collocation *q, real *r, const long double *y, long double t) {
@@ -84,7 +86,7 @@ static int measure(collocation *q) {
       most = fmaxl(most, fabsl(q->x[a] + q->Z[i * q->nx + a]));
     }
     if (!(most < 1e100L)) return 0;
-    q->size[a] = fmax((double)most, q->least[a]);
+    q->size[a] = fmax((double)most, fmax(q->least[a], q->lost[a]));
     q->unit[a] = (double)moved + SHARE * q->size[a];
     q->scale[a] = (double)moved + SHARE_OF_FRAMES * q->size[a];
   }
@@ -150,9 +152,30 @@ static void to_chebyshev(collocation *q) {
   }
 }
 
+/* What the equations are rounded by at the start of a step moves states by |(I - h J)^-1| h times as much. Where terms
+** cancel (1 - cos t near 0; the speed of an overdamped mass that turns) that is more than the tolerance of a state's
+** size, and no step would be good enough. */
+static void find_lost(collocation *q, double t, double h) {
+  uint32_t n = q->nx;
+  square A, inverse;
+  rate(q, q->x, t);
+  real_terms(q->rhs);
+  slope(q, q->x, t, q->J);
+  for (uint32_t k = 0; k < n * n; k++) A[k] = (k % (n + 1) == 0) - h * q->J[k];
+  memset(q->lost, 0, n * sizeof *q->lost);
+  if (!matrix_inverse(n, A, inverse)) return;
+  for (uint32_t a = 0; a < n; a++) {
+    double sum = 0;
+    for (uint32_t b = 0; b < n; b++)
+      sum += fabs(inverse[a * n + b]) * fabs(h) * real_term(q->rhs, b) * (double)LDBL_EPSILON;
+    q->lost[a] = sum < 1e100 ? sum / (SHARE * q->tolerance) : 0;
+  }
+}
+
 int collocation_solve(collocation *q, double t, double h) {
   double half = 0.5 * h, last = INFINITY;
   int fresh = 1;
+  find_lost(q, t, h);
   if (!predict(q, t, half)) return 0;
   for (int i = 0; i < ITERATIONS; i++) {
     if (!measure(q)) return 0;

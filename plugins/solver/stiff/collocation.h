@@ -25,6 +25,8 @@ typedef struct collocation {
   long double *c;       /* [(N + 1) x nx] Chebyshev coefficients; row 0 is zero */
   double *size;         /* [nx + np] largest |x_i| on the step */
   double *least;        /* [nx] size of a state that is smaller */
+  double *lost;         /* [nx] the same, by what rounding of the equations does to it in the step */
+  double tolerance;     /* of errors relative to units */
   double *unit;         /* [nx] what errors are measured by: how far x_i moves on the step, and a share of its size */
   double *scale;        /* [nx + np] the same with a smaller share: how directions of errors are compared */
   double *A, *residual; /* [nx N x nx N], [nx N] */
@@ -37,9 +39,9 @@ typedef struct collocation {
 int collocation_open(const ambit_host *h, collocation *q);
 /* 0: Newton's method failed */
 int collocation_solve(collocation *q, double t, double h);
-/* States that are at nothing against what they will be by the last time have no digits to be computed to as long as what
-** moves them is lost in rounding: they get a least size from a crude look ahead, in steps from h on, each twice the
-** last. Undone for each by collocation_outgrow. */
+/* States that are at nothing against what they will be by the last time have no digits to be computed to as long as
+** what moves them is lost in rounding: they get a least size from a crude look ahead, in steps from h on, each twice
+** the last. Undone for each by collocation_outgrow. */
 void collocation_look_ahead(collocation *q, double t, double h, double last);
 void collocation_outgrow(collocation *q); /* for states that x holds above their least size */
 /* the matrix of Newton's method at the solution, factored in A and row; its rows and columns are in units */

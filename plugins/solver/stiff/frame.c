@@ -65,7 +65,7 @@ int frame_choose(stiff *s, uint32_t j) {
   r->natural = 0;
   memset(r->still, 0, sizeof r->still);
   const ends e = { n, s->nx, s->q.scale, &s->spectrum[j], &s->spectrum[j + 1], s->rate + (size_t)j * n * n,
-    s->rate + (size_t)(j + 1) * n * n };
+    s->rate + (size_t)(j + 1) * n * n, s->eigen };
   if (!split_choose(&e, &s->carried, p)) return 0;
   uint32_t g = p->slow, f = p->fast;
   square V0, V1, F0, F1, A, inverse, X;
@@ -82,7 +82,7 @@ int frame_choose(stiff *s, uint32_t j) {
     if (l == 0) place(n, g, f, F0, r->U[l]);
     if (l == 1) place(n, g, f, F1, r->U[l]);
   }
-  for (uint32_t i = 0; i < f; i++) r->decay[g + i] = fabs(s->spectrum[j].real[i]);
+  for (uint32_t i = 0; i < f; i++) r->decay[g + i] = p->decay[i];
   enlarge(p, r, n);
   if (!matrix_inverse(n, r->U[0], r->C) || !matrix_inverse(n, r->G, r->Gi)) return 0;
   frame_refine(s);

@@ -96,6 +96,25 @@ double matrix_row_sum_norm(size_t rows, size_t cols, const double *a) {
   return most;
 }
 
+#define SQUARINGS 6
+
+double matrix_radius(size_t n, double *A) {
+  square next;
+  double logarithm = 0; /* of what A was divided by */
+  for (int k = 0; k <= SQUARINGS; k++) {
+    double most = 0, trace = 0;
+    for (size_t i = 0; i < n * n; i++) most = fmax(most, fabs(A[i]));
+    if (!(most > 0 && most < INFINITY)) return 0;
+    for (size_t i = 0; i < n; i++) trace += fabs(A[i * n + i]);
+    if (k == SQUARINGS) return trace > 0 ? exp((log(trace) + logarithm) / (1 << SQUARINGS)) : 0;
+    for (size_t i = 0; i < n * n; i++) A[i] = fabs(A[i]) / most;
+    logarithm = 2 * (logarithm + log(most));
+    matrix_multiply(n, n, n, A, A, next);
+    memcpy(A, next, n * n * sizeof *A);
+  }
+  return 0;
+}
+
 static double product(size_t n, size_t m, const double *A, size_t i, size_t j, const double *scale) {
   double sum = 0;
   for (size_t k = 0; k < n; k++) sum += (A[k * m + i] / scale[k]) * (A[k * m + j] / scale[k]);

@@ -21,6 +21,9 @@ static inline void matrix_add_scaled(size_t count, double *r, double x, const do
   /* NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult) */
   for (size_t i = 0; i < count; i++) r[i] += x * a[i];
 }
+/* the spectral radius of |A|, to a factor n^(1/64): by the trace of its power 64, which no change of units changes; A
+** is destroyed */
+double matrix_radius(size_t n, double *A);
 double matrix_row_sum_norm(size_t rows, size_t cols, const double *a);
 
 /* Columns i of A [n x m] become orthonormal in the scaled product sum_i x_i y_i / scale_i^2, in order; R [m x m], if

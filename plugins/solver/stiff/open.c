@@ -103,33 +103,13 @@ static int open_memory(stiff *s) {
   return s->eigen != NULL;
 }
 
-#define SQUARINGS 6
-
-/* The spectral radius of |A|, to a factor n^(1/64): by the trace of its power 64, which no change of units changes. A
-** is destroyed. */
-static double radius_of(uint32_t n, double *A) {
-  square next;
-  double logarithm = 0; /* of what A was divided by */
-  for (int k = 0; k <= SQUARINGS; k++) {
-    double most = 0, trace = 0;
-    for (uint32_t i = 0; i < n * n; i++) most = fmax(most, fabs(A[i]));
-    if (!(most > 0 && most < INFINITY)) return 0;
-    for (uint32_t i = 0; i < n; i++) trace += fabs(A[i * n + i]);
-    if (k == SQUARINGS) return trace > 0 ? exp((log(trace) + logarithm) / (1 << SQUARINGS)) : 0;
-    for (uint32_t i = 0; i < n * n; i++) A[i] = fabs(A[i]) / most;
-    logarithm = 2 * (logarithm + log(most));
-    matrix_multiply(n, n, n, A, A, next);
-    memcpy(A, next, (size_t)n * n * sizeof *A);
-  }
-  return 0;
-}
-
 /* parameters, and how fast things are at the start */
 static void prepare(stiff *s) {
   collocation *q = &s->q;
   uint32_t nx = s->nx;
   square J;
   double slowest = INFINITY;
+  q->tolerance = s->options.tolerance;
   for (uint32_t i = 0; i < s->inputs; i++) q->x[i] = dd_long(s->start[i]);
   for (uint32_t i = nx; i < s->n; i++) {
     double reach = 1e-3 * fabs(s->start[i].hi) + s->start_rest[i];
@@ -146,7 +126,7 @@ static void prepare(stiff *s) {
     double rate = fabs((double)real_output(q->rhs, i)) / fabs(s->start[i].hi);
     if (rate > 0 && rate < slowest) slowest = rate;
   }
-  s->first_rate = radius_of(nx, J) + (slowest < INFINITY ? slowest : 0);
+  s->first_rate = matrix_radius(nx, J) + (slowest < INFINITY ? slowest : 0);
 }
 
 /* a polynomial of the unknowns, where their number allows it; then parameters need not be followed */

@@ -6,6 +6,7 @@
 typedef struct real {
   const ambit_tape *tape;
   long double *slot;
+  double *terms; /* [nslot] see real_terms */
   ambit_work *counted;
 } real;
 
@@ -15,4 +16,8 @@ int real_open(const ambit_host *h, const series *s, real *r);
 void real_run(real *r);
 static inline long double *real_input(real *r, uint32_t in) { return &r->slot[r->tape->nconst + in]; }
 static inline long double real_output(const real *r, uint32_t out) { return r->slot[r->tape->out[out]]; }
+/* After real_run: how large the terms are that output i is the sum of, which may cancel: what its rounding is in
+** proportion to. A guess. */
+void real_terms(real *r);
+static inline double real_term(const real *r, uint32_t out) { return r->terms[r->tape->out[out]]; }
 #endif

@@ -10,6 +10,8 @@ struct eigen_memory {
   gsl_vector_complex *value;
   gsl_matrix_complex *vector;
   gsl_eigen_nonsymmv_workspace *work;
+  gsl_matrix *Z;
+  gsl_eigen_nonsymm_workspace *schur;
 };
 
 eigen_memory *eigen_open(size_t n) {
@@ -17,8 +19,11 @@ eigen_memory *eigen_open(size_t n) {
   if (!e) return NULL;
   gsl_set_error_handler_off(); /* GSL's own would abort; what fails says so by its status */
   *e = (eigen_memory) { gsl_matrix_alloc(n, n), gsl_vector_complex_alloc(n), gsl_matrix_complex_alloc(n, n),
-    gsl_eigen_nonsymmv_alloc(n) };
-  if (e->A && e->value && e->vector && e->work) return e;
+    gsl_eigen_nonsymmv_alloc(n), gsl_matrix_alloc(n, n), gsl_eigen_nonsymm_alloc(n) };
+  if (e->A && e->value && e->vector && e->work && e->Z && e->schur) {
+    gsl_eigen_nonsymm_params(1, 0, e->schur);
+    return e;
+  }
   eigen_close(e);
   return NULL;
 }
@@ -29,6 +34,8 @@ void eigen_close(eigen_memory *e) {
   if (e->value) gsl_vector_complex_free(e->value);
   if (e->vector) gsl_matrix_complex_free(e->vector);
   if (e->work) gsl_eigen_nonsymmv_free(e->work);
+  if (e->Z) gsl_matrix_free(e->Z);
+  if (e->schur) gsl_eigen_nonsymm_free(e->schur);
   free(e);
 }
 
@@ -86,4 +93,28 @@ void eigen_find(eigen_memory *e, size_t n, const double *J, const double *scale,
   }
   for (size_t k = 0; k < n * n; k++) r->V[k] *= scale[k / n];
   r->ok = c == n;
+}
+
+#define ROUNDING 1e-12 /* of the norm, below the diagonal */
+
+/* what is beside A in a larger matrix is zero, and its block of Z stays apart; what that is worth is judged by T */
+int eigen_schur(eigen_memory *e, size_t n, const double *A, double *Z, double *T, int *second) {
+  square AZ, transposed;
+  gsl_matrix_set_zero(e->A);
+  for (size_t i = 0; i < n * n; i++) {
+    if (!(fabs(A[i]) < 1e150)) return 0;
+    gsl_matrix_set(e->A, i / n, i % n, A[i]);
+  }
+  if (gsl_eigen_nonsymm_Z(e->A, e->value, e->Z, e->schur)) return 0;
+  for (size_t i = 0; i < n; i++)
+    for (size_t k = 0; k < n; k++) transposed[k * n + i] = Z[i * n + k] = gsl_matrix_get(e->Z, i, k);
+  matrix_multiply(n, n, n, A, Z, AZ);
+  matrix_multiply(n, n, n, transposed, AZ, T);
+  double norm = matrix_row_sum_norm(n, n, T);
+  for (size_t i = 0; i < n; i++) {
+    second[i] = i > 0 && !second[i - 1] && fabs(T[i * n + i - 1]) > ROUNDING * norm;
+    for (size_t k = 0; k + 1 < i + (size_t)!second[i]; k++)
+      if (!(fabs(T[i * n + k]) <= ROUNDING * norm)) return 0;
+  }
+  return 1;
 }

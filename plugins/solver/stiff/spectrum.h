@@ -20,4 +20,7 @@ eigen_memory *eigen_open(size_t n); /* NULL: no memory */
 void eigen_close(eigen_memory *e);
 /* of J [n x n], computed for S^-1 J S with S = diag(scale) */
 void eigen_find(eigen_memory *e, size_t n, const double *J, const double *scale, spectrum *r);
+/* Z [n x n] orthogonal with T := Z^T A Z triangular but for blocks of two, for A [n x n] of at most the size that e was
+** opened for; second[k]: column k is the second one of a block. 0: not found */
+int eigen_schur(eigen_memory *e, size_t n, const double *A, double *Z, double *T, int *second);
 #endif

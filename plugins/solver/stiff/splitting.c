@@ -14,8 +14,9 @@
 #define CARRIED_CONDITION 1e3 /* of slow columns beside fast ones, before they are chosen anew */
 #define CARRIED_CONDITION_ALONE 100
 #define EIGENVECTORS_CONDITION 50
-#define FAST_CONDITION                                                                                                 \
-  (5 * PROJECTOR_CONDITION) /* beyond it the fast directions become one block with orthonormal columns */
+#define FAST_CONDITION 1e3 /* beyond it the fast directions become Schur vectors */
+#define FLAT 0.01
+#define SLOW_TURN 0.25 /* of its decay: a pair that turns more slowly is two directions, a double root among them */
 #define CHANGE 0.5
 #define REACH 2.5
 
@@ -54,6 +55,10 @@ static int allowed(const ends *e, uint32_t f) {
 static int find_projectors(attempt *a, uint32_t f) {
   uint32_t n = a->e->n;
   square unused;
+  if (f == n) { /* whatever its eigenvectors are */
+    memset(a->P0, 0, (size_t)n * n * sizeof(double)), memset(a->P1, 0, (size_t)n * n * sizeof(double));
+    return 1;
+  }
   if (f > 0) return project(a->e, a->e->from, f, a->P0, a->S0) && project(a->e, a->e->to, f, a->P1, unused);
   for (uint32_t i = 0; i < n * n; i++) {
     a->P0[i] = a->P1[i] = i % (n + 1) == 0;
@@ -145,6 +150,54 @@ static int choose_slow(const attempt *a, uint32_t f, double *W) {
   return 1;
 }
 
+/* Where eigenvectors are nearly parallel: Schur vectors of the fast space, orthonormal. Each acts on those before it
+** only, so all are blocks of their own but for pairs, whose second columns are stretched until the pair turns without
+** growing. Between blocks errors pass one way, as in the equations, and are gone in the end. */
+static int choose_schur(attempt *a, uint32_t f) {
+  const ends *e = a->e;
+  split *r = a->r;
+  uint32_t n = e->n, g = n - f;
+  square JF, reduced, Z, T, F;
+  int second[N_MAX];
+  for (uint32_t i = 0; f == n && i < n * n; i++) r->fast0[i] = i % (n + 1) == 0 ? e->scale[i / n] : 0;
+  if (!orthonormalise(n, f, r->fast0, e->scale, NULL)) return 0;
+  matrix_multiply(n, n, f, e->rate_from, r->fast0, JF);
+  for (uint32_t i = 0; i < f; i++)
+    for (uint32_t k = 0; k < f; k++) {
+      double sum = 0;
+      for (uint32_t j = 0; j < n; j++) sum += r->fast0[j * f + i] / e->scale[j] * (JF[j * f + k] / e->scale[j]);
+      reduced[i * f + k] = sum;
+    }
+  if (!eigen_schur(e->eigen, f, reduced, Z, T, second)) return 0;
+  r->blocks = g;
+  for (uint32_t k = 0; k < f; k++) {
+    double above = k ? T[(k - 1) * f + k] : 0, below = k ? T[k * f + k - 1] : 0, turn = sqrt(fabs(above * below));
+    int pair = second[k] && above * below < 0 && turn > SLOW_TURN * fabs(T[k * f + k]);
+    double stretch = pair ? sqrt(fabs(below / above)) : 1;
+    r->block[g + k] = pair ? r->blocks - 1 : r->blocks++;
+    r->decay[k] = fabs(T[k * f + k]);
+    for (uint32_t j = 0; j < f; j++) Z[j * f + k] *= stretch;
+  }
+  matrix_multiply(n, f, f, r->fast0, Z, F);
+  memcpy(r->fast0, F, (size_t)n * f * sizeof *F);
+  return 1;
+}
+
+/* a pair one part of which is next to nothing: nearly a double root, whose eigenvectors are parallel */
+static int is_flat(const ends *e, uint32_t f) {
+  uint32_t n = e->n;
+  for (uint32_t k = 1; k < f; k++) {
+    double first = 0, second = 0;
+    if (e->from->kind[k] != SECOND) continue;
+    for (uint32_t i = 0; i < n; i++) {
+      first = fmax(first, fabs(e->from->V[i * n + k - 1]) / e->scale[i]);
+      second = fmax(second, fabs(e->from->V[i * n + k]) / e->scale[i]);
+    }
+    if (fmin(first, second) < FLAT * fmax(first, second)) return 1;
+  }
+  return 0;
+}
+
 /* fast0, fast1 and the blocks */
 static void choose_fast(attempt *a, uint32_t f) {
   const ends *e = a->e;
@@ -153,13 +206,13 @@ static void choose_fast(attempt *a, uint32_t f) {
   square A, rest;
   r->blocks = g;
   for (uint32_t k = 0; k < g; k++) r->block[k] = k;
-  for (uint32_t k = 0; k < f; k++) r->block[g + k] = e->from->kind[k] == SECOND ? r->blocks - 1 : r->blocks++;
+  for (uint32_t k = 0; k < f; k++) {
+    r->block[g + k] = e->from->kind[k] == SECOND ? r->blocks - 1 : r->blocks++;
+    r->decay[k] = fabs(e->from->real[k]);
+  }
   take_columns(n, e->from->V, 0, f, r->fast0);
   join_columns(n, g, a->S0, f, r->fast0, A);
-  if (!(scaled_condition(n, A, e->scale) <= FAST_CONDITION) && orthonormalise(n, f, r->fast0, e->scale, NULL)) {
-    for (uint32_t k = 0; k < f; k++) r->block[g + k] = g;
-    r->blocks = g + 1;
-  }
+  if (!(scaled_condition(n, A, e->scale) <= FAST_CONDITION) || is_flat(e, f)) choose_schur(a, f);
   for (uint32_t i = 0; i < n * n; i++) rest[i] = (i % (n + 1) == 0) - a->P1[i];
   matrix_multiply(n, n, f, rest, r->fast0, r->fast1);
 }

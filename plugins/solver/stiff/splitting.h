@@ -18,11 +18,13 @@ typedef struct ends {
   const double *scale; /* [n] size of each state */
   const spectrum *from, *to;
   const double *rate_from, *rate_to; /* (eta/2) J [n x n] */
+  eigen_memory *eigen;
 } ends;
 
 typedef struct split {
   uint32_t slow, fast, blocks, block[N_MAX];
   square slow0, slow1, fast0, fast1; /* [n x slow], [n x fast] at s = -1 and 1 */
+  double decay[N_MAX];               /* [fast] of the columns of fast0, about */
   square G0;                         /* [slow x slow]: the carried slow columns are slow0 G0 */
 } split;
 

@@ -106,11 +106,28 @@ static void bring_back(stiff *s) {
   memcpy(s->end_error, s->saved_error, s->n * sizeof *s->end_error);
 }
 
-/* directions are compared in units of how far a state moves, or how uncertain it is */
+#define HANDED_ON 2
+
+/* Directions are compared in units of how far a state moves, or how uncertain it is, or what such an error of another
+** one makes of it before the fastest rate takes it back: the speed of an overdamped mass that turns has no size of its
+** own. */
 static void widen_scale(stiff *s) {
   const carried *c = &s->carried;
+  uint32_t nx = s->nx;
+  const double *J = s->q.J + (size_t)(s->q.N / 2) * nx * nx;
+  square power;
+  double next[N_MAX];
+  memcpy(power, J, (size_t)nx * nx * sizeof *J);
+  double rate = matrix_radius(nx, power);
   for (uint32_t i = 0; i < s->nx; i++)
     for (uint32_t k = 0; k < s->n; k++) s->q.scale[i] += fabs(c->B[i * s->n + k]) * c->w[c->block[k]];
+  for (int sweep = 0; rate > 0 && sweep < HANDED_ON; sweep++) {
+    for (uint32_t i = 0; i < nx; i++) {
+      next[i] = 0;
+      for (uint32_t k = 0; k < nx; k++) next[i] += 1e-2 * fabs(J[i * nx + k]) * s->q.scale[k] / rate;
+    }
+    for (uint32_t i = 0; i < nx; i++) s->q.scale[i] = fmax(s->q.scale[i], next[i] < INFINITY ? next[i] : 0);
+  }
 }
 
 /* judged in the middle of the step */
