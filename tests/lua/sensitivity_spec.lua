@@ -261,4 +261,15 @@ describe("sensitivity", function()
     assert.is_true(s:d("x", "x"):contains(1 / (1 - s.t_reached) ^ 2))
     require("ambit.session").unable = false
   end)
+
+  it("takes the solver that suits, and none whose cost the many states forbid", function()
+    local function solver_of(k, wide)
+      local o = ambit.ode { states = { "x", "y" }, parameters = { k = k },
+        equations = function(s, p) return { x = -p.k * s.x * s.y, y = -s.y } end }
+      return ambit.sensitivity { o, initial = { x = 1, y = wide }, t = { 0, "0.1" } }.run.solver
+    end
+    assert.equal("lohner", solver_of(1, 1))
+    assert.equal("zonotope", solver_of(ambit.around(1, "20%"), ambit.around(1, "20%")))
+    assert.equal("lohner", solver_of(1e5, 1)) -- `stiff` for the system itself
+  end)
 end)
