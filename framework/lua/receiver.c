@@ -4,6 +4,7 @@
 #include "model/context.h"
 #include <math.h>
 
+#define FASTER 4    /* times what was covered in half as long before: not judged yet, as a run from rest gets faster */
 #define HOPELESS 20 /* times what a run has taken until now, that the rest of it would take */
 
 static bool is_hopeless(ambit_pace *p) {
@@ -11,9 +12,11 @@ static bool is_hopeless(ambit_pace *p) {
   double spent = ambit_context_seconds() - p->began;
   if (!p->has_half && spent >= 0.5 * p->look) p->t_half = p->t, p->has_half = true;
   if (spent < p->look) return p->is_hopeless;
-  double covered = fabs(p->t - p->t_half), left = fabs(p->last - p->t);
-  p->is_hopeless = left * 0.5 * p->look > HOPELESS * spent * covered;
+  double covered = fabs(p->t - p->t_half), left = fabs(p->last - p->t), before = fabs(p->t_half - p->t_quarter);
+  bool is_faster = covered > 0 && covered >= FASTER * before;
+  p->is_hopeless = !is_faster && left * 0.5 * p->look > HOPELESS * spent * covered;
   p->look *= 2;
+  p->t_quarter = p->t_half;
   p->t_half = p->t;
   return p->is_hopeless;
 }
@@ -66,7 +69,7 @@ void ambit_receiver_begin(lua_State *L, ambit_receiver *r) {
   r->deadline = AMBIT_LUA(L)->deadline;
   r->pace.began = ambit_context_seconds();
   r->pace.look = r->pace.patience;
-  r->pace.t = r->pace.t_half = r->pace.first;
+  r->pace.t = r->pace.t_half = r->pace.t_quarter = r->pace.first;
 }
 
 void ambit_receiver_end(ambit_receiver *r) {

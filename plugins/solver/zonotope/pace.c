@@ -1,13 +1,16 @@
 /* pace.c -- the length of a step and the order in time, by need.
 **
 ** What the lumps add to each state per second, weighed with coefficients at the set's centre, is rate_i(h). It starts
-** from what rows drop at order 0 and grows with h. A step is the longest over which it grows by half at most, but for
-** what is negligible beside the state's motion and beside its set. No proof depends on anything here.
+** from what rows drop at order 0 and grows with h. A step is the longest over which it at most doubles (grows by a
+** quarter where lumps matter much), but for what is negligible beside the state's motion and beside its set. No proof
+** depends on anything here.
 */
 #include "kink.h"
 #include "proof.h"
+#include "quartic.h"
 
-#define GROWTH 1.5
+#define GROWTH 2.0 /* of the rate over a step; */
+#define LESS 1.25  /* where lumps matter so much that quartic.c is at work: it knows them at one time of the step */
 #define TRIES 60
 #define REFINE 4
 #define BESIDE_SET 1e-5     /* share of the set that truncation may add in a step */
@@ -62,7 +65,7 @@ static int is_of_like_order(const zono *z, uint32_t i, double length, double rat
 /* 1: short enough; start: rates over a step of length 0 */
 static int fits(zono *z, double length, const double *start) {
   const proof *p = z->proof;
-  double *rate = p->grow, *half = p->zeta_new;
+  double *rate = p->grow, *half = p->zeta_new, growth = p->quartic->count ? LESS : GROWTH;
   int known = 0; /* half */
   if (!defect_evaluate(z, length) || !kinks_fit(z, length)) return 0;
   find_rates(z, rate);
@@ -70,7 +73,7 @@ static int fits(zono *z, double length, const double *start) {
     double size, set;
     find_sizes(z, i, length, &size, &set);
     double allowed = share_of(z, size, set) * size + BESIDE_SET * set;
-    if (length * rate[i] <= GROWTH * length * start[i] + allowed) continue;
+    if (length * rate[i] <= growth * length * start[i] + allowed) continue;
     if (!known && !defect_evaluate(z, 0.5 * length)) return 0;
     if (!known) find_rates(z, half), known = 1;
     if (!is_of_like_order(z, i, length, rate[i], half[i])) return 0;
