@@ -15,6 +15,7 @@ local ambit = {
   load = later("load", "load"),
   chain = later("chain", "new"),
   ode = later("ode", "new"),
+  join = later("join", "join"),
   evaluate = later("evaluate", "evaluate"),
   simulate = later("simulate", "simulate"),
   sensitivity = later("sensitivity", "sensitivity"),

@@ -374,6 +374,10 @@ function ode:modelica() end
 ---@param t { states: string[]|table<string, string>, parameters: table<string, ambit.datum>?, equations: (fun(s: table<string, ambit.expression>, p: table<string, ambit.expression>, t: ambit.expression): table<string, ambit.datum>)|table<string, ambit.datum|function>, name: string?, check_units: boolean? }
 ---@return ambit.ode
 function ambit.ode(t) end
+---Several mechanisms and systems as one; a name may come first.
+---@param t table
+---@return ambit.ode
+function ambit.join(t) end
 
 ---"real" proves nothing; the others enclose. With options as a table: { "affine", symbols = 20 }. Others may be
 ---installed; `ambit plugins NAME` prints the options of one.

@@ -124,8 +124,8 @@ double kink_second(const zono *z, uint32_t i, double distance) {
 
 /* -- the length of a step: lines are chosen at its start, so what they miss may grow only so much until its end */
 
-#define GROWTH 1.25
-#define BESIDE_WIDTH 0.02 /* of d; */
+#define GROWTH 1.1
+#define BESIDE_WIDTH 0.01 /* of d; */
 #define BESIDE_STEP 1e-6  /* of what d moves in a step of the usual length: a kink between exact states */
 
 void kinks_start(zono *z, double longest) {
