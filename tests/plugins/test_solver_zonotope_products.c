@@ -1,0 +1,86 @@
+/* A step of the zonotope solver where what products leave out is all that there is: x' = (p q)^2 y or (p q y)^2, y' = p
+** y with wide p and q and an old generator in y, against the closed form. */
+#include "zonotope_case.h"
+
+typedef struct product_case {
+  double scale_p, scale_q, old, h;
+  uint32_t K;
+  int thin, squared; /* squared: y, too */
+} product_case;
+
+static double P0[2][400];
+
+static void open_products(zono *z, maker *k, const product_case *c) {
+  make_empty(k, 1, 2, 0, 2); /* constant 0; x, y, p, q, t */
+  uint32_t pq = put(k, AMBIT_OP_MUL, c->squared ? put(k, AMBIT_OP_MUL, 3, 2) : 3, 4),
+           square = put(k, AMBIT_OP_SQR, pq, pq);
+  k->out[0] = c->squared ? square : put(k, AMBIT_OP_MUL, square, 2), k->out[1] = put(k, AMBIT_OP_MUL, 3, 2);
+  k->tape.nslot = k->tape.nconst + k->tape.nin + k->tape.ninstr;
+  *z = (zono) { .host = &host, .nx = 2, .np = 2, .m = 2, .K = c->K, .K_max = c->K, .ngen_max = 120, .h = c->h };
+  z->program = (program) { .tape = &k->tape, .nx = 2, .np = 2 };
+  assert_true(shape_open(&host, &z->shape, z->m, 2));
+  if (c->thin) thin_out(&z->shape);
+  z->P = lend(&host, 2 * z->shape.stride * 8), z->E = lend(&host, 16), z->G = lend(&host, 2 * 122 * 8);
+  assert_true(zono_open_rows(z) && zono_open_proof(z));
+  z->proof->patience = 1;
+  double *p = z->p_row, *q = p + z->shape.stride;
+  p[0] = draw(0.8, 1.2), p[1] = c->scale_p, q[0] = draw(0.8, 1.2), q[2] = c->scale_q;
+  row_norms_all(&z->shape, p), row_norms_all(&z->shape, q);
+  for (uint32_t i = 0; i < 2; i++) {
+    double *x = z->P + i * z->shape.stride;
+    x[0] = draw(0.5, 1);
+    row_norms_all(&z->shape, x), memcpy(P0[i], x, z->shape.stride * 8);
+  }
+  z->ngen = c->old > 0, z->G[0] = 0.5 * c->old, z->G[1] = c->old;
+  z->E[0] = z->G[0] * (1 + 1e-12), z->E[1] = z->G[1] * (1 + 1e-12);
+}
+
+/* x, y at s for the data of a point and the old generator at rho */
+static void solve(const zono *z, const product_case *c, const point *at, long double rho, long double *x) {
+  const double *row = z->p_row;
+  long double p = value_at(&z->shape, row, at), q = value_at(&z->shape, row + z->shape.stride, at);
+  long double y = P0[1][0] + c->old * rho, s = c->h;
+  long double grown = c->squared ? 0.5L * y * expm1l(2 * p * s) : expm1l(p * s);
+  x[0] = P0[0][0] + 0.5L * c->old * rho + p * q * q * y * grown, x[1] = y * expl(p * s);
+}
+
+/* how much of the set's width in a direction is reached */
+static double check(const zono *z, const product_case *c) {
+  point p;
+  long double x[2], l[2] = { draw(-1, 1), draw(-1, 1) }, off = 0, room = 0;
+  draw_point(z, &p, z->h);
+  if (pick(2)) l[0] = 1, l[1] = 0;
+  solve(z, c, &p, pick(2) ? 1 : -1, x);
+  for (uint32_t i = 0; i < 2; i++) off += l[i] * (x[i] - value_at(&z->shape, z->P + i * z->shape.stride, &p));
+  for (uint32_t g = 0; g < z->ngen; g++) room += fabsl(l[0] * z->G[2 * g] + l[1] * z->G[2 * g + 1]);
+  if (!(fabsl(off) <= room * (1 + 1e-17L))) fail_msg("a solution is %Lg off, the set %Lg wide", off, room);
+  return room > 0 ? (double)(fabsl(off) / room) : 0;
+}
+
+static void what_products_leave_out_is_in_the_set(void **unused) {
+  (void)unused;
+  static const double scale[] = { 1e-3, 0.05, 0.2 }, old[] = { 0, 0.01 }, length[] = { 1e-3, 0.1, 0.4, -0.4 };
+  static zono z;
+  static maker k;
+  double most[3] = { 0 };
+  uint32_t found = 0;
+  for (uint32_t n = 0; n < 360; n++) {
+    const product_case c = { scale[n % 3], scale[pick(3)], old[n / 3 % 2], length[n / 6 % 4], 3 + pick(8), pick(4) == 0,
+      (int)pick(2) };
+    open_products(&z, &k, &c);
+    if (zono_series(&z) && zono_defects(&z) && zono_prove(&z)) {
+      zono_finish(&z);
+      for (int m = 0; m < 40; m++) most[n % 3] = fmax(most[n % 3], check(&z, &c));
+      found++;
+    }
+    give_back();
+  }
+  assert_true(found > 300);
+  for (int n = 1; n < 3; n++)
+    if (most[n] < 0.5) fail_msg("only %.2g of the set is reached at scale %g", most[n], scale[n]);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = { cmocka_unit_test(what_products_leave_out_is_in_the_set) };
+  return cmocka_run_group_tests_name("zonotope: products", tests, NULL, NULL);
+}
