@@ -46,9 +46,9 @@ describe("without a solver, simulate takes", function()
     assert.equal("lohner", (chosen { kinked, initial = { x = 3 }, t = "0.2" })) -- `stiff` needs derivatives
   end)
 
-  it("valencia for what is not smooth", function()
+  it("zonotope for what is not smooth", function()
     local solver, why = chosen { rubbing, initial = { x = 0, v = 1 }, t = 2 } -- v changes its sign near 1.6
-    assert.equal("valencia", solver)
+    assert.equal("zonotope", solver)
     assert.matches("crosses the kink of `abs", why)
     assert.equal("lohner", (chosen { rubbing, initial = { x = 0, v = 1 }, t = 1 })) -- on one side of it
   end)
