@@ -22,12 +22,13 @@ void shape_place(shape *s) {
   s->stride = s->triples ? (s->cube + s->triples + 3 + 3) / 4 * 4 : s->cube; /* the last vector may run over */
 }
 
-#define CUBIC_MOST 27
+#define CUBIC_ALL 34  /* data that have triples if there are no more, */
+#define CUBIC_MOST 27 /* and if there are */
 #define CUBED 3
 
 int shape_open(const ambit_host *h, shape *s, uint32_t m, uint32_t nx) {
   *s = (shape) {
-    .m = m, .nx = nx, .mixed = m, .cubic = m < CUBIC_MOST ? m : CUBIC_MOST, .cubed = CUBED, .sum = sum_portable
+    .m = m, .nx = nx, .mixed = m, .cubic = m <= CUBIC_ALL ? m : CUBIC_MOST, .cubed = CUBED, .sum = sum_portable
   };
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx2")) s->sum = sum_avx2;
