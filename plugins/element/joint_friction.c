@@ -1,4 +1,4 @@
-/* joint_friction.c -- friction in a joint, smooth: effort -(g(q') tanh(q'/v0) + d q').
+/* joint_friction.c -- friction in a joint, smooth: effort -(g(q') tanh(q'/v0) + d q'), or with a straight step.
 **
 ** Coulomb's law jumps at rest: it is no function there but a set, and its solutions are those of a differential
 ** inclusion, which a Taylor series cannot carry. tanh(q'/v0) differs from sign(q') by less than 2 exp(-2 |q'|/v0), so
@@ -6,12 +6,14 @@
 ** creeps: a load below the friction moves it slowly instead of holding it, at about v0 load/c.
 ** The level g is c, or with Stribeck's effect [Stribeck 1902; Armstrong-Helouvry, Dupont & Canudas de Wit, Automatica
 ** 30 (1994)] c + (s - c) exp(-(q'/vs)^2): from s at rest down to c.
+** With `step` "straight" max(-1, min(1, q'/v0)) takes the place of tanh: with two kinks, but of the size of its slope
+** everywhere, where a set of wide speeds leaves no bound of any derivative of tanh.
 ** The power is q' times the effort, never positive for g, d >= 0: q' tanh(q'/v0) >= 0.
 */
 #include "dissipation.h"
 #include "joint_law.h"
 
-enum { COULOMB, VELOCITY, VISCOUS, STATIC, STRIBECK_VELOCITY };
+enum { COULOMB, VELOCITY, VISCOUS, STATIC, STRIBECK_VELOCITY, STEP };
 
 static const ambit_param params[] = {
   { "coulomb", "N m|N", "", NULL, "torque or force of sliding friction, whatever the speed; not negative" },
@@ -19,6 +21,8 @@ static const ambit_param params[] = {
   { "viscous", "N m s/rad|N s/m", "", "0", "torque per angular velocity, or force per velocity; not negative" },
   { "static", "N m|N", "", "", "friction at rest, Stribeck's effect; absent: as `coulomb`" },
   { "stribeck_velocity", "rad/s|m/s", "", "0.1", "speed at which `static` has gone over to `coulomb`; above 0" },
+  { "step", "1", "smooth|straight", "smooth",
+      "from -1 to 1: tanh(rate/velocity), or max(-1, min(1, rate/velocity)), which wide sets cross" },
   { NULL, NULL, NULL, NULL, NULL },
 };
 
@@ -47,13 +51,21 @@ static ambit_expr level(ambit_build *b, ambit_expr rate) {
   return ambit_add(b, c, ambit_multiply(b, ambit_subtract(b, *at_rest, c), fading));
 }
 
+/* from -1 to 1 as the ratio of speed and v0 grows */
+static ambit_expr step_of(ambit_build *b, ambit_expr ratio) {
+  double straight, same;
+  b->range(b, *b->param(b, STEP), &straight, &same);
+  if (straight == 0) return b->op(b, AMBIT_OP_TANH, ratio, ratio);
+  return b->op(b, AMBIT_OP_MAX, b->num(b, "-1"), b->op(b, AMBIT_OP_MIN, b->num(b, "1"), ratio));
+}
+
 static ambit_status express(ambit_build *b, uint32_t port, uint32_t quantity, ambit_expr *out) {
   int effort = joint_law_is_effort(port, quantity);
   if (!effort && !joint_law_is(port, quantity, AMBIT_POWER)) return AMBIT_UNABLE;
   ambit_expr rate;
   if (!joint_law_read(b, AMBIT_RATE, &rate)) return AMBIT_INVALID;
   ambit_expr ratio = ambit_divide(b, rate, *b->param(b, VELOCITY));
-  ambit_expr dry = ambit_multiply(b, level(b, rate), b->op(b, AMBIT_OP_TANH, ratio, ratio));
+  ambit_expr dry = ambit_multiply(b, level(b, rate), step_of(b, ratio));
   ambit_expr friction = ambit_add(b, dry, ambit_multiply(b, *b->param(b, VISCOUS), rate));
   *out = ambit_negate(b, effort ? friction : ambit_multiply(b, friction, rate));
   return AMBIT_OK;

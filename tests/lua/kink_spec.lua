@@ -59,6 +59,17 @@ describe("a law with a kink", function()
     assert.is_true(run.x.x:mag() < 1e-12 and run.x["x'"]:mag() < 1e-12)
   end)
 
+  it("is friction with a straight step, through reversals", function()
+    local m = ambit.mechanism { "pendulum", gravity = { 0, "-9.81", 0 } }
+    local hinge, joint = m:revolute { from = m.world, axis = "z", name = "a" }
+    m:point_mass { at = m:rigid_link { from = hinge, offset = { 0, -1, 0 } }, mass = around(1, "2%") }
+    m:joint_friction { joint = joint, coulomb = around("0.1", "5%"), velocity = "0.01", step = "straight" }
+    local rate = m:dynamics():rate "a'"
+    local function effort(v) return ambit.evaluate { rate, at = { a = 0, ["a'"] = v } } end
+    assert.is_true(effort("0.5"):contains(-0.1) and effort("-0.5"):contains(0.1) and effort("0.005"):contains(-0.05))
+    expect_tight({ m:dynamics(), initial = { a = ambit.degrees(around(45, "0.5")), ["a'"] = 0 }, t = 3 }, 1.1)
+  end)
+
   it("tells when the set crosses it", function()
     local system = oscillator(function(s) return max(s.x, 0) end)
     local run = ambit.simulate { system, initial = { x = around(1, "1e-3"), v = 0 }, t = 2, solver = "zonotope",

@@ -50,8 +50,8 @@ typedef uint32_t ambit_expr; /* node number in the graph; 0 is the constant 0 */
 /* [d] OUT: generalised force that must vanish: projection of the wrench on the joint plus its effort */
 #define AMBIT_BALANCE 20u
 #define AMBIT_COORDINATE_RATE 21u /* [c] OUT: q' from q and u; asked for only where c differs from d */
-/* Quantities of a state port with d states: AMBIT_COORDINATE [d], their values x, and AMBIT_COORDINATE_RATE [d], x' as a
-** function of coordinates, speeds, states, data and time. */
+/* Quantities of a state port with d states: AMBIT_COORDINATE [d], their values x, and AMBIT_COORDINATE_RATE [d], x' as
+** a function of coordinates, speeds, states, data and time. */
 /* Quantities of a constraint port with d rows. */
 /* [d] OUT: g, which vanishes. The element's wrenches and efforts are those of multipliers: virtual power
 ** sum of lambda_k dg_k/dt, whatever the motion; where g itself moves in time, at fixed time, and the AMBIT_POWER is
@@ -86,10 +86,10 @@ struct ambit_build { /* [main] valid only during express() */
   /* folds, hash-conses; y ignored if unary; POWN: y is the int32 exponent */
   ambit_expr (*op)(ambit_build *b, uint32_t opcode, ambit_expr x, ambit_expr y);
   const ambit_expr *(*param)(ambit_build *b, uint32_t index); /* in declaration order; NULL: optional and absent */
-  /* the element's own coordinate number i (counted through its OUT joint ports in order, or through its state ports), or
-  ** its first or second time derivative (order 0, 1, 2); becomes a state. `unit` is that of the coordinate, whatever the
-  ** order; NULL: the one that the scene gives. Orders 1 and 2 only where coordinates and degrees of freedom are as many;
-  ** else speed() */
+  /* the element's own coordinate number i (counted through its OUT joint ports in order, or its state ports), or its
+  ** first or second time derivative (order 0, 1, 2); becomes a state. `unit` is that of the coordinate, whatever the
+  ** order; NULL: the one that the scene gives. Orders 1 and 2 only where coordinates and degrees of freedom are as
+  ** many; else speed() */
   ambit_expr (*state)(ambit_build *b, uint32_t i, uint32_t order, const char *unit);
   /* pulls a quantity: of an own IN port: motion of the frame it is connected to; of an own OUT port: the sum of what
   ** is exerted there by all elements attached to it; of AMBIT_NO_PORT: of the mechanism. NULL: return any status but
