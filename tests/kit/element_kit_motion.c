@@ -73,10 +73,18 @@ static void check_joint(element_kit *k, uint32_t port) {
     element_kit_vanish(k, "second rate", kit_subtract(k, element_kit_derivative(k, u[c]), du[c]));
 }
 
+static void check_state(element_kit *k, uint32_t port) {
+  const ambit_expr *x = element_kit_ask(k, k->part, port, AMBIT_COORDINATE);
+  const ambit_expr *rate = element_kit_ask(k, k->part, port, AMBIT_COORDINATE_RATE);
+  for (uint32_t c = 0; x && rate && c < ambit_port_coordinates(&k->element->port[port]); c++)
+    element_kit_vanish(k, "rate of a state", kit_subtract(k, element_kit_derivative(k, x[c]), rate[c]));
+}
+
 void element_kit_check_motion(element_kit *k) {
   for (uint32_t i = 0; i < k->element->nport; i++) {
     const ambit_port *p = &k->element->port[i];
     if (p->role == AMBIT_ROLE_OUT && p->kind == AMBIT_PORT_FRAME) check_frame(k, i);
     if (p->role == AMBIT_ROLE_OUT && p->kind == AMBIT_PORT_JOINT) check_joint(k, i);
+    if (p->role == AMBIT_ROLE_OUT && p->kind == AMBIT_PORT_STATE) check_state(k, i);
   }
 }

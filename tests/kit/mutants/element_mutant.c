@@ -99,6 +99,8 @@ static const fault faults[] = {
   { "quaternion joint: rate of a coordinate wrong", "spherical_quaternion", ANY, AMBIT_COORDINATE_RATE, 2, NEGATE },
   { "quaternion joint: norm not kept", "spherical_quaternion", ANY, AMBIT_RESIDUAL, 0, WITH_STATE },
   { "quaternion joint: axes of a wrong sign", "spherical_quaternion", ANY, AMBIT_POSE, 3, NEGATE },
+  { "state: twice what it is", "state", ANY, AMBIT_COORDINATE, 0, TWICE },
+  { "state: without a rate", "state", ANY, AMBIT_COORDINATE_RATE, ALL, DECLINE },
   { "bush: rotational part with the wrong sign", "bushing", 0, AMBIT_WRENCH, 0, NEGATE },
   { "bush: power of 90 %", "bushing", WHOLE, AMBIT_POWER, 0, TENTH },
   { "slider: displacement along the wrong axis", "prismatic", ANY, AMBIT_POSE, 9, NEXT },
