@@ -14,6 +14,7 @@ local MORE, LEAST = 4, 5 -- CPU time of a further solver: so many times that of 
 local PIECES = { 8, 64 } -- into which the data are cut where every solver fails
 local DRAWS, MOST = 8, 128 -- draws of the hull for each datum, and at most
 local VISIBLE = 1e-6    -- width of a hull, in parts of its state, below which it is mostly rounding
+local FURTHER = 1e-6    -- of the whole time, by which one run gets further than another
 local SHARE = 0.01      -- of a state's widest hull, below which its width at a time does not matter
 
 -- -- how wide is it?
@@ -118,8 +119,8 @@ local function is_better(run, best)
     return (run.overestimate or math.huge) < (best.overestimate or math.huge)
   end
   if run.status == "complete" or best.status == "complete" then return run.status == "complete" end
-  local from = run.times[1]
-  return math.abs(run.t_reached - from) > math.abs(best.t_reached - from)
+  local first, last = run.times[1], run.times[#run.times]
+  return math.abs(run.t_reached - first) > math.abs(best.t_reached - first) + FURTHER * math.abs(last - first)
 end
 
 -- Sets what is known of the width; a complete run needs no other solver if that is little.
@@ -175,7 +176,8 @@ end
 
 -- May another solver be asked after this? Not where the run was stopped from outside, or where nothing is to be gained.
 local function may_go_on(run, was_limit)
-  return run.status == "complete" or run.status == "unable" or run.status == "stopped" and was_limit
+  local status = run.status -- "partial": it is not certain which events happen
+  return status == "complete" or status == "partial" or status == "unable" or status == "stopped" and was_limit
 end
 
 -- One after the other of the ways to go on, each within `limit` s: -> the best run, and is it good? try.left: the
