@@ -9,8 +9,9 @@
 #include "proof.h"
 #include "quartic.h"
 
-#define GROWTH 2.0 /* of the rate over a step; */
-#define LESS 1.25  /* where lumps matter so much that quartic.c is at work: it knows them at one time of the step */
+#define GROWTH 2.0     /* of the rate over a step; */
+#define LESS 1.25      /* where lumps matter so much that quartic.c is at work: it knows them at one time of the step */
+#define FROM_REST 1e-4 /* most that a step may add, as a share of a state that starts at 0 */
 #define TRIES 60
 #define REFINE 4
 #define BESIDE_SET 1e-5     /* share of the set that truncation may add in a step */
@@ -52,14 +53,15 @@ static double share_of(const zono *z, double size, double set) {
 
 /* Does a shorter step gain nothing? Half of it adds as much of what the state is by then: the state is of some order in
 ** time, and so is what is added. That is so of rounding, from rest more than EXACT of the state however short the step;
-** and of a state that starts at 0 for all data, whose terms of higher degree come up as the state does. */
+** and of a state that starts at 0 for all data, whose terms of higher degree come up as the state does. Of more than a
+** small part of the state it is not: orders in time that are missing come up with it as well. */
 static int is_of_like_order(const zono *z, uint32_t i, double length, double rate, double half) {
   double size, set, size_half, start;
   find_sizes(z, i, 0, &start, &set);
   find_sizes(z, i, length, &size, &set);
   if (set > NARROW * size && start > 0) return 0;
   find_sizes(z, i, 0.5 * length, &size_half, &set);
-  return rate * size_half <= 2 * half * size;
+  return length * rate <= FROM_REST * size && rate * size_half <= 2 * half * size;
 }
 
 /* 1: short enough; start: rates over a step of length 0 */
