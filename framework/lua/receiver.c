@@ -3,6 +3,7 @@
 #include "lua/request.h"
 #include "model/context.h"
 #include <math.h>
+#include <stdio.h>
 
 #define FASTER 4    /* times what was covered in half as long before: not judged yet, as a run from rest gets faster */
 #define HOPELESS 20 /* times what a run has taken until now, that the rest of it would take */
@@ -89,14 +90,16 @@ static const char *word_of(ambit_status status) {
 
 void ambit_receiver_tell(
     lua_State *L, const ambit_receiver *r, ambit_status status, const char *code, const char *reason) {
-  char whole[AMBIT_CODE_MAX];
+  char whole[AMBIT_CODE_MAX], slow[128];
   bool own = r->failure.status != AMBIT_OK;
   if (own) status = AMBIT_STOPPED;
   if (!own && status == AMBIT_STOPPED && r->deadline > 0 && !ambit_interrupt_pending()) code = AMBIT_CODE_STOPPED_LIMIT;
   if (!own && status == AMBIT_STOPPED && r->pace.is_hopeless && !ambit_interrupt_pending()) {
     status = AMBIT_UNABLE;
     code = AMBIT_CODE_UNABLE_CREEP;
-    reason = "steps are so short, or take so long, that the end is out of reach";
+    snprintf(slow, sizeof slow, "at t = %.9g s steps are so short, or take so long, that the end is out of reach",
+        r->pace.t);
+    reason = slow;
   }
   ambit_code_set(whole, status, own ? AMBIT_CODE_STOPPED_WRITE : code);
   ambit_lua_set_text(L, "status", word_of(status));
