@@ -123,9 +123,12 @@ local function is_better(run, best)
   return math.abs(run.t_reached - first) > math.abs(best.t_reached - first) + FURTHER * math.abs(last - first)
 end
 
--- Sets what is known of the width; a complete run needs no other solver if that is little.
+-- Did it come to the end? "partial": it is not certain which events happen.
+local function is_through(run) return run.status == "complete" or run.status == "partial" end
+
+-- Sets what is known of the width; a run that came to the end needs no other solver if that is little.
 local function judge(run, q, hull)
-  if run.status ~= "complete" then return false end
+  if not is_through(run) then return false end
   local is_tight = run.report.unknowns == 0 or is_plainly_tight(run)
   if is_tight and not hull.made then return true end
   if not hull.made then hull.made, hull.draws = true, hull_of(q, times_of(run), run.report.unknowns) end
@@ -176,8 +179,7 @@ end
 
 -- May another solver be asked after this? Not where the run was stopped from outside, or where nothing is to be gained.
 local function may_go_on(run, was_limit)
-  local status = run.status -- "partial": it is not certain which events happen
-  return status == "complete" or status == "partial" or status == "unable" or status == "stopped" and was_limit
+  return is_through(run) or run.status == "unable" or run.status == "stopped" and was_limit
 end
 
 -- One after the other of the ways to go on, each within `limit` s: -> the best run, and is it good? try.left: the
@@ -222,8 +224,9 @@ local function cut_data(state)
   local i = 0
   return function()
     i = i + 1
-    local n = not state.q.events and PIECES[i]
-    return n and { solver = state.by.solver, pieces = n, left = { pieces = n },
+    local n = PIECES[i]
+    if state.q.events or not n then return nil end
+    return { solver = state.by.solver, pieces = n, left = { pieces = n },
       reason = ("%s; the data are cut into %d parts, since whole they get too wide"):format(state.by.reason, n) }
   end
 end

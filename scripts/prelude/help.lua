@@ -34,6 +34,9 @@ its parts are left.knee, ..., what build returns is left.foot.]],
   ode = [[
 ode { states = { "x" }, parameters = { a = 1 }, equations = function(s, p, t) return { x = -p.a * s.x } end }; with
 units, states = { x = "m" }, derivatives must be in them by s, unless check_units = false.]],
+  join = [[
+join { "name", m1, m2, ode }: mechanisms and odes as one system; force laws and equations of each may read states
+of the others by their names.]],
   evaluate = [[
 evaluate { expression or table of them, at = { name = value }, arithmetic = "interval", partial = false }:
 enclosures, in the same shape.]],
