@@ -80,7 +80,7 @@ describe("ARCH benchmarks", function()
     for name, case in pairs(cases_of "quadrotor") do
       local run = simulate(case)
       assert.is_true(case.proved(run, bounds_of(run)), name)
-      assert.is_true(run.step_count <= 50)
+      assert.is_true(run.step_count <= 65)
     end
   end)
 

@@ -17,8 +17,9 @@
 #define LOW_WATER 0.02 /* a longer step is worth another tail below this share */
 #define GROWTH 3.0
 #define SHRINK 0.8
-#define BLUNT 0.5 /* slopes limit the step to this share of what the centre allows: raise their order */
-#define SHARP 1.5 /* lower it */
+#define SMALL_PART 0x1p-40 /* of the time span: a step that is first looked for is at least as long */
+#define BLUNT 0.5          /* slopes limit the step to this share of what the centre allows: raise their order */
+#define SHARP 1.5          /* lower it */
 #define BEND 0.3
 #define TINY 0x1p-1000 /* so that zero is its own proof */
 #define GUESSES_OF_NOTHING 0x1p20
@@ -279,9 +280,8 @@ static int has_no_size(const lohner *s) {
   return 0;
 }
 
-static enum why search(lohner *s) {
-  double before = INFINITY;
-  double most = smaller(s->longest, s->options.step_max), least = lohner_least_step(s);
+static enum why search(lohner *s, double least) {
+  double before = INFINITY, most = smaller(s->longest, s->options.step_max);
   double length = smaller(larger(s->guess, least), most);
   for (int i = 0; i < TRIES; i++) {
     if (!plan(s, length) || (s->step.length < least && !s->at_instant)) return WHY_NO_STEP;
@@ -318,16 +318,29 @@ double lohner_least_step(const lohner *s) {
   return ambit_least_step(s->options.step_min, s->t, time[0], time[s->problem.ntime - 1]);
 }
 
-enum why lohner_find_step(lohner *s) {
-  s->slope_order = s->next_slope_order;
-  uint32_t centre = lohner_centre_series(s), box = lohner_box_series(s, s->all_from, s->all_to);
-  if (centre || box) return centre ? WHY_CENTRE : WHY_BOX;
-  for (enum leniency now = s->lenient; now <= LENIENT_FAR; now++) {
+/* A step of at least `least`, with as much leniency as it needs. */
+static enum why search_with_leniency(lohner *s, enum leniency from, double least) {
+  for (enum leniency now = from; now <= LENIENT_FAR; now++) {
     s->lenient = now;
-    if (search(s) == WHY_NOTHING) {
+    if (search(s, least) == WHY_NOTHING) {
       if (now != LENIENT_FAR || !lohner_is_filled(s)) s->lenient = LENIENT_NOT;
       return WHY_NOTHING;
     }
   }
   return WHY_NO_STEP;
+}
+
+/* Leniency is for states that have no size of their own yet: relative to what they are, steps from rest are nearly as
+** short as one likes. So a step that is no small part of the run is looked for first, with any leniency, and only then
+** a shorter one. */
+enum why lohner_find_step(lohner *s) {
+  s->slope_order = s->next_slope_order;
+  uint32_t centre = lohner_centre_series(s), box = lohner_box_series(s, s->all_from, s->all_to);
+  if (centre || box) return centre ? WHY_CENTRE : WHY_BOX;
+  const double *time = s->problem.time;
+  double least = lohner_least_step(s), span = fabs(time[s->problem.ntime - 1] - time[0]);
+  double first = s->options.step_min > 0 ? least : larger(least, SMALL_PART * span);
+  enum why why = search_with_leniency(s, s->lenient, first);
+  if (why == WHY_NOTHING || first == least) return why;
+  return search_with_leniency(s, LENIENT_NOT, least);
 }
