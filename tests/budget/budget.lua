@@ -379,7 +379,7 @@ return {
     tape_slots = 74,
     tape_instructions = 54,
     allocations_run = 0,
-    steps = 88,
+    steps = 116,
     coefficients = 0,
     operations = 0,
     megabytes = 13,

@@ -13,7 +13,9 @@ const ambit_param valencia_param[] = {
       "fixed-point "
       "iteration), or in every step" },
   { "step_max", "s", "", "inf", "longest step" },
-  { "step_min", "s", "", "0", "give up rather than make a shorter step than this; 0: 2^-40 of the time passed" },
+  { "step_min", "s", "", "0",
+      "give up rather than make a shorter step than this; 0: 2^-40 of the time passed, at least 2^-43 of "
+      "the time span" },
   { "width_max", "1", "", "0",
       "give up when a state's enclosure is this many times wider than its initial size, or than 1 if it is smaller; 0: "
       "when all are wider than 10 times what they are to first order, midpoint and movement with the data" },

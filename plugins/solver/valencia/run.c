@@ -135,9 +135,11 @@ static void note_magnitudes(valencia *s, double t, double forget) {
 
 /* -- steps */
 
+/* A share of the span as well: no other rule ends a run whose steps shrink without end. */
 static double least_step(const valencia *s) {
   const double *time = s->problem.time;
-  return ambit_least_step(s->options.step_min, s->t, time[0], time[s->problem.ntime - 1]);
+  double end = time[s->problem.ntime - 1], least = ambit_least_step(s->options.step_min, s->t, time[0], end);
+  return s->options.step_min > 0 ? least : larger(least, 0x1p-43 * fabs(end - time[0]));
 }
 
 /* the interval of time [t, t + h], or up to the next instant; a step that is too short for the clock is its least
