@@ -3,7 +3,7 @@
 ** is rounded up, so that low and high both stay bounds. */
 #ifndef STIFF_INTERVAL_H
 #define STIFF_INTERVAL_H
-#include "dd.h"
+#include <ambit/double_double.h>
 #include <ambit/rounding.h>
 #include <stddef.h>
 #include <stdint.h>

@@ -20,7 +20,7 @@ void poly_copy(poly *r, const poly *a) {
   memcpy(r->lo, a->lo, a->n * sizeof *r->lo);
 }
 
-/* rounding: 4 u^2 (|a_k| + |b_k|) each (dd.h) */
+/* rounding: 4 u^2 (|a_k| + |b_k|) each (double_double.h) */
 void poly_add(poly *r, const poly *a, const poly *b, double sign) {
   uint32_t n = a->n > b->n ? a->n : b->n;
   double size = 0;

@@ -6,7 +6,7 @@
 */
 #ifndef STIFF_SERIES_H
 #define STIFF_SERIES_H
-#include "dd.h"
+#include <ambit/double_double.h>
 #include <ambit/num.h>
 #include <ambit/solver.h>
 #include <ambit/meter.h>
