@@ -12,6 +12,10 @@
 #define GROWTH 2.0     /* of the rate over a step; */
 #define LESS 1.25      /* where lumps matter so much that quartic.c is at work: it knows them at one time of the step */
 #define FROM_REST 1e-4 /* most that a step may add, as a share of a state that starts at 0 */
+#define ORDER_DATA 8   /* in time, with data; */
+#define ORDER_EXACT 18 /* without, and least */
+#define ORDER_LEAST 10
+#define LEFT 0.7 /* of the length that was chosen: the proof bore less */
 #define TRIES 60
 #define REFINE 4
 #define BESIDE_SET 1e-5     /* share of the set that truncation may add in a step */
@@ -108,11 +112,24 @@ double zono_choose_step(zono *z, double h_most) {
     else
       above = middle;
   }
+  p->paced = length;
   return h_most < 0 ? -length : length;
+}
+
+/* Without data: the least for which steps are as long as the proof of the last one bore. */
+static uint32_t adapted(zono *z) {
+  proof *p = z->proof;
+  if (z->guess == 0)
+    p->time_order = ORDER_EXACT;
+  else if (z->guess < LEFT * p->paced)
+    p->time_order -= p->time_order > ORDER_LEAST;
+  else
+    p->time_order += p->time_order < ORDER_EXACT;
+  return p->time_order;
 }
 
 void zono_choose_order(zono *z) {
   z->proof->prepared = 0;
-  uint32_t order = z->options.time_order ? z->options.time_order : z->m ? 8 : 18;
+  uint32_t order = z->options.time_order ? z->options.time_order : z->m ? ORDER_DATA : adapted(z);
   z->K = order < z->K_max ? order : z->K_max;
 }

@@ -71,6 +71,8 @@ typedef struct proof {
   double *spread;          /* [nx] sizes of states' sets, for weights */
   double *unit;            /* [nx] of the states, for norms */
   double *work;            /* [4 nx + na] */
+  double paced;            /* what pace.c chose for the last step */
+  uint32_t time_order;     /* in time, where there are no data */
   double rho_before;       /* of a longer step that was tried; 0: none */
   uint32_t patience;       /* steps that are not halved for it */
   int prepared;            /* total and drop are those of the rows */
