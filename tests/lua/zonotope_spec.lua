@@ -291,6 +291,24 @@ end } }
     assert.is_true(math.abs(run.x.angle:mid() - 0.01 * math.cos(math.sqrt(9.81))) < 1e-6)
   end)
 
+  it("keeps nine digits of a chain of 20 links where nothing is uncertain", function()
+    local m, n = ambit.mechanism { "chain", gravity = { 0, "-9.81", 0 } }, 20
+    local at, initial = m.world, {}
+    for i = 1, n do
+      local turned = m:revolute { from = at, axis = "z", name = "q" .. i }
+      at = m:rigid_link { from = turned, offset = { "0.5", 0, 0 } }
+      m:point_mass { at = at, mass = 1 }
+      initial["q" .. i], initial["q" .. i .. "'"] = 0, 0
+    end
+    local run = ambit.simulate { m:dynamics(), initial = initial, t = { 0, 1 }, solver = "zonotope" }
+    assert.equal("complete", run.status)
+    -- tests/oracle/multibody_digits.c
+    local truth = { q1 = "-1.0856778753269035104", ["q1'"] = "-0.69864659480300503029",
+      q9 = "0.08523475213177738194", ["q9'"] = "-0.86922207981243767638", q17 = "0.0023883198605256454779" }
+    for name, digits in pairs(truth) do assert.is_true(run.x[name]:contains(ambit.interval(digits)), name) end
+    for _, name in ipairs(run.states) do assert.is_true(run.x[name]:width() < 1e-9 * math.max(1, run.x[name]:mag())) end
+  end)
+
   it("takes elements in C that are not Ambit's own, in implicit form", function()
     -- pressed against the stop of tests/kit/kink_element.c all the time, its drag 0: m x'' = -k (x + 1)
     local m = ambit.mechanism { "slide" }

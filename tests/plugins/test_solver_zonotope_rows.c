@@ -136,6 +136,46 @@ static void products_are_those_of_polynomials(void **unused) {
   give_back();
 }
 
+/* -- constants: sums of products of integers, exact in 128 bits */
+
+__extension__ typedef __int128 wide;
+
+static double integer(int bits) {
+  double x = nearbyint(ldexp(draw(-1, 1), bits));
+  return x != 0 ? x : 1;
+}
+
+static wide size_of(wide x) { return x < 0 ? -x : x; }
+
+/* half a unit of the result, and 4 (n + 2)^2 u^2 of the terms' sizes, although the terms cancel */
+static void constants_are_rounded_once(void **unused) {
+  (void)unused;
+  static shape s;
+  assert_true(shape_open(&host, &s, 2, 3) != 0);
+  double *row[2][40], *sum = lend(&host, s.stride * 8);
+  for (uint32_t i = 0; i < 80; i++) row[i % 2][i / 2] = lend(&host, s.stride * 8);
+  for (int turn = 0; turn < 4000; turn++) {
+    uint32_t n = 2 + (uint32_t)turn % 38;
+    wide truth = 0, size = 0;
+    terms t;
+    terms_clear(&t);
+    for (uint32_t i = 0; i < n; i++) {
+      double a = integer(30 + turn % 23), b = integer(53), sign = turn / 7 % 2 ? 1 : -1;
+      if (i + 1 == n && turn % 3) a = 1, b = -sign * nearbyint((double)(truth / 3)); /* cancels */
+      if (i + 1 == n && turn % 3) a = 3;
+      fill(&s, row[0][i], 0), fill(&s, row[1][i], 0);
+      row[0][i][0] = a, row[1][i][0] = b;
+      terms_product(&s, &t, sign, row[0][i], row[1][i]);
+      wide product = (wide)a * (wide)b;
+      truth += sign > 0 ? product : -product, size += size_of(product);
+    }
+    terms_sum(&s, &t, sum, 0);
+    long double off = (long double)size_of((wide)sum[0] - truth);
+    assert_true(off <= 0x1p-53L * fabsl((long double)sum[0]) + 0x1p-104L * (n + 2) * (n + 2) * (long double)size);
+  }
+  give_back();
+}
+
 /* -- the relations */
 
 typedef struct checker {
@@ -287,6 +327,7 @@ static void functions_are_of_third_order(void **unused) {
 int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(products_are_those_of_polynomials),
+    cmocka_unit_test(constants_are_rounded_once),
     cmocka_unit_test(rows_satisfy_their_relations),
     cmocka_unit_test(functions_are_of_third_order),
   };

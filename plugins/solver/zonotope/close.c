@@ -16,15 +16,20 @@ static void find_end(zono *z) {
   const shape *s = &z->shape;
   for (uint32_t i = 0; i < z->nx; i++) {
     uint32_t slot = slot_x(z, i), out = slot_out(z)[i];
-    double *to = p->end + (size_t)i * s->stride, power = 1, size = 0;
+    double *to = p->end + (size_t)i * s->stride, power = 1, size = 0, constant = 0;
+    dd centre = { 0, 0 };
     memset(to, 0, s->stride * sizeof *to);
     for (uint32_t k = 0; k < orders(z, slot); k++, power *= z->h) {
       const double *row = row_at(z, slot, k);
       for (uint32_t v = 0; v < s->norms; v++) to[v] += power * row[v];
       for (uint32_t v = s->cube; v < s->cube + s->triples && row_c(s, row) > 0; v++) to[v] += power * row[v];
-      size += fabs(power) * row_total(s, row);
+      size += fabs(power) * row_moving(s, row), constant += fabs(power * row[0]);
     }
+    for (uint32_t k = orders(z, slot); k-- > 0;)
+      centre = dd_add(dd_scale(centre, z->h), dd_make(row_at(z, slot, k)[0], 0));
     row_norms_all(s, to);
+    to[0] = centre.hi;
+    *box(z, FROM_START, i) += fabs(centre.lo) + 16 * (z->K + 2) * UNIT * UNIT * constant;
     *box(z, FROM_START, i) += 2 * (z->K + 3) * UNIT * size + z->h_error * (p->high[out] + p->delta[out]);
   }
 }

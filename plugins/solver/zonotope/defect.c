@@ -10,8 +10,16 @@
 #include "proof.h"
 #include "value.h"
 
-/* a coefficient of a sum of n products: 10 n + 14 operations (zonotope.h) */
-static double rounding(double n) { return (10 * n + 16) * UNIT; }
+typedef struct sizes {
+  double moving, constant; /* of products, with and without a coefficient that is no constant */
+} sizes;
+
+/* A coefficient of a sum of n products takes 10 n + 14 operations (zonotope.h). The constant's products with a double
+** are summed up with twice the digits and rounded once, by UNIT |constant|, which is not in this. */
+static double rounding(double n, sizes size) {
+  double squared = 4 * (n + 2) * (n + 2) * UNIT * UNIT;
+  return (10 * n + 16) * UNIT * size.moving * ABOVE + squared * size.constant;
+}
 static double total(const zono *z, uint32_t slot, uint32_t k) { return z->proof->total[z->first[slot] + k]; }
 static double scaled(const zono *z, uint32_t slot, uint32_t k) { return z->proof->scaled[z->first[slot] + k]; }
 static double *drop_at(const zono *z, uint32_t slot) { return z->proof->drop + z->first[slot]; }
@@ -19,24 +27,39 @@ static uint32_t last(const zono *z, uint32_t slot) { return orders(z, slot) - 1;
 
 /* -- what order k drops */
 
-/* sum_j w_j u_j (*) v_(k-j), w_j = j / k with `weighted`, else 1: monomials that are not held, and the sum of sizes */
-static double dropped(const zono *z, uint32_t u, uint32_t v, uint32_t k, int weighted, double *size) {
+/* sum_j w_j u_j (*) v_(k-j), w_j = j / k with `weighted`, else 1: monomials that are not held, and the sums of sizes */
+static double dropped(const zono *z, uint32_t u, uint32_t v, uint32_t k, int weighted, sizes *size) {
   double sum = 0;
   for (uint32_t j = (uint32_t)weighted; j <= k && j <= last(z, u); j++) {
     if (k - j > last(z, v)) continue;
     double w = weighted ? (double)j / k : 1;
-    sum += w * row_dropped(&z->shape, row_at(z, u, j), row_at(z, v, k - j), has_triples(z, k));
-    *size += w * total(z, u, j) * total(z, v, k - j);
+    const double *a = row_at(z, u, j), *b = row_at(z, v, k - j);
+    sum += w * row_dropped(&z->shape, a, b, has_triples(z, k));
+    size->moving += w * (row_moving(&z->shape, a) * total(z, v, k - j) + fabs(a[0]) * row_moving(&z->shape, b));
+    size->constant += w * fabs(a[0] * b[0]);
   }
   return sum;
 }
 
+/* u_0 v_k and u_k v_0: where the rest of a product is made first, its constant is what is left without these */
+static double ends_of(const zono *z, uint32_t u, uint32_t v, uint32_t k) {
+  double sum = 0;
+  if (k <= last(z, v)) sum += fabs(row_at(z, u, 0)[0] * row_at(z, v, k)[0]);
+  if (k <= last(z, u)) sum += fabs(row_at(z, u, k)[0] * row_at(z, v, 0)[0]);
+  return sum;
+}
+
+/* weights are j / k, and a factor is multiplied by one, in three roundings */
 static void drop_product(zono *z, uint32_t dst, uint32_t u, uint32_t v, int weighted) {
   double *drop = drop_at(z, dst);
   for (uint32_t k = (uint32_t)weighted; k <= last(z, dst); k++) {
-    double size = 0;
-    drop[k] = dropped(z, u, v, k, weighted, &size);
-    drop[k] += rounding(k + 1.0) * size;
+    sizes size = { 0, 0 };
+    double lost = dropped(z, u, v, k, weighted, &size), constant = fabs(row_at(z, dst, k)[0]);
+    drop[k] = lost + rounding(k + 1.0, size);
+    if (weighted)
+      drop[k] += UNIT * (constant + 4 * size.constant);
+    else
+      drop[k] += UNIT * (k ? 2 * constant + ends_of(z, u, v, k) : constant);
   }
 }
 
@@ -54,10 +77,13 @@ static void test(zono *z, double *drop, uint32_t count, uint32_t n, const produc
   for (uint32_t k = (uint32_t)weighted; k < count; k++) {
     terms sum;
     terms_clear(&sum);
-    double lost = 0, size = 0;
-    if (k == 0) sum.c = constant, size = fabs(constant);
-    if (linear != AMBIT_NO_SLOT && k <= last(z, linear))
-      terms_row(s, &sum, -1, row_at(z, linear, k)), size += total(z, linear, k);
+    double lost = 0, *row, *left = z->proof->end;
+    sizes size = { 0, 0 };
+    if (k == 0) sum.c = constant, size.constant = fabs(constant);
+    if (linear != AMBIT_NO_SLOT && k <= last(z, linear)) {
+      row = row_at(z, linear, k), terms_row(s, &sum, -1, row);
+      size.moving += row_moving(s, row), size.constant += fabs(row[0]);
+    }
     for (uint32_t i = 0; i < n; i++) {
       lost += fabs(p[i].scale) * dropped(z, p[i].u, p[i].v, k, weighted, &size);
       for (uint32_t j = (uint32_t)weighted; j <= k && j <= last(z, p[i].u); j++)
@@ -65,8 +91,9 @@ static void test(zono *z, double *drop, uint32_t count, uint32_t n, const produc
           terms_product(
               s, &sum, p[i].scale * (weighted ? (double)j / k : 1), row_at(z, p[i].u, j), row_at(z, p[i].v, k - j));
     }
-    terms_sum(s, &sum, z->proof->end, has_triples(z, k));
-    drop[k] = row_total(s, z->proof->end) + lost + rounding(n * (k + 1.0) + 2) * 2 * size;
+    terms_sum(s, &sum, left, has_triples(z, k));
+    drop[k] = row_total(s, left) * ABOVE + lost + 2 * rounding(n * (k + 1.0) + 2, size);
+    if (weighted) drop[k] += 4 * UNIT * size.constant;
   }
 }
 
@@ -75,7 +102,7 @@ static void test(zono *z, double *drop, uint32_t count, uint32_t n, const produc
 
 static double remainder_of(const zono *z, uint32_t a, double g0, double g1, double g2, double g3, double g4) {
   const double *x = row_at(z, a, 0);
-  double A = row_moving(&z->shape, x), size = g0 + g1 * A + g2 * A * A + g3 * A * A * A;
+  double A = row_moving(&z->shape, x), size = g0 / 8 + g1 * A + g2 * A * A + g3 * A * A * A;
   return 0.5 * g2 * row_dropped(&z->shape, x, x, 1) + g3 * row_dropped_cube(&z->shape, x) / 6 +
          g4 * A * A * A * A / 24 + 64 * UNIT * size;
 }
@@ -91,7 +118,7 @@ static double angle_remainder(const zono *z, uint32_t a, uint32_t b) {
   double far = A - (row_l(s, x) + row_l(s, y)) + x[s->norms + NORM_L_FAR] + y[s->norms + NORM_L_FAR] + 8 * UNIT * A;
   double ratio = A / r, size = ratio + ratio * ratio + ratio * ratio * ratio;
   return lost / (r * r) + 4 * ratio * ratio * far / r + A * A * A * A / (4 * near * near * near * near) +
-         64 * UNIT * (4 + 2 * size);
+         64 * UNIT * (0.5 + 2 * size);
 }
 
 static double order0(const zono *z, uint32_t i) {
@@ -101,7 +128,7 @@ static double order0(const zono *z, uint32_t i) {
   double A = row_moving(&z->shape, x), c = x[0], near = c - A, n = 1 / c, v;
   switch (op) {
   case AMBIT_OP_SIN:
-  case AMBIT_OP_COS: return remainder_of(z, a, 1, 1, fabs(value_of(z, op, c, 0)) + 8 * UNIT, 1, 1);
+  case AMBIT_OP_COS: v = fabs(value_of(z, op, c, 0)); return remainder_of(z, a, v, 1, v + 8 * UNIT, 1, 1);
   case AMBIT_OP_EXP: v = value_of(z, op, c, 0); return remainder_of(z, a, v, v, v, v, value_of(z, op, c + A, 0));
   case AMBIT_OP_SINH:
   case AMBIT_OP_COSH:
@@ -122,7 +149,10 @@ static double order0(const zono *z, uint32_t i) {
 static double size_of(const zono *z, uint32_t slot, uint32_t k) { return k <= last(z, slot) ? total(z, slot, k) : 0; }
 
 static void drop_sum(zono *z, uint32_t dst) {
-  for (uint32_t k = 0; k <= last(z, dst); k++) drop_at(z, dst)[k] = 2 * UNIT * total(z, dst, k);
+  for (uint32_t k = 0; k <= last(z, dst); k++) {
+    const double *row = row_at(z, dst, k);
+    drop_at(z, dst)[k] = UNIT * (fabs(row[0]) + 2 * row_moving(&z->shape, row));
+  }
 }
 
 /* ATAN, ATAN2: z' q - numerator */
@@ -304,7 +334,7 @@ static void bound_outputs(zono *z, double length) {
     uint32_t slot = slot_out(z)[o];
     double sum = 0, power = 1;
     for (uint32_t k = 0; k <= last(z, slot); k++, power *= length) {
-      double share = o >= z->nx || k == z->K ? 1 : 4 * UNIT;
+      double share = o >= z->nx || k == z->K ? 1 : k & (k + 1) ? 4 * UNIT : 0; /* 1 / (k + 1) may be exact */
       sum += total(z, slot, k) * power * share;
       if (o < z->nx && k + 1 == z->shape.cubed) sum += row_c(&z->shape, row_at(z, slot, k)) * power;
     }

@@ -70,6 +70,26 @@ static uint32_t add_known(zono *z, uint32_t at, const sums *sum) {
   return at;
 }
 
+/* What V_R does to x'_i, with coefficients at their middles: V_R is known, so its constants add up with their signs. */
+static double equations_size(const zono *z, uint32_t i) {
+  const proof *p = z->proof;
+  double all = 0, rounded = 0, power = 1;
+  if (p->link[i] == LINK_STATE) return 0;
+  const double *L = p->L + (size_t)p->link_to[i] * z->na;
+  for (uint32_t k = 0; k <= z->K; k++, power *= fabs(z->h)) {
+    double sum = 0, size = 0;
+    for (uint32_t q = 0; q < z->na; q++) {
+      uint32_t slot = slot_out(z)[z->nx + q];
+      if (k >= orders(z, slot)) continue;
+      const double *row = row_at(z, slot, k);
+      sum += L[q] * row[0], size += fabs(L[q]) * row_moving(&z->shape, row);
+    }
+    all += power * (fabs(sum) + size);
+  }
+  for (uint32_t q = 0; q < z->na; q++) rounded += fabs(L[q]) * z->rr_out[z->nx + q];
+  return (all + 2 * (z->na + 2) * UNIT * rounded) * ABOVE;
+}
+
 static uint32_t add_lumps(zono *z, uint32_t at, const sums *sum) {
   proof *p = z->proof;
   uint32_t nx = z->nx;
@@ -82,18 +102,13 @@ static uint32_t add_lumps(zono *z, uint32_t at, const sums *sum) {
     for (uint32_t i = 0; i < nx; i++) c[i] = weight_of(z, i, j), sum->width[i] += half_width(z, i, j) * size.most;
     at = add_lump(z, at, size, c, sum, origin_of(z, j));
   }
-  for (uint32_t q = 0; q < z->na; q++) {
-    double size = z->rr_out[nx + q];
-    for (uint32_t i = 0; i < nx; i++) {
-      size_t n = p->link[i] == LINK_STATE ? 0 : (size_t)p->link_to[i] * z->na + q;
-      c[i] = p->link[i] == LINK_STATE ? 0 : p->L[n];
-      sum->width[i] += p->link[i] == LINK_STATE ? 0 : raw(z, p->dL, p->dL_new)[n] * size;
-    }
-    at = add_lump(z, at, quartic_none(size), c, sum, FROM_START);
-  }
   for (uint32_t l = 0; l < nx; l++) {
+    double left = equations_size(z, l);
     for (uint32_t i = 0; i < nx; i++) c[i] = i == l;
-    at = add_lump(z, at, quartic_none(z->rr_out[l]), c, sum, FROM_TIME);
+    at = add_lump(z, at, quartic_none(z->rr_out[l] + left), c, sum, left > z->rr_out[l] ? FROM_START : FROM_TIME);
+    if (p->link[l] == LINK_STATE) continue;
+    const double *dL = raw(z, p->dL, p->dL_new) + (size_t)p->link_to[l] * z->na;
+    for (uint32_t q = 0; q < z->na; q++) sum->width[l] += dL[q] * z->rr_out[nx + q];
   }
   return known ? add_known(z, at, sum) : at;
 }

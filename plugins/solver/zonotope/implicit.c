@@ -119,7 +119,7 @@ static void subtract(const zono *z, uint32_t stage, uint32_t r, uint32_t c, uint
     const double *l = entry(z, stage, r, q), *u = entry(z, stage, q, c);
     if (row_total(s, l) > 0 && row_total(s, u) > 0) terms_product(s, &sum, -1, l, u);
   }
-  if (!sum.nrow && !sum.nouter && sum.c == 0) return;
+  if (!sum.nrow && !sum.nouter && sum.c == 0 && sum.low == 0) return;
   terms_row(s, &sum, 1, to);
   terms_sum(s, &sum, z->scratch, 1);
   memcpy(to, z->scratch, s->stride * sizeof *to);
@@ -158,6 +158,15 @@ int zono_factor(zono *z, uint32_t stage) {
 
 /* -- the solution */
 
+static void add_to(const zono *z, double *to, const double *x, int triples) {
+  const shape *s = &z->shape;
+  terms sum;
+  terms_clear(&sum);
+  terms_row(s, &sum, 1, to), terms_row(s, &sum, 1, x);
+  terms_sum(s, &sum, z->scratch, triples);
+  memcpy(to, z->scratch, (triples ? s->stride : s->cube) * sizeof *to);
+}
+
 void zono_solve(zono *z, uint32_t stage, uint32_t k) {
   const program *p = &z->program;
   const shape *s = &z->shape;
@@ -177,11 +186,12 @@ void zono_solve(zono *z, uint32_t stage, uint32_t k) {
     terms_row(s, &sum, 1, at(z, z->implicit->y, r));
     for (uint32_t q = r + 1; q < n; q++) {
       const double *u = entry(z, stage, r, q);
-      if (row_total(s, u) > 0) terms_product(s, &sum, -1, u, row_at(z, slot_a(z, p->pivot[start + q]), k));
+      if (row_total(s, u) > 0) terms_product(s, &sum, -1, u, at(z, z->implicit->y, q));
     }
     terms_sum(s, &sum, z->scratch, has_triples(z, k));
     terms_clear(&sum);
     terms_product(s, &sum, 1, z->scratch, inverse_of(z, stage, r));
-    terms_sum(s, &sum, row_at(z, slot_a(z, p->pivot[start + r]), k), has_triples(z, k));
+    terms_sum(s, &sum, at(z, z->implicit->y, r), has_triples(z, k));
+    add_to(z, row_at(z, slot_a(z, p->pivot[start + r]), k), at(z, z->implicit->y, r), has_triples(z, k));
   }
 }

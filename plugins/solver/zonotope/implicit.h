@@ -18,7 +18,7 @@ typedef struct implicit {
 
 int zono_open_implicit(zono *z);                      /* 0: no memory */
 int zono_factor(zono *z, uint32_t stage);             /* from rows of order 0; 0: see z->why */
-void zono_solve(zono *z, uint32_t stage, uint32_t k); /* a_k from the rows of R_k */
+void zono_solve(zono *z, uint32_t stage, uint32_t k); /* adds to a_k what the rows of R_k ask for */
 
 static inline double *implicit_partial(const zono *z, uint32_t i) {
   uint32_t n = z->implicit ? z->implicit->has_partial[i] : 0;

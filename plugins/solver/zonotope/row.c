@@ -119,8 +119,14 @@ void terms_moving(const shape *s, terms *t, double scale, const double *x) {
   t->row[t->nrow].scale = scale, t->row[t->nrow++].x = x;
 }
 
+/* the constant += a b: twice the digits, rounded when it is read [Ogita, Rump, Oishi 2005] */
+static void add_constant(terms *t, double a, double b) {
+  dd product = two_product(a, b), sum = two_sum(t->c, product.hi);
+  t->c = sum.hi, t->low += sum.lo + product.lo;
+}
+
 void terms_row(const shape *s, terms *t, double scale, const double *x) {
-  t->c += scale * x[0];
+  add_constant(t, scale, x[0]);
   terms_moving(s, t, scale, x);
 }
 
@@ -134,7 +140,7 @@ void terms_outer(const shape *s, terms *t, double scale, const double *a, const 
 }
 
 void terms_product(const shape *s, terms *t, double scale, const double *a, const double *b) {
-  t->c += scale * a[0] * b[0];
+  add_constant(t, scale * a[0], b[0]);
   terms_moving(s, t, scale * a[0], b);
   terms_moving(s, t, scale * b[0], a);
   terms_outer(s, t, scale, a, b);
@@ -142,7 +148,7 @@ void terms_product(const shape *s, terms *t, double scale, const double *a, cons
 
 void terms_sum(const shape *s, const terms *t, double *to, int triples) {
   if (!t->nrow && !t->nouter && !t->nbend)
-    row_constant(s, to, t->c);
+    row_constant(s, to, t->c + t->low);
   else
     s->sum(s, t, to, triples && s->cubed);
 }

@@ -11,6 +11,7 @@
 #ifndef ZONOTOPE_ROW_H
 #define ZONOTOPE_ROW_H
 #include <ambit/base.h>
+#include <ambit/double_double.h>
 #include <math.h>
 #include <string.h>
 
@@ -64,7 +65,8 @@ void row_scale(const shape *s, double *to, double scale, const double *a, int tr
 #define TERMS 512
 
 typedef struct terms {
-  double c;
+  double c,
+      low; /* the constant c + low: all products and sums in c are exact, what they round by is summed up in low */
   uint32_t nrow, nouter, nbend;
   struct {
     double scale;
@@ -76,7 +78,7 @@ typedef struct terms {
   } outer[TERMS], bend[2 * TERMS]; /* scale times the product of linear parts; of the linear part of a and pairs of b */
 } terms;
 
-static inline void terms_clear(terms *t) { t->c = 0, t->nrow = t->nouter = t->nbend = 0; }
+static inline void terms_clear(terms *t) { t->c = t->low = 0, t->nrow = t->nouter = t->nbend = 0; }
 void terms_moving(const shape *s, terms *t, double scale, const double *x); /* scale (x - its constant) */
 void terms_row(const shape *s, terms *t, double scale, const double *x);
 void terms_outer(const shape *s, terms *t, double scale, const double *a, const double *b); /* without constants */

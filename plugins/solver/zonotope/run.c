@@ -28,7 +28,8 @@ static int set_end(zono *z, double h) {
   int at_goal = !(fabs(h) < fabs(goal - z->t) * (1 - 0x1p-40));
   z->t_next = at_goal ? goal : z->t + h;
   z->h = z->t_next - z->t;
-  z->h_error = 0x1p-52 * fabs(z->h); /* a difference is rounded by half of that; bounds over [0, h] hold for it, too */
+  /* a difference is rounded by half of that, if at all; bounds over [0, h] hold for it, too */
+  z->h_error = two_sum(z->t_next, -z->t).lo != 0 ? 0x1p-52 * fabs(z->h) : 0;
   return at_goal;
 }
 

@@ -110,13 +110,14 @@ static int undefined(zono *z, uint32_t slot) {
   return 0;
 }
 
-/* all of this level; `pass`: what is needed to find the unknowns, before they are known */
-static int evaluate_level(zono *z, uint32_t level, uint32_t k, int pass) {
+enum pass { ALL, FIRST, AGAIN }; /* all of a level; what is needed to find the unknowns, with products anew or not */
+
+static int evaluate_level(zono *z, uint32_t level, uint32_t k, enum pass pass) {
   const program *p = &z->program;
   for (uint32_t n = p->of_level[level]; n < p->of_level[level + 1]; n++) {
     uint32_t i = p->sorted[n];
-    if (pass && !p->needed[p->tape->dst[i]]) continue;
-    if (pass && k && implicit_partial(z, i)) put_partial(z, i, k);
+    if (pass != ALL && !p->needed[p->tape->dst[i]]) continue;
+    if (pass == FIRST && k && implicit_partial(z, i)) put_partial(z, i, k);
     if (!evaluate(z, i, k)) return undefined(z, p->tape->dst[i]);
   }
   return 1;
@@ -126,16 +127,20 @@ static int find_unknowns(zono *z, uint32_t stage, uint32_t k) {
   const program *p = &z->program;
   for (uint32_t j = stage ? p->stage_end[stage - 1] : 0; j < p->stage_end[stage]; j++)
     row_constant(&z->shape, row_at(z, slot_a(z, j), k), 0);
-  if (!evaluate_level(z, stage + 1, k, 1)) return 0;
+  if (!evaluate_level(z, stage + 1, k, FIRST)) return 0;
   if (k == 0 && !zono_factor(z, stage)) return 0;
   zono_solve(z, stage, k);
-  return evaluate_level(z, stage + 1, k, 0);
+  if (z->m == 0) { /* rounding is all that there is: less of it */
+    if (!evaluate_level(z, stage + 1, k, AGAIN)) return 0;
+    zono_solve(z, stage, k);
+  }
+  return evaluate_level(z, stage + 1, k, ALL);
 }
 
 int zono_series(zono *z) {
   put_inputs(z);
   for (uint32_t k = 0; k <= z->K; k++) {
-    if (!evaluate_level(z, 0, k, 0)) return 0;
+    if (!evaluate_level(z, 0, k, ALL)) return 0;
     for (uint32_t stage = 0; stage < z->program.nstage; stage++)
       if (!find_unknowns(z, stage, k)) return 0;
     for (uint32_t i = 0; i < z->nout; i++)

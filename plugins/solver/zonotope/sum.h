@@ -167,7 +167,7 @@ static void sum_norms(const shape *s, double *x, int triples) {
 }
 
 void VARIANT(const shape *s, const terms *t, double *to, int triples) {
-  to[0] = t->c;
+  to[0] = t->c + t->low;
   sum_segment(t, to, 1, s->m + s->nx, 0, 0, 0);
   for (uint32_t i = 0; i < s->m && s->reach[i] > i; i++) {
     to[s->pair[i]] = sum_square(t, s->pair[i], 1 + i);

@@ -24,7 +24,7 @@
 **   ABS MIN MAX    a multiple of a, or of a and b, plus a constant: those of kink.c
 ** and for k = 0 of a function the Taylor polynomial of degree 3 about the constant of its operand.
 ** Each coefficient of a sum of n products is got by at most 10 n + 14 operations in doubles, in any order, contracted
-** or not; the divisions by k and factors j are among them. i_0 is inverse_at(): b_0 (*) i_0 = 1 but for rounding. No
+** or not, but the constant, of which row.c knows more; the divisions by k and factors j are among them. i_0 is inverse_at(): b_0 (*) i_0 = 1 but for rounding. No
 ** value from before the solution of the implicit equations is left in them: nothing cancels that is not in the rows.
 ** Slots of degree 0 (constant in time) have row 0 only, the others K + 1, zero above the slot's degree.
 */
