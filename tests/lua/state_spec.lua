@@ -166,7 +166,8 @@ describe("a state of a mechanism", function()
 
   it("refuses what cannot be meant", function()
     local function refused(pattern, t, before)
-      local m = arm { length = 1, mass = 1, constant = "1 N m/A", resistance = "1 ohm" }
+      local m = arm { length = 1, mass = 1, constant = number "1 N m/A",
+        resistance = number "1 ohm" }
       if before then before(m) end
       expect_error(function() m:state(t); return m:dynamics() end, pattern)
     end
