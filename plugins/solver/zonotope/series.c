@@ -130,7 +130,9 @@ static int find_unknowns(zono *z, uint32_t stage, uint32_t k) {
   if (!evaluate_level(z, stage + 1, k, FIRST)) return 0;
   if (k == 0 && !zono_factor(z, stage)) return 0;
   zono_solve(z, stage, k);
-  if (z->m == 0) { /* rounding is all that there is: less of it */
+  /* Rounding is all that there is: less of it. Not from rest: what states at 0 become by rounding is less then than
+  ** what they are off by, and pace.c would take ever shorter steps. */
+  if (z->m == 0 && z->guess > 0) {
     if (!evaluate_level(z, stage + 1, k, AGAIN)) return 0;
     zono_solve(z, stage, k);
   }
