@@ -198,13 +198,14 @@ static bool join(ambit_track *track, const ambit_track *more) {
   return true;
 }
 
-/* track_join(track, more): the steps of `more`, which go on from its end, behind its own; the set at the end is that of
-** `more`, which keeps it */
+/* track_join(track, more): the steps of `more`, which go on from its end, behind its own. The set at the end becomes
+** that of `more`, which gets the other one: it is not to be used any more. */
 static int extend(lua_State *L) {
-  ambit_track *track = self(L);
-  const ambit_track *more = luaL_checkudata(L, 2, AMBIT_TYPE_TRACK);
+  ambit_track *track = self(L), *more = luaL_checkudata(L, 2, AMBIT_TYPE_TRACK);
   if (more == track || more->nx != track->nx) ambit_lua_error(L, "these tracks do not go together");
   if (!join(track, more)) ambit_lua_error(L, "out of memory");
+  ambit_held_set set = track->set;
+  track->set = more->set, more->set = set;
   return 0;
 }
 

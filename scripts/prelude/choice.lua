@@ -159,10 +159,16 @@ local function rest_of(q, run)
   return { initial = initial, times = times }
 end
 
+-- Did a run that goes on from the end of the best one get further? Only then the two become one: the first is changed.
+local function gains(run, state)
+  return is_better({ status = run.status, t_reached = run.t_reached, times = state.q.times }, state.best)
+end
+
 -- The second run behind the first.
 local function joined(first, second, q)
   core.track_join(first.track, second.track)
   second.track, second.initial, second.times, second.t_start = first.track, first.initial, q.times, first.t_start
+  second.question = first.question
   second.cpu_seconds, second.step_count = first.cpu_seconds + second.cpu_seconds, first.step_count + second.step_count
   rawset(second, "x", nil)
   table.insert(second.parts, 1, { solver = first.solver, t_from = first.parts[1].t_from, t = first.t_reached })
@@ -195,10 +201,11 @@ local function try_all(state, ways)
       left.patience = PATIENCE
       run = state.ask(try, left)
     end)
-    if from then run = joined(from, run, state.q) end
-    local good = judge(run, state.q, state.hull)
+    local gained = not from or gains(run, state)
+    if from and gained then run = joined(from, run, state.q) end
+    local good = gained and judge(run, state.q, state.hull)
     state.tried[#state.tried + 1] = { solver = try.solver, pieces = try.pieces, outcome = describe(run), run = run }
-    local better = is_better(run, state.best)
+    local better = gained and is_better(run, state.best)
     if better then state.best, state.by = run, try end
     if good or not may_go_on(run, was_limit) then return true end
     if try.pieces and not better then return false end

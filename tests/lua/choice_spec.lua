@@ -79,6 +79,23 @@ describe("a run of the solver that suits", function()
     end
     local set = ambit.evaluate { { run:set().q1 }, arithmetic = "interval" }[1]
     assert.is_true(set:width() < 2 * whole.x.q1:width())
+    assert.is_false(set:intersect(whole.x.q1):is_empty()) -- the set at the end, not that at the seam
+    local further = { system, initial = run:set(), t = { 1, 1.25 }, solver = "zonotope" }
+    local direct = ambit.simulate { system, initial = initial, t = { 0, 1.25 }, solver = "zonotope" }
+    assert.is_false(ambit.simulate(further).x.q1:intersect(direct.x.q1):is_empty())
+    assert.is_true(run.overestimate == nil or run.overestimate > 0.99)
+  end)
+
+  it("stays as it was where another solver gains next to nothing", function()
+    local o = ambit.ode { states = { "y", "z" }, equations = function(s)
+      return { y = -ambit.number(1), z = ambit.sqrt(s.y) }
+    end }
+    local run = ambit.simulate { o, initial = { y = ambit.around(1, "1%"), z = 0 }, t = { 0, 1 } }
+    assert.equal("unable", run.status)
+    assert.is_true(run.x.y.hi >= 1.01 - run.t_reached and run.x.y.lo <= 0.99 - run.t_reached)
+    local last
+    for step in run:steps() do last = step.t end
+    assert.equal(run.t_reached, last)
   end)
 
   it("stays as it is where it is tight, and nothing is drawn", function()
