@@ -9,7 +9,7 @@
 #define HOPELESS 20 /* times what a run has taken until now, that the rest of it would take */
 
 static bool is_hopeless(ambit_pace *p) {
-  if (!(p->patience > 0)) return false;
+  if (!(p->patience > 0) || !p->has_moved) return false; /* pieces write nothing until all have passed an instant */
   double spent = ambit_context_seconds() - p->began;
   if (!p->has_half && spent >= 0.5 * p->look) p->t_half = p->t, p->has_half = true;
   if (spent < p->look) return p->is_hopeless;
@@ -30,7 +30,7 @@ static bool is_to_stop(ambit_receiver *r) {
 static int32_t emit(ambit_sink *s, const ambit_record *record) {
   ambit_receiver *r = (ambit_receiver *)(void *)s;
   if (r->failure.status != AMBIT_OK) return 1;
-  r->pace.t = record->t_to;
+  r->pace.t = record->t_to, r->pace.has_moved = true;
   if (!ambit_track_append(r->track, record)) {
     ambit_fail(&r->failure, AMBIT_NOMEM, "out of memory for the records of this run");
     return 1;
@@ -41,7 +41,7 @@ static int32_t emit(ambit_sink *s, const ambit_record *record) {
 
 static int32_t progress(ambit_sink *s, double done, const char *message) {
   ambit_receiver *r = (ambit_receiver *)(void *)s;
-  if (!r->track) r->pace.t = done; /* of a silent receiver, the whole is 1 */
+  if (!r->track) r->pace.t = done, r->pace.has_moved = true; /* of a silent receiver, the whole is 1 */
   ambit_progress_draw(&r->progress, done, message);
   return is_to_stop(r);
 }

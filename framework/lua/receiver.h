@@ -15,7 +15,7 @@ typedef struct ambit_pace {
   double began, look, t; /* CPU time: when it began, when it is looked at next; the time reached by then */
   double t_half;         /* the time that was reached at half of that, */
   double t_quarter;      /* and at a quarter */
-  bool has_half, is_hopeless;
+  bool has_moved, has_half, is_hopeless;
 } ambit_pace;
 
 typedef struct ambit_receiver {

@@ -1,6 +1,7 @@
 -- chain_cable.lua -- m:cable { from = a, to = b, length = l0, stiffness = k, damping = c }: it pulls when it is longer
--- than l0, and never pushes: force -k max(l - l0, 0) (1 + c l'), which is continuous where it goes slack (Hunt &
--- Crossley, J. Appl. Mech. 42 (1975)).
+-- than l0, with the force -k max(l - l0, 0) (1 + c l'), which is continuous where it goes slack (Hunt & Crossley, J.
+-- Appl. Mech. 42 (1975)). The law holds as long as it shortens no faster than 1/c; beyond that the force changes its
+-- sign.
 local chain = require "ambit.chain"
 local core = require "ambit.core"
 

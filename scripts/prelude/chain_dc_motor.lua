@@ -5,18 +5,18 @@
 -- K the torque per current, which is the voltage per angular velocity as well (in SI units), n the ratio of the gear.
 local actuator = require "ambit.actuator"
 local chain = require "ambit.chain"
+local check = require "ambit.check"
 local core = require "ambit.core"
 
 local function build(m, p)
   local q, v, unit = actuator.motion(m, p.joint, "dc_motor: joint")
-  local gain = core.in_unit(p.ratio * p.constant, unit == "rad" and "N m/A" or "N/A")
+  if unit ~= "rad" then check.fail "dc_motor: joint: expected a joint that turns, got one that slides" end
+  local gain = core.in_unit(p.ratio * p.constant, "N m/A")
   local voltage = actuator.command(p.voltage, "V", "dc_motor: voltage", q, v, core.time())
   local i = m:state { "current", unit = "A", rate = function(_, i)
     return (voltage - p.resistance * i - gain * v) / p.inductance
   end }
-  local drive = { joint = p.joint, name = "drive" }
-  drive[unit == "rad" and "torque" or "force"] = gain * i
-  m:joint_torque(drive)
+  m:joint_torque { joint = p.joint, name = "drive", torque = gain * i }
   m:armature { joint = p.joint, inertia = core.sqr(p.ratio) * p.rotor, name = "rotor" }
   return { current = i, voltage = voltage, torque = gain * i }
 end

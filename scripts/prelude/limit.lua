@@ -56,7 +56,8 @@ function methods:limit_events()
 end
 
 -- m:limit_stops { stiffness, slide_stiffness, damping }: beyond its limits a joint is pushed back by stiffness times
--- the excess e, times (1 + damping e') (Hunt & Crossley, J. Appl. Mech. 42 (1975)). Returns the names of these joints.
+-- the excess e, times (1 + damping e') (Hunt & Crossley, J. Appl. Mech. 42 (1975)); the law holds as long as it leaves
+-- the stop no faster than 1/damping. Returns the names of these joints.
 function methods:limit_stops(t)
   check.table(t, "limit_stops")
   check.keys(t, { "stiffness", "slide_stiffness", "damping" }, "limit_stops")

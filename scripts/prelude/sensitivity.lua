@@ -161,7 +161,9 @@ local LARGE = { lohner = true, zonotope = true }
 local function chosen(q)
   if not q.suggestion or LARGE[q.solver] then return q end
   local good, other = pcall(q.by, "lohner")
-  return good and other or q
+  if not good then return q end
+  other.suggestion = setmetatable({ reason = "sensitivities are linear in themselves" }, { __index = q.suggestion })
+  return other
 end
 
 function verb.sensitivity(t)

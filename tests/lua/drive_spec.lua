@@ -74,6 +74,8 @@ describe("a DC motor", function()
     expect_error(with("voltage", "3 A"), "`3 A` is in A, but V is expected")
     expect_error(with("voltage", function() end), "dc_motor: voltage: the function returned nothing")
     expect_error(with("constant", "3 V"), "is in V")
+    local _, slide = m:prismatic { from = at, axis = "x", name = "slide" }
+    expect_error(with("joint", slide), "dc_motor: joint: expected a joint that turns")
     local fixed = m:revolute { from = at, axis = "z", angle = ambit.time, name = "fixed" }
     expect_error(with("joint", fixed), "the motion of `fixed` is given")
     expect_error(with("joint", m:spherical { from = at, name = "ball" }), "degrees? of freedom")
