@@ -198,7 +198,7 @@ local function try_all(state, ways)
       or state.q.times[1], "after", last.solver, "because", last.outcome })
     local run
     local was_limit = choice.within(state.limit, function()
-      left.patience = PATIENCE
+      left.patience = not try.pieces and PATIENCE or nil -- pieces pass the instants late, and then all at once
       run = state.ask(try, left)
     end)
     local gained = not from or gains(run, state)
