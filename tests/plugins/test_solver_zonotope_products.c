@@ -1,6 +1,7 @@
 /* A step of the zonotope solver where what products leave out is all that there is: x' = (p q)^2 y or (p q y)^2, y' = p
 ** y with wide p and q and an old generator in y, against the closed form. */
 #include "zonotope_case.h"
+#include "solver/zonotope/quartic.h"
 
 typedef struct product_case {
   double scale_p, scale_q, old, h;
@@ -23,6 +24,7 @@ static void open_products(zono *z, maker *k, const product_case *c) {
   z->P = lend(&host, 2 * z->shape.stride * 8), z->E = lend(&host, 16), z->G = lend(&host, 2 * 122 * 8);
   assert_true(zono_open_rows(z) && zono_open_proof(z));
   z->proof->patience = 1;
+  for (uint32_t i = 0; i < 2; i++) z->proof->spread[i] = 1; /* sizes of states, in which degree 4 is chosen */
   double *p = z->p_row, *q = p + z->shape.stride;
   p[0] = draw(0.8, 1.2), p[1] = c->scale_p, q[0] = draw(0.8, 1.2), q[2] = c->scale_q;
   row_norms_all(&z->shape, p), row_norms_all(&z->shape, q);
@@ -53,6 +55,7 @@ static double check(const zono *z, const product_case *c) {
   solve(z, c, &p, pick(2) ? 1 : -1, x);
   for (uint32_t i = 0; i < 2; i++) off += l[i] * (x[i] - value_at(&z->shape, z->P + i * z->shape.stride, &p));
   for (uint32_t g = 0; g < z->ngen; g++) room += fabsl(l[0] * z->G[2 * g] + l[1] * z->G[2 * g + 1]);
+  for (uint32_t i = 0; i < 2; i++) room += fabsl(l[i]) * quartic_size(z, i);
   if (!(fabsl(off) <= room * (1 + 1e-17L))) fail_msg("a solution is %Lg off, the set %Lg wide", off, room);
   return room > 0 ? (double)(fabsl(off) / room) : 0;
 }

@@ -4,7 +4,7 @@
 ** d is the operand of abs, or the difference a - b of min and max, which are b + (d -+ |d|) / 2. For any slope and
 ** offset, |d| = slope d + offset + theta, |theta| <= miss, the largest at the ends of d's range and at 0. Off the kink
 ** the slope is 1 or -1 and misses nothing; across it, slope and offset of the line that misses least over the range at
-** the start of the step, moved on as far as in the last step. Proof: docs/numerics/zonotope.md, section 5.
+** the start of the step, moved on as far as in the last step. Proof: docs/numerics/zonotope.md, section 5a.
 */
 #include "kink.h"
 #include "proof.h"
@@ -158,14 +158,15 @@ void kinks_note(zono *z) {
 
 static int is_pair(uint32_t op) { return op == AMBIT_OP_MIN || op == AMBIT_OP_MAX; }
 
-/* min(a, b) + max(a, b) = a + b */
+/* min(a, b) + max(a, b) = a + b. A twin has none itself: its distance from the line is known by its own lump. */
 static void find_twins(zono *z) {
   const ambit_tape *t = z->program.tape;
   for (uint32_t i = 0; i < t->ninstr; i++) {
     uint32_t twin = i;
     for (uint32_t j = 0; j < i && is_pair(t->op[i]) && twin == i; j++) {
       int same = t->a[i] == t->a[j] && t->b[i] == t->b[j], turned = t->a[i] == t->b[j] && t->b[i] == t->a[j];
-      if (is_pair(t->op[j]) && t->op[j] != t->op[i] && (same || turned)) twin = j;
+      int is_first = is_pair(t->op[j]) && z->kinks->of[j].twin == j;
+      if (is_first && t->op[j] != t->op[i] && (same || turned)) twin = j;
     }
     z->kinks->of[i].twin = twin;
     if (!z->kinks->may_cross[i]) z->kinks->may_cross[twin] = 0;
