@@ -2,6 +2,9 @@
 -- test; solver.faulty (plugins/faulty.c) ends as its option says.
 local command = os.getenv "AMBIT_COMMAND" or "ambit"
 
+-- Lua never finalises what is made while it closes: memory that the end of the process takes back is no leak then.
+local no_leaks = 'ASAN_OPTIONS="$ASAN_OPTIONS:detect_leaks=0"'
+
 local function read(name)
   local file = io.open(name)
   local text = file and file:read "a" or ""
@@ -57,13 +60,11 @@ describe("ambit run", function()
   end)
 
   it("counts the verbs of finalisers, also of those that run while Lua closes", function()
-    -- Lua never finalises what is made while it closes: memory that the end of the process takes back is no leak here
-    local quiet = 'ASAN_OPTIONS="$ASAN_OPTIONS:detect_leaks=0"'
     local late = 'keep = setmetatable({}, { __gc = function() faulty "%s" end }) %s'
     for _, case in ipairs { { "unsure", "", 3, "unable.width" }, { "inverted", "", 1, "broken.bounds" },
       { "nothing", "", 4, "domain.constraint" }, { "fine", "", 0 }, { "nothing", 'faulty "unsure"', 3 },
       { "unsure", "keep = nil collectgarbage()", 3 } } do
-      local code, output = run(late:format(case[1], case[2]), quiet)
+      local code, output = run(late:format(case[1], case[2]), no_leaks)
       assert.equal(case[3], code, case[1] .. case[2] .. output)
       if case[4] then has(output, case[4], "in a finaliser") end
     end
@@ -113,9 +114,9 @@ end)
 
 describe("ambit repl", function()
   -- Exit code and all output for the lines of a pipe.
-  local function repl(lines)
+  local function repl(lines, environment)
     local name = write(lines)
-    local pipe = io.popen(("'%s' repl <%s 2>&1"):format(command, name))
+    local pipe = io.popen(("%s '%s' repl <%s 2>&1"):format(environment or "", command, name))
     local output = pipe:read "a"
     local _, _, code = pipe:close()
     os.remove(name)
@@ -134,7 +135,7 @@ describe("ambit repl", function()
     end
     assert.equal(1, (repl(faulty .. 'faulty "unsure"\nerror "no"\n')))
     assert.equal(3, (repl(faulty .. 'faulty "unsure"\nos.exit(0)\n')))
-    local code, output = repl(faulty .. 'setmetatable({}, { __gc = function() faulty "unsure" end })\n')
+    local code, output = repl(faulty .. 'setmetatable({}, { __gc = function() faulty "unsure" end })\n', no_leaks)
     assert.equal(3, code, output)
     assert.truthy(output:find("unable.width in a finaliser at the end", 1, true), output)
     assert.equal(1, (repl "os.exit(256)\n"))
