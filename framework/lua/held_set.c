@@ -31,6 +31,13 @@ void ambit_held_set_clear(ambit_held_set *held) {
   *held = (ambit_held_set) { 0 };
 }
 
+void ambit_held_set_swap(ambit_held_set *a, ambit_held_set *b) {
+  ambit_holder of_a = a->holder, of_b = b->holder;
+  ambit_held_set keep = *a;
+  *a = *b, *b = keep;
+  a->holder = of_a, b->holder = of_b;
+}
+
 static const double *copy_numbers(double **to, const double *from, size_t n) {
   double *start = *to;
   if (n) memcpy(start, from, n * sizeof *start);

@@ -23,6 +23,8 @@ bool ambit_held_set_begin(ambit_held_set *held, ambit_graph *g, size_t nu, const
 /* Takes over the set of a record, or holds none; false: out of memory. */
 bool ambit_held_set_put(ambit_held_set *held, uint32_t nx, const ambit_set *set);
 void ambit_held_set_clear(ambit_held_set *held);
+/* What they hold, of one graph; each stays in its place among the graph's holders. */
+void ambit_held_set_swap(ambit_held_set *a, ambit_held_set *b);
 /* x[i] := state i as an expression of the same unknowns and of a fresh one for its rest; NO_EXPR: out of memory. */
 void ambit_held_set_express(const ambit_held_set *held, ambit_graph *g, size_t nx, ambit_expr *x);
 #endif

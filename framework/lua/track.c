@@ -204,8 +204,7 @@ static int extend(lua_State *L) {
   ambit_track *track = self(L), *more = luaL_checkudata(L, 2, AMBIT_TYPE_TRACK);
   if (more == track || more->nx != track->nx) ambit_lua_error(L, "these tracks do not go together");
   if (!join(track, more)) ambit_lua_error(L, "out of memory");
-  ambit_held_set set = track->set;
-  track->set = more->set, more->set = set;
+  ambit_held_set_swap(&track->set, &more->set);
   return 0;
 }
 
