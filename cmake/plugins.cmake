@@ -1,13 +1,19 @@
 # plugins/<kind>/<name>.c or plugins/<kind>/<name>/*.c -> plugins/<kind>/<name>.so. Plugins see framework/abi only. A file <name>.cmake
-# beside it names the libraries that this plugin alone links: set(AMBIT_PLUGIN_LIBRARIES ...) and may set AMBIT_PLUGIN_OPTIONS.
+# beside it names the libraries that this plugin alone links: set(AMBIT_PLUGIN_LIBRARIES ...), and what it takes of plugins/shared:
+# set(AMBIT_PLUGIN_SHARED name...).
 function(ambit_plugin kind name)
   add_library(${kind}_${name} MODULE ${ARGN})
   set(AMBIT_PLUGIN_LIBRARIES "")
+  set(AMBIT_PLUGIN_SHARED "")
   if(EXISTS ${PROJECT_SOURCE_DIR}/plugins/${kind}/${name}.cmake)
     include(${PROJECT_SOURCE_DIR}/plugins/${kind}/${name}.cmake)
   elseif(EXISTS ${PROJECT_SOURCE_DIR}/plugins/${kind}/${name}/plugin.cmake)
     include(${PROJECT_SOURCE_DIR}/plugins/${kind}/${name}/plugin.cmake)
   endif()
+  foreach(shared ${AMBIT_PLUGIN_SHARED})
+    target_sources(${kind}_${name} PRIVATE ${PROJECT_SOURCE_DIR}/plugins/shared/${shared}.c)
+    target_include_directories(${kind}_${name} PRIVATE ${PROJECT_SOURCE_DIR}/plugins)
+  endforeach()
   set_target_properties(${kind}_${name} PROPERTIES PREFIX "" OUTPUT_NAME ${name} C_VISIBILITY_PRESET hidden
     LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/plugins/${kind})
   target_link_libraries(${kind}_${name} PRIVATE ambit_flags ${AMBIT_PLUGIN_LIBRARIES} m)
@@ -27,6 +33,8 @@ foreach(kind arithmetic element solver service)
       if(sources)
         ambit_plugin(${kind} ${name} ${sources})
       endif()
+    elseif(entry MATCHES "/solver/gsl\\.c$" AND NOT AMBIT_GPL_PLUGINS)
+      continue()
     elseif(entry MATCHES "\\.c$")
       ambit_plugin(${kind} ${name} ${entry})
     endif()

@@ -1,6 +1,6 @@
 # layering.cmake -- cmake -D ROOT=<tree> -P layering.cmake: refuses an upward include.
 # A file of framework/<layer> includes its own layer and lower ones; only the layer lua (and main.c) sees lua.h, only lua sees ffi.h; a plugin sees
-# <ambit/...> and files of its own folder; headers of the ABI see the ABI only.
+# <ambit/...>, files of its own folder and plugins/shared; headers of the ABI see the ABI only.
 # Besides, bounds are read from arithmetics by one function, which looks at them.
 cmake_minimum_required(VERSION 3.22)
 set(layers abi base num graph host mechanism model lua main)
@@ -68,8 +68,9 @@ foreach(file ${plugins})
       complain(${file} "${line}" "a plugin sees framework/abi only")
     elseif(include MATCHES "^(lua|lauxlib|lualib|ffi)\\.h$")
       complain(${file} "${line}" "a plugin sees neither Lua nor libffi")
-    elseif(line MATCHES "include[ \t]*\"" AND NOT include MATCHES "^ambit/" AND NOT EXISTS ${folder}/${include})
-      complain(${file} "${line}" "not in the plugin's own folder")
+    elseif(line MATCHES "include[ \t]*\"" AND NOT include MATCHES "^ambit/" AND NOT EXISTS ${folder}/${include}
+        AND NOT (include MATCHES "^shared/" AND EXISTS ${ROOT}/plugins/${include}))
+      complain(${file} "${line}" "neither in the plugin's own folder nor in plugins/shared")
     elseif(include MATCHES "\\.\\./")
       complain(${file} "${line}" "a path out of the plugin's folder")
     endif()

@@ -1,2 +1,1 @@
-pkg_check_modules(GSL REQUIRED IMPORTED_TARGET gsl)
-set(AMBIT_PLUGIN_LIBRARIES PkgConfig::GSL)
+set(AMBIT_PLUGIN_SHARED real_schur real_schur_vectors)

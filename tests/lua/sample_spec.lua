@@ -86,8 +86,8 @@ io.write(has "quasi_random", " ", has "libgsl%.")
     fails("sample: polish: expected true or false", { x, polish = 1 })
     fails("unknown key `sed`; did you mean `seed`", { x, sed = 1 })
     local many = {}
-    for i = 1, 41 do many[i] = between(0, 1) end
-    fails("41 data, and a sequence has at most 40 dimensions", { many, points = "sobol" })
+    for i = 1, 257 do many[i] = between(0, 1) end
+    fails("257 data, and a sequence has at most 256 dimensions", { many, points = "sobol" })
     assert.equal("reverse_halton", ambit.sample({ many, n = 20 }).points)
   end)
 end)

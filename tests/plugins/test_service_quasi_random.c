@@ -50,12 +50,53 @@ static void gives_known_points(void **state) {
   }
 }
 
+/* scipy 1.10, qmc.Sobol(256, scramble=False): point 777, an independent reading of the same table */
+static void agrees_with_other_peoples_sobol(void **state) {
+  const ambit_quasi_random_service *s = find(*state);
+  static const struct {
+    uint32_t dimension;
+    double value;
+  } known[] = { { 0, 0.6923828125 }, { 1, 0.9365234375 }, { 2, 0.1630859375 }, { 10, 0.7451171875 },
+    { 40, 0.7216796875 }, { 99, 0.5107421875 }, { 180, 0.7041015625 }, { 254, 0.5791015625 }, { 255, 0.6357421875 } };
+  void *self;
+  double *p = calloc(256, 777 * sizeof *p);
+  assert_non_null(p);
+  assert_int_equal(s->open("sobol", 256, &self), AMBIT_OK);
+  assert_int_equal(s->next(self, 777, p, 777), AMBIT_OK);
+  for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+    assert_true(p[known[i].dimension * 777 + 776] == known[i].value);
+  free(p);
+  s->close(self);
+}
+
+/* Of 2^m points of a digital sequence, 0 among them, each box with 2^-a and 2^-b as its sides in two dimensions, a + b
+** = m - t, holds 2^t; Niederreiter's t is the sum of (degree - 1) (Niederreiter 1988, theorem 1). */
+static void fills_boxes_evenly(void **state) {
+  enum { M = 8, ALL = 1 << M, S = 6 };
+  static const int excess[S] = { 0, 0, 1, 2, 2, 3 }; /* of the degrees 1, 1, 2, 3, 3, 4 over 1 */
+  const ambit_quasi_random_service *s = find(*state);
+  double p[S * ALL] = { 0 };
+  void *self;
+  assert_int_equal(s->open("niederreiter", S, &self), AMBIT_OK);
+  assert_int_equal(s->next(self, ALL - 1, p + 1, ALL), AMBIT_OK);
+  s->close(self);
+  for (int i = 0; i < S; i++)
+    for (int j = 0; j < i; j++) {
+      int t = excess[i] + excess[j];
+      for (int a = 0; a <= M - t; a++) {
+        int held[ALL] = { 0 }, b = M - t - a;
+        for (int k = 0; k < ALL; k++) held[((int)ldexp(p[i * ALL + k], a) << b) + (int)ldexp(p[j * ALL + k], b)]++;
+        for (int k = 0; k < 1 << (M - t); k++) assert_int_equal(held[k], 1 << t);
+      }
+    }
+}
+
 static void knows_its_limits(void **state) {
   const ambit_quasi_random_service *s = find(*state);
   static const struct {
     const char *name;
     uint32_t dimensions;
-  } known[] = { { "sobol", 40 }, { "niederreiter", 12 }, { "halton", 1229 }, { "reverse_halton", 1229 }, { "", 0 },
+  } known[] = { { "sobol", 256 }, { "niederreiter", 32 }, { "halton", 1229 }, { "reverse_halton", 1229 }, { "", 0 },
     { "random", 0 } };
   for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
     uint32_t dimensions = 7;
@@ -82,6 +123,8 @@ static void knows_its_limits(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = { cmocka_unit_test_setup_teardown(gives_known_points, set_up, tear_down),
+    cmocka_unit_test_setup_teardown(agrees_with_other_peoples_sobol, set_up, tear_down),
+    cmocka_unit_test_setup_teardown(fills_boxes_evenly, set_up, tear_down),
     cmocka_unit_test_setup_teardown(knows_its_limits, set_up, tear_down) };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

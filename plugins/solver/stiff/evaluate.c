@@ -170,6 +170,6 @@ void evaluate_rates(stiff *s, uint32_t m) {
             k < nx ? real_output(&s->jacobian_real, i * nx + k) : real_output(&s->slope_real, i * s->np + k - nx);
         J[i * n + k] = (double)x * s->half.hi;
       }
-    eigen_find(s->eigen, n, J, s->q.scale, &s->spectrum[j]);
+    eigen_find(n, J, s->q.scale, &s->spectrum[j]);
   }
 }

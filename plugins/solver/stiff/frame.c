@@ -65,7 +65,7 @@ int frame_choose(stiff *s, uint32_t j) {
   r->natural = 0;
   memset(r->still, 0, sizeof r->still);
   const ends e = { n, s->nx, s->q.scale, &s->spectrum[j], &s->spectrum[j + 1], s->rate + (size_t)j * n * n,
-    s->rate + (size_t)(j + 1) * n * n, s->eigen };
+    s->rate + (size_t)(j + 1) * n * n };
   if (!split_choose(&e, &s->carried, p)) return 0;
   uint32_t g = p->slow, f = p->fast;
   square V0, V1, F0, F1, A, inverse, X;

@@ -94,21 +94,19 @@ static AMBIT_WORKER int bound_up(stiff *s, double *M) {
 
 /* the largest eigenvalue of the comparison matrix, about */
 static double growth(stiff *s) {
-  square M, padded; /* to the size that the eigenvalue solver was opened for */
-  double one[N_MAX], least = -1;
+  square M;
+  double one[N_MAX];
   spectrum e;
-  uint32_t m = s->frame.split.blocks, n = s->n;
+  uint32_t m = s->frame.split.blocks;
   ambit_rounding nearest = ambit_round_up();
   int good = bound_up(s, M);
   ambit_rounding_restore(nearest);
   /* NOLINTNEXTLINE(clang-analyzer-core.CallAndMessage) */
-  for (uint32_t i = 0; i < m * m; i++) good &= isfinite(M[i]), least = fmin(least, M[i]);
+  for (uint32_t i = 0; i < m * m; i++) good &= isfinite(M[i]);
   if (!good) return INFINITY;
-  for (uint32_t i = 0; i < n; i++)
-    for (uint32_t k = 0; k < n; k++) padded[i * n + k] = i < m && k < m ? M[i * m + k] : i == k ? least : 0;
-  for (uint32_t i = 0; i < n; i++) one[i] = 1;
-  eigen_find(s->eigen, n, padded, one, &e);
-  return e.ok ? e.real[n - 1] : INFINITY;
+  for (uint32_t i = 0; i < m; i++) one[i] = 1;
+  eigen_find(m, M, one, &e);
+  return e.ok ? e.real[m - 1] : INFINITY;
 }
 
 /* A change costs about a factor: it is made when another frame would have saved GAIN by now. */

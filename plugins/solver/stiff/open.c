@@ -98,9 +98,8 @@ static int open_memory(stiff *s) {
     .jacobian = &s->jacobian_real };
   if (!open_vectors(s) || !open_tapes(s) || !collocation_open(s->host, &s->q) || !nodes_fill(&s->q)) return 0;
   if (s->spread && (!spread_open(s) || !natural_open(s))) return 0;
-  s->eigen = eigen_open(s->n);
   pieces_fill(s->table, s->q.N);
-  return s->eigen != NULL;
+  return 1;
 }
 
 /* parameters, and how fast things are at the start */
@@ -175,7 +174,4 @@ ambit_status stiff_open(const ambit_host *h, const ambit_problem *p, const doubl
   return status;
 }
 
-void stiff_close(void *self) {
-  stiff *s = self;
-  eigen_close(s->eigen);
-}
+void stiff_close(void *self) { (void)self; } /* all memory is the arena's */

@@ -1,4 +1,4 @@
-/* spectrum.h -- eigenvalues and eigenvectors of small real matrices, by GSL; approximate. */
+/* spectrum.h -- eigenvalues, eigenvectors and Schur vectors of small real matrices; approximate. */
 #ifndef STIFF_SPECTRUM_H
 #define STIFF_SPECTRUM_H
 #include "linear.h"
@@ -14,13 +14,9 @@ typedef struct spectrum {
   square V;
 } spectrum;
 
-typedef struct eigen_memory eigen_memory;
-
-eigen_memory *eigen_open(size_t n); /* NULL: no memory */
-void eigen_close(eigen_memory *e);
 /* of J [n x n], computed for S^-1 J S with S = diag(scale) */
-void eigen_find(eigen_memory *e, size_t n, const double *J, const double *scale, spectrum *r);
-/* Z [n x n] orthogonal with T := Z^T A Z triangular but for blocks of two, for A [n x n] of at most the size that e was
-** opened for; second[k]: column k is the second one of a block. 0: not found */
-int eigen_schur(eigen_memory *e, size_t n, const double *A, double *Z, double *T, int *second);
+void eigen_find(size_t n, const double *J, const double *scale, spectrum *r);
+/* Z [n x n] orthogonal with T := Z^T A Z triangular but for blocks of two, for A [n x n]; second[k]: column k is the
+** second one of a block. 0: not found */
+int eigen_schur(size_t n, const double *A, double *Z, double *T, int *second);
 #endif

@@ -168,7 +168,7 @@ static int choose_schur(attempt *a, uint32_t f) {
       for (uint32_t j = 0; j < n; j++) sum += r->fast0[j * f + i] / e->scale[j] * (JF[j * f + k] / e->scale[j]);
       reduced[i * f + k] = sum;
     }
-  if (!eigen_schur(e->eigen, f, reduced, Z, T, second)) return 0;
+  if (!eigen_schur(f, reduced, Z, T, second)) return 0;
   r->blocks = g;
   for (uint32_t k = 0; k < f; k++) {
     double above = k ? T[(k - 1) * f + k] : 0, below = k ? T[k * f + k - 1] : 0, turn = sqrt(fabs(above * below));

@@ -18,7 +18,6 @@ typedef struct ends {
   const double *scale; /* [n] size of each state */
   const spectrum *from, *to;
   const double *rate_from, *rate_to; /* (eta/2) J [n x n] */
-  eigen_memory *eigen;
 } ends;
 
 typedef struct split {

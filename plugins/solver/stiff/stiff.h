@@ -76,7 +76,6 @@ typedef struct stiff {
   series rhs, jacobian, slope; /* slope: only with parameters */
   real rhs_real, jacobian_real, slope_real;
   collocation q;
-  eigen_memory *eigen;
   dd *table; /* Chebyshev polynomials of the step's time as powers of a piece's (pieces.c) */
 
   /* -- the start: start + start_column xi +- start_rest, xi in [-1, 1]^nu */

@@ -1,146 +1,24 @@
 /* eigen.c -- a basis in which a matrix is nearly diagonal, with blocks of two columns for complex pairs.
 **
-** Eigenvectors are found in plain complex arithmetic: Hessenberg form and shifted QR by rotations, then back
-** substitution (Golub & Van Loan, Matrix Computations, ch. 7), of the matrix in units of the states. They are only a
-** good choice; what is proved is an enclosure of the inverse. With W near V^-1, E = I - W V and e = |E| < 1 in the
-** row-sum norm, V^-1 = (I - E)^-1 W differs from W by at most e / (1 - e) max_k |W_kj| in column j.
+** Eigenvectors are approximate ones of the matrix in units of the states. They are only a good choice; what is proved
+** is an enclosure of the inverse. With W near V^-1, E = I - W V and e = |E| < 1 in the row-sum norm, V^-1 = (I - E)^-1 W
+** differs from W by at most e / (1 - e) max_k |W_kj| in column j.
 */
+#include "shared/real_schur.h"
 #include "valencia.h"
-#include <complex.h>
 
-#define SWEEPS 40
 #define CONDITION_MAX 1e5
 #define CLOSE_MAX 1e-4 /* of e */
 
-typedef double complex number;
-
-static number over(number a, number b) {
-  double size = larger(fabs(creal(b)), fabs(cimag(b)));
-  number c = b / size;
-  return a * conj(c) / (creal(c) * creal(c) + cimag(c) * cimag(c)) / size;
-}
-
-typedef struct rotation {
-  double c;
-  number s;
-} rotation;
-
-/* [c s; -conj(s) c] (a, b) = (r, 0) */
-static rotation rotation_of(number a, number b) {
-  double size = hypot(cabs(a), cabs(b)), x = cabs(a);
-  if (size == 0) return (rotation) { 1, 0 };
-  if (x == 0) return (rotation) { 0, conj(b) / cabs(b) };
-  return (rotation) { x / size, a / x * conj(b) / size };
-}
-
-static void turn_rows(rotation r, uint32_t n, uint32_t k, uint32_t from, number *t) {
-  number *a = t + (size_t)k * n, *b = a + n;
-  for (uint32_t j = from; j < n; j++) {
-    number x = a[j], y = b[j];
-    a[j] = r.c * x + r.s * y, b[j] = r.c * y - conj(r.s) * x;
-  }
-}
-
-static void turn_columns(rotation r, uint32_t n, uint32_t k, uint32_t to, number *t) {
-  for (uint32_t i = 0; i < to; i++) {
-    number *a = t + (size_t)i * n + k, x = a[0], y = a[1];
-    a[0] = r.c * x + conj(r.s) * y, a[1] = r.c * y - r.s * x;
-  }
-}
-
-static void to_hessenberg(uint32_t n, number *t, number *q) {
-  for (uint32_t k = 0; k + 2 < n; k++)
-    for (uint32_t i = n - 1; i > k + 1; i--) {
-      rotation r = rotation_of(t[(size_t)(i - 1) * n + k], t[(size_t)i * n + k]);
-      turn_rows(r, n, i - 1, k, t);
-      turn_columns(r, n, i - 1, n, t);
-      turn_columns(r, n, i - 1, n, q);
-    }
-}
-
-static int is_small(uint32_t n, const number *t, uint32_t i) {
-  double beside = cabs(t[(size_t)i * n + i]) + cabs(t[(size_t)(i - 1) * n + i - 1]);
-  return cabs(t[(size_t)i * n + i - 1]) <= 0x1p-52 * beside + 0x1p-1000;
-}
-
-/* the eigenvalue of the last two rows that is closer to the corner */
-static number shift_of(uint32_t n, const number *t, uint32_t i) {
-  number a = t[(size_t)(i - 1) * n + i - 1], b = t[(size_t)(i - 1) * n + i], c = t[(size_t)i * n + i - 1],
-         d = t[(size_t)i * n + i];
-  number half = (a - d) / 2, root = csqrt(half * half + b * c);
-  number far = cabs(half + root) > cabs(half - root) ? half + root : half - root;
-  return cabs(far) > 0 ? d - over(b * c, far) : d;
-}
-
-static void sweep(uint32_t n, uint32_t from, uint32_t to, number *t, number *q, rotation *r) {
-  number shift = shift_of(n, t, to);
-  for (uint32_t i = 0; i < n; i++) t[(size_t)i * n + i] -= shift;
-  for (uint32_t k = from; k < to; k++) {
-    r[k] = rotation_of(t[(size_t)k * n + k], t[(size_t)(k + 1) * n + k]);
-    turn_rows(r[k], n, k, k, t);
-  }
-  for (uint32_t k = from; k < to; k++) {
-    turn_columns(r[k], n, k, k + 2, t);
-    turn_columns(r[k], n, k, n, q);
-  }
-  for (uint32_t i = 0; i < n; i++) t[(size_t)i * n + i] += shift;
-}
-
-static int to_schur(uint32_t n, number *t, number *q, rotation *r) {
-  to_hessenberg(n, t, q);
-  uint32_t to = n - 1, sweeps = 0;
-  while (to > 0) {
-    if (is_small(n, t, to)) {
-      to--, sweeps = 0;
-      continue;
-    }
-    uint32_t from = to - 1;
-    while (from > 0 && !is_small(n, t, from)) from--;
-    if (sweeps++ == SWEEPS) return 0;
-    sweep(n, from, to, t, q, r);
-  }
-  return 1;
-}
-
-/* column k of q times the eigenvector of the triangle t */
-static void eigenvector(uint32_t n, const number *t, const number *q, uint32_t k, number *y, number *v) {
-  double scale = cabs(t[(size_t)k * n + k]) + 0x1p-1000;
-  for (uint32_t i = k + 1; i-- > 0;) {
-    number sum = i == k ? 1 : 0, gap = t[(size_t)i * n + i] - t[(size_t)k * n + k];
-    for (uint32_t j = i + 1; j <= k; j++) sum -= t[(size_t)i * n + j] * y[j];
-    if (cabs(gap) < 0x1p-50 * scale) gap = 0x1p-50 * scale;
-    y[i] = i == k ? sum : over(sum, gap);
-  }
-  double best = 0;
-  number largest = 1;
-  for (uint32_t i = 0; i < n; i++) {
-    v[i] = 0;
-    for (uint32_t j = 0; j <= k; j++) v[i] += q[(size_t)i * n + j] * y[j];
-    if (cabs(v[i]) > best) best = cabs(v[i]), largest = v[i];
-  }
-  for (uint32_t i = 0; i < n; i++) v[i] = over(v[i], largest);
-}
-
-/* real columns from complex ones; 0: they do not fit together */
-static int collect(valencia *s, const number *t, const number *q, number *y, number *v) {
+/* columns of the vectors, in units of the states, and where blocks begin */
+static void collect(valencia *s, const double *im, const double *vector) {
   basis *z = &s->basis;
-  uint32_t n = s->nx, column = 0;
+  uint32_t n = s->nx;
   z->nblock = 0;
-  for (uint32_t k = 0; k < n; k++) {
-    number lambda = t[(size_t)k * n + k];
-    int is_pair = fabs(cimag(lambda)) > 1e-9 * cabs(lambda);
-    if (is_pair && cimag(lambda) < 0) continue;
-    if (column + 1u + (uint32_t)is_pair > n) return 0;
-    eigenvector(n, t, q, k, y, v);
-    for (uint32_t i = 0; i < n; i++) {
-      z->v[(size_t)i * n + column] = creal(v[i]) * s->size[i];
-      if (is_pair) z->v[(size_t)i * n + column + 1] = cimag(v[i]) * s->size[i];
-    }
-    z->first[z->nblock++] = column;
-    column += 1u + (uint32_t)is_pair;
-  }
-  z->first[z->nblock] = column;
-  return column == n;
+  for (uint32_t k = 0; k < n; k++)
+    if (im[k] >= 0) z->first[z->nblock++] = k;
+  z->first[z->nblock] = n;
+  for (size_t k = 0; k < (size_t)n * n; k++) z->v[k] = vector[k] * s->size[k / n];
 }
 
 /* w := approximate inverse of v, by Gauss and Jordan; a is destroyed */
@@ -206,18 +84,17 @@ static int is_well_conditioned(const valencia *s, const double *w) {
 int valencia_eigenbasis(valencia *s, const double *a) {
   uint32_t n = s->nx;
   size_t square = (size_t)n * n;
-  number *t = (number *)(void *)s->complex_room, *q = t + square, *y = q + square, *v = y + n;
-  rotation *r = (rotation *)(void *)(v + n);
+  double *t = s->eigen_room, *q = t + square, *vector = q + square, *re = vector + square, *im = re + n, *work = im + n;
   for (uint32_t i = 0; i < n; i++) s->size[i] = exp2(rint(log2(s->magnitude[i] + 1e-300)));
-  for (uint32_t i = 0; i < n; i++)
-    for (uint32_t j = 0; j < n; j++) {
-      t[(size_t)i * n + j] = a[(size_t)i * n + j] * s->size[j] / s->size[i];
-      q[(size_t)i * n + j] = i == j;
-    }
-  if (!to_schur(n, t, q, r) || !collect(s, t, q, y, v)) return 0;
-  double *copy = (double *)(void *)t, *w = copy + square;
-  for (size_t k = 0; k < square; k++) copy[k] = s->basis.v[k];
-  return invert(n, copy, w) && is_well_conditioned(s, w) && enclose_inverse(&s->basis, n, w);
+  for (size_t k = 0; k < square; k++) {
+    t[k] = a[k] * s->size[k % n] / s->size[k / n];
+    if (!isfinite(t[k])) return 0;
+  }
+  if (!real_schur(n, t, q, work)) return 0;
+  real_schur_vectors(n, t, q, re, im, vector, work);
+  collect(s, im, vector);
+  for (size_t k = 0; k < square; k++) t[k] = s->basis.v[k];
+  return invert(n, t, q) && is_well_conditioned(s, q) && enclose_inverse(&s->basis, n, q);
 }
 
 void valencia_unit_basis(valencia *s) {

@@ -59,7 +59,7 @@ static int allocate(valencia *s) {
     { &s->fitted, nx * nt * n1 }, { &s->sampled, nx * n1 * s->terms.nsample }, { &s->limit, nx }, { &s->face_lo, nx },
     { &s->face_hi, nx }, { &s->lo, nx }, { &s->hi, nx }, { &s->tube_lo, nx }, { &s->tube_hi, nx },
     { &s->dense_mid, nx * n1 }, { &s->dense_rad, nx * n1 }, { &s->rest, nx }, { &s->set_about, nu },
-    { &s->set_scale, nu }, { &s->complex_room, 4 * sq + 8 * nx }, { &s->basis.v, sq } };
+    { &s->set_scale, nu }, { &s->eigen_room, 3 * sq + 4 * nx }, { &s->basis.v, sq } };
   for (size_t i = 0; i < sizeof list / sizeof *list; i++)
     if (!(*list[i].array = s->host->alloc(s->host, (list[i].count + 1) * sizeof(double)))) return 0;
   const struct {

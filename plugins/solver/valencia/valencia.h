@@ -120,7 +120,7 @@ typedef struct valencia {
   interval *matrix, *column;   /* [nx x nx] slopes in the basis; [3 nx] */
   double *generator, *size, *shape, *sum, *directions, *next_w; /* frame.c */
   double *scale;                                                /* [nx] diagonal of D */
-  double *complex_room;                                         /* eigen.c */
+  double *eigen_room;                                           /* eigen.c */
   double *noise;                                                /* [nx] of computed derivatives */
   double *spectrum, *coefficients;                              /* scratch of collocation.c */
   double *sampled, *fitted; /* [n x nx x nsample], [nterm x n x nx] derivatives at the nodes: of the curves and of the

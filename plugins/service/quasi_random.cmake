@@ -1,2 +1,0 @@
-pkg_check_modules(GSL REQUIRED IMPORTED_TARGET gsl)
-set(AMBIT_PLUGIN_LIBRARIES PkgConfig::GSL)

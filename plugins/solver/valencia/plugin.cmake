@@ -1,0 +1,1 @@
+set(AMBIT_PLUGIN_SHARED real_schur real_schur_vectors)
