@@ -1,4 +1,5 @@
-/* eigen.c -- "ambit.eigen/1": a balanced matrix' real Schur form and back-substitution (plugins/shared/real_schur.h). */
+/* eigen.c -- "ambit.eigen/1": a balanced matrix' real Schur form and back-substitution
+** (plugins/shared/real_schur.h). */
 #include "shared/real_schur.h"
 #include <ambit/eigen.h>
 #include <math.h>

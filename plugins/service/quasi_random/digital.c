@@ -1,9 +1,9 @@
 /* digital.c -- direction numbers of digital sequences in base 2.
 **
-** Sobol (1967), with the recurrence of Bratley and Fox (1988): m_k = 2 a_1 m_(k-1) + ... + 2^s m_(k-s) + m_(k-s) without
-** carries, for the primitive polynomial x^s + a_1 x^(s-1) + ... + 1. Niederreiter (1988) in base 2: row j of dimension
-** i's matrix has the coefficients of x^u / p^q in powers of 1/x, for the i-th irreducible polynomial p of degree e and
-** j = (q - 1) e + u, u < e.
+** Sobol (1967), with the recurrence of Bratley and Fox (1988): m_k = 2 a_1 m_(k-1) + ... + 2^s m_(k-s) + m_(k-s)
+** without carries, for the primitive polynomial x^s + a_1 x^(s-1) + ... + 1. Niederreiter (1988) in base 2: row j of
+** dimension i's matrix has the coefficients of x^u / p^q in powers of 1/x, for the i-th irreducible polynomial p of
+** degree e and j = (q - 1) e + u, u < e.
 */
 #include "sequences.h"
 

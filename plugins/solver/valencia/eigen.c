@@ -1,8 +1,8 @@
 /* eigen.c -- a basis in which a matrix is nearly diagonal, with blocks of two columns for complex pairs.
 **
 ** Eigenvectors are approximate ones of the matrix in units of the states. They are only a good choice; what is proved
-** is an enclosure of the inverse. With W near V^-1, E = I - W V and e = |E| < 1 in the row-sum norm, V^-1 = (I - E)^-1 W
-** differs from W by at most e / (1 - e) max_k |W_kj| in column j.
+** is an enclosure of the inverse. With W near V^-1, E = I - W V and e = |E| < 1 in the row-sum norm, V^-1 = (I - E)^-1
+** W differs from W by at most e / (1 - e) max_k |W_kj| in column j.
 */
 #include "shared/real_schur.h"
 #include "valencia.h"
