@@ -19,19 +19,6 @@ local SHARE = 0.01      -- of a state's widest hull, below which its width at a 
 
 -- -- how wide is it?
 
--- Are all sets at the end hardly wider than they are to first order in the data? Then they are tight, and nothing need
--- be drawn to see it. A solver whose set is not a function of the data says nothing about it.
-local function is_plainly_tight(run)
-  local linear = core.track_linear(run.track)
-  if not linear then return false end
-  for i, name in ipairs(run.states) do
-    local x = run.x[name]
-    local width = x:width()
-    if width > VISIBLE * x:mag() and not (width <= LOOSE * linear[i]) then return false end
-  end
-  return true
-end
-
 -- The listed times that the run reached, on its clock.
 local function times_of(run)
   local list = { run.times[1] }
@@ -47,6 +34,32 @@ end
 local function tight_at(run, t)
   local i, is_end = core.track_find(run.track, t)
   return i and is_end and i
+end
+
+-- The widest set of state i at the listed times.
+local function widest_of(run, i)
+  local widest = 0
+  for _, t in ipairs(times_of(run)) do
+    local step = tight_at(run, t)
+    if step then widest = math.max(widest, core.track_value(run.track, step, i):width()) end
+  end
+  return widest
+end
+
+-- Are all sets at the end hardly wider than they are to first order in the data? Then they are tight, and nothing need
+-- be drawn to see it. A state that has come to rest, whose set was far wider before, does not count. A solver whose set
+-- is not a function of the data says nothing about it.
+local function is_plainly_tight(run)
+  local linear = core.track_linear(run.track)
+  if not linear then return false end
+  for i, name in ipairs(run.states) do
+    local x = run.x[name]
+    local width = x:width()
+    if width > VISIBLE * x:mag() and width > LOOSE * linear[i] and width >= SHARE * widest_of(run, i) then
+      return false
+    end
+  end
+  return true
 end
 
 -- The hull of draws at these times by state, or nil if there is none: { t, lo = { [state] = { [time] } }, hi }.

@@ -21,6 +21,7 @@ static void open_products(zono *z, maker *k, const product_case *c) {
   z->program = (program) { .tape = &k->tape, .nx = 2, .np = 2 };
   assert_true(shape_open(&host, &z->shape, z->m, 2));
   if (c->thin) thin_out(&z->shape);
+  if (c->thin && pick(2)) leave_out(&z->shape, 7);
   z->P = lend(&host, 2 * z->shape.stride * 8), z->E = lend(&host, 16), z->G = lend(&host, 2 * 122 * 8);
   assert_true(zono_open_rows(z) && zono_open_proof(z));
   z->proof->patience = 1;

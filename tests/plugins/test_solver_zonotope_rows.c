@@ -12,7 +12,7 @@ typedef struct monomial {
 
 static monomial of[20000];
 static uint32_t where[20000]; /* in the row */
-static uint32_t count, short_count;
+static uint32_t count;
 
 static void one(uint32_t u, uint32_t v, uint32_t w, uint32_t at) {
   of[count] = (monomial) { { u, v, w } }, where[count++] = at;
@@ -28,7 +28,6 @@ static void list_monomials(const shape *s) {
   for (uint32_t j = 0; j < s->mixed; j++)
     for (uint32_t i = 0; i < s->nx; i++) one(j, s->m + i, NONE, at++);
   assert_int_equal(at, s->norms);
-  short_count = count;
   at = s->cube;
   for (uint32_t i = 0; i < s->cubic; i++)
     for (uint32_t j = i; j < s->cubic; j++)
@@ -55,13 +54,20 @@ static uint32_t find(monomial p, monomial q) {
   return NONE;
 }
 
-static double value(const shape *s, const double *x, uint32_t i) {
-  return i < short_count || row_c(s, x) > 0 ? x[where[i]] : 0;
+/* the part that monomial i is of, 0: its constant and linear terms */
+static uint32_t part_of(const shape *s, uint32_t i) {
+  uint32_t at = where[i];
+  return at < s->pair[0] ? 0 : at < s->mix ? PAIRS : at < s->norms ? MIXED : TRIPLES;
 }
 
-/* to [count] += scale a b, in a row with or without triples; returns the sizes of what is dropped */
+static double value(const shape *s, const double *x, uint32_t i) {
+  uint32_t part = part_of(s, i), norm = part == PAIRS ? NORM_Q : part == MIXED ? NORM_X : NORM_C;
+  return part == 0 || x[s->norms + norm] > 0 ? x[where[i]] : 0;
+}
+
+/* to [count] += scale a b, in a row with these parts; returns the sizes of what is dropped */
 static long double multiply(
-    const shape *s, long double *to, long double scale, const double *a, const double *b, int triples) {
+    const shape *s, long double *to, long double scale, const double *a, const double *b, uint32_t parts) {
   static uint32_t table[700][700];
   static const shape *tabled;
   if (!s) tabled = NULL;
@@ -74,12 +80,12 @@ static long double multiply(
       for (uint32_t j = 0; j < count; j++) table[i][j] = find(of[i], of[j]);
   }
   long double dropped = 0;
-  uint32_t room = triples ? count : short_count;
   for (uint32_t i = 0; i < count; i++) {
     double x = value(s, a, i);
     for (uint32_t j = 0; j < count && x != 0; j++) {
       long double p = scale * x * value(s, b, j);
-      if (table[i][j] >= room)
+      uint32_t to_part = table[i][j] < count ? part_of(s, table[i][j]) : 0;
+      if (table[i][j] >= count || (parts & to_part) != to_part)
         dropped += fabsl(p);
       else
         to[table[i][j]] += p;
@@ -98,38 +104,39 @@ static void products_are_those_of_polynomials(void **unused) {
     double *a = lend(&host, s->stride * 8), *b = lend(&host, s->stride * 8), *c = lend(&host, s->stride * 8);
     double *d = lend(&host, s->stride * 8);
     long double *truth = lend(&host, (s->stride + 1) * sizeof *truth);
-    for (int kind = 0; kind < 512; kind++) {
-      int triples = s->cubed && kind >= 256;
-      fill(s, a, kind % 16), fill(s, b, kind / 16 % 16);
+    for (uint32_t kind = 0; kind < 1024; kind++) {
+      uint32_t parts = (kind >> 8 & 1 ? PAIRS | MIXED : pick(4)) | (kind >> 9 && s->room ? TRIPLES : 0u);
+      fill(s, a, (int)kind % 16), fill(s, b, (int)kind / 16 % 16);
       terms t;
       terms_clear(&t);
       terms_product(s, &t, 0.75, a, b), terms_row(s, &t, -2, b), terms_outer(s, &t, 0.5, a, a);
-      terms_sum(s, &t, c, triples);
+      terms_sum(s, &t, c, parts);
       memset(truth, 0, s->stride * sizeof *truth);
       double *moving = d;
       memcpy(moving, a, s->stride * 8);
       moving[0] = 0;
-      multiply(s, truth, 0.5L, moving, moving, triples);
-      long double dropped = multiply(s, truth, 0.75L, a, b, triples) / 0.75L, size = 0;
-      for (uint32_t i = 0; i < (triples ? count : short_count); i++) {
+      multiply(s, truth, 0.5L, moving, moving, parts);
+      long double dropped = multiply(s, truth, 0.75L, a, b, parts) / 0.75L, size = 0;
+      for (uint32_t i = 0; i < count; i++) {
+        if ((parts & part_of(s, i)) != part_of(s, i)) continue;
         truth[i] -= 2 * (long double)value(s, b, i), size = fmaxl(size, fabsl(truth[i]));
         assert_true(fabsl(truth[i] - value(s, c, i)) <= 1e-14L * (1 + size));
       }
       /* as much as is dropped; more only where triples of some data are left out */
-      double bound = row_dropped(s, a, b, triples);
+      double bound = row_dropped(s, a, b, parts);
       assert_true(bound >= (double)dropped * (1 - 1e-12));
-      if (!s->triples || s->cubic == s->m || !triples) assert_true(bound <= (double)dropped * (1 + 1e-12) + 1e-300);
+      if (!s->triples || s->cubic == s->m || !(parts & TRIPLES))
+        assert_true(bound <= (double)dropped * (1 + 1e-12) + 1e-300);
       double norm[NORMS];
       memcpy(norm, c + s->norms, sizeof norm);
-      if (norm[NORM_C] > 0) row_norms_all(s, c);
-      if (!(norm[NORM_C] > 0)) row_norms(s, c);
+      memcpy(d, c, s->stride * 8), row_copy(s, c, d), row_norms_all(s, c);
       for (uint32_t i = 0; i < NORMS; i++) assert_true(fabs(norm[i] - c[s->norms + i]) <= 1e-13 * norm[i]);
 #if defined(__x86_64__)
       if (!__builtin_cpu_supports("avx2") || (!t.nrow && !t.nouter && !t.nbend)) continue;
       memset(c, 0, s->stride * 8), memset(d, 0, s->stride * 8);
-      sum_portable(s, &t, c, triples), sum_avx2(s, &t, d, triples);
+      sum_portable(s, &t, c, parts), sum_avx2(s, &t, d, parts);
       assert_memory_equal(c, d, (s->norms + NORMS) * 8);
-      if (triples) assert_memory_equal(c + s->cube, d + s->cube, s->triples * 8);
+      if (parts & TRIPLES) assert_memory_equal(c + s->cube, d + s->cube, s->triples * 8);
 #endif
     }
   }
@@ -200,14 +207,16 @@ static void convolve(checker *c, double scale, uint32_t u, uint32_t v, uint32_t 
   for (uint32_t j = 0; j <= k; j++) {
     const double *a = coefficient(c->z, u, j), *b = coefficient(c->z, v, k - j);
     long double w = weighted ? (long double)scale * j / k : (long double)scale;
-    multiply(&c->z->shape, c->sum, w, a, b, has_triples(c->z, k));
+    multiply(&c->z->shape, c->sum, w, a, b, row_parts(&c->z->shape, k));
     c->size += fabsl(w) * row_total(&c->z->shape, a) * row_total(&c->z->shape, b);
   }
 }
 
 static void is_zero(const checker *c, uint32_t op, uint32_t k) {
-  for (uint32_t i = 0; i < (has_triples(c->z, k) ? count : short_count); i++)
-    if (!(fabsl(c->sum[i]) <= 1e-13L * c->size + 1e-300L))
+  uint32_t parts = row_parts(&c->z->shape, k);
+  for (uint32_t i = 0; i < count; i++)
+    if ((parts & part_of(&c->z->shape, i)) == part_of(&c->z->shape, i) &&
+        !(fabsl(c->sum[i]) <= 1e-13L * c->size + 1e-300L))
       fail_msg("opcode %u, order %u, coefficient %u: %Lg of %Lg", op, k, i, c->sum[i], c->size);
 }
 

@@ -60,6 +60,12 @@ static inline void thin_out(shape *s) {
   shape_place(s);
 }
 
+/* leaves parts out of rows of high orders in time */
+static inline void leave_out(shape *s, uint32_t orders) {
+  s->paired = 1 + pick(orders), s->mixing = pick(orders + 1);
+  s->cubed = pick((s->paired < s->room ? s->paired : s->room) + 1);
+}
+
 /* -- random tapes */
 
 #define SLOTS 200
@@ -201,6 +207,7 @@ static inline void open_case(zono *z, maker *k, uint32_t nx, uint32_t na, int th
     na > 1 ? stage_end : &z->na, na > 1 ? pivot : pivot + 1, NULL, NULL, NULL, NULL };
   assert_true(shape_open(&host, &z->shape, z->m, nx));
   if (thin) thin_out(&z->shape);
+  if (pick(2)) leave_out(&z->shape, z->K + 1);
   assert_true(zono_open_rows(z) && zono_open_implicit(z));
   z->P = lend(&host, nx * z->shape.stride * 8), z->E = lend(&host, nx * 8);
   for (uint32_t i = 0; i < nx; i++) {
@@ -236,9 +243,9 @@ static inline long double value_at(const shape *s, const double *x, const point 
   for (uint32_t i = 0; i < s->m; i++) sum += x[1 + i] * p->xi[i];
   for (uint32_t i = 0; i < s->nx; i++) sum += x[s->eps + i] * p->eps[i];
   for (uint32_t i = 0; i < s->m; i++)
-    for (uint32_t j = i; j < s->reach[i]; j++) sum += *pair++ * p->xi[i] * p->xi[j];
+    for (uint32_t j = i; j < s->reach[i] && row_q(s, x) > 0; j++) sum += *pair++ * p->xi[i] * p->xi[j];
   for (uint32_t j = 0; j < s->mixed; j++)
-    for (uint32_t i = 0; i < s->nx; i++) sum += *mixed++ * p->xi[j] * p->eps[i];
+    for (uint32_t i = 0; i < s->nx && row_x(s, x) > 0; i++) sum += *mixed++ * p->xi[j] * p->eps[i];
   for (uint32_t i = 0; i < s->cubic && row_c(s, x) > 0; i++)
     for (uint32_t j = i; j < s->cubic; j++)
       for (uint32_t k = j; k < s->cubic; k++) sum += *cube++ * p->xi[i] * p->xi[j] * p->xi[k];

@@ -21,13 +21,13 @@ static void find_end(zono *z) {
     memset(to, 0, s->stride * sizeof *to);
     for (uint32_t k = 0; k < orders(z, slot); k++, power *= z->h) {
       const double *row = row_at(z, slot, k);
-      for (uint32_t v = 0; v < s->norms; v++) to[v] += power * row[v];
-      for (uint32_t v = s->cube; v < s->cube + s->triples && row_c(s, row) > 0; v++) to[v] += power * row[v];
+      row_add(s, to, power, row);
       size += fabs(power) * row_moving(s, row), constant += fabs(power * row[0]);
     }
     for (uint32_t k = orders(z, slot); k-- > 0;)
       centre = dd_add(dd_scale(centre, z->h), dd_make(row_at(z, slot, k)[0], 0));
     row_norms_all(s, to);
+    if (!(row_parts(s, 0) & TRIPLES)) *box(z, FROM_DEGREE, i) += row_c(s, to) * ABOVE, to[s->norms + NORM_C] = 0;
     to[0] = centre.hi;
     *box(z, FROM_START, i) += fabs(centre.lo) + 16 * (z->K + 2) * UNIT * UNIT * constant;
     *box(z, FROM_START, i) += 2 * (z->K + 3) * UNIT * size + z->h_error * (p->high[out] + p->delta[out]);
@@ -202,7 +202,7 @@ void zono_finish(zono *z) {
   reduce(z, n);
   for (uint32_t i = 0; i < z->nx; i++) {
     double *to = z->P + (size_t)i * s->stride;
-    memcpy(to, p->end + (size_t)i * s->stride, s->stride * sizeof *to);
+    row_copy(s, to, p->end + (size_t)i * s->stride);
     memset(to + s->eps, 0, z->nx * sizeof *to);
     memset(to + s->mix, 0, (s->norms - s->mix) * sizeof *to);
     row_norms_all(s, to);

@@ -34,7 +34,7 @@ static double dropped(const zono *z, uint32_t u, uint32_t v, uint32_t k, int wei
     if (k - j > last(z, v)) continue;
     double w = weighted ? (double)j / k : 1;
     const double *a = row_at(z, u, j), *b = row_at(z, v, k - j);
-    sum += w * row_dropped(&z->shape, a, b, has_triples(z, k));
+    sum += w * row_dropped(&z->shape, a, b, row_parts(&z->shape, k));
     size->moving += w * (row_moving(&z->shape, a) * total(z, v, k - j) + fabs(a[0]) * row_moving(&z->shape, b));
     size->constant += w * fabs(a[0] * b[0]);
   }
@@ -91,7 +91,7 @@ static void test(zono *z, double *drop, uint32_t count, uint32_t n, const produc
           terms_product(
               s, &sum, p[i].scale * (weighted ? (double)j / k : 1), row_at(z, p[i].u, j), row_at(z, p[i].v, k - j));
     }
-    terms_sum(s, &sum, left, has_triples(z, k));
+    terms_sum(s, &sum, left, row_parts(&z->shape, k));
     drop[k] = row_total(s, left) * ABOVE + lost + 2 * rounding(n * (k + 1.0) + 2, size);
     if (weighted) drop[k] += 4 * UNIT * size.constant;
   }
@@ -103,7 +103,7 @@ static void test(zono *z, double *drop, uint32_t count, uint32_t n, const produc
 static double remainder_of(const zono *z, uint32_t a, double g0, double g1, double g2, double g3, double g4) {
   const double *x = row_at(z, a, 0);
   double A = row_moving(&z->shape, x), size = g0 / 8 + g1 * A + g2 * A * A + g3 * A * A * A;
-  return 0.5 * g2 * row_dropped(&z->shape, x, x, 1) + g3 * row_dropped_cube(&z->shape, x) / 6 +
+  return 0.5 * g2 * row_dropped(&z->shape, x, x, row_parts(&z->shape, 0)) + g3 * row_dropped_cube(&z->shape, x) / 6 +
          g4 * A * A * A * A / 24 + 64 * UNIT * size;
 }
 
@@ -114,8 +114,10 @@ static double angle_remainder(const zono *z, uint32_t a, uint32_t b) {
   const double *y = row_at(z, a, 0), *x = row_at(z, b, 0);
   double A = row_moving(s, x) + row_moving(s, y), r = length_of(x[0], y[0]) * (1 - 8 * UNIT), near = r - A;
   if (!(near > 0)) return INFINITY;
-  double lost = 0.5 * (row_dropped(s, x, x, 1) + row_dropped(s, y, y, 1)) + row_dropped(s, x, y, 1);
+  uint32_t parts = row_parts(s, 0);
+  double lost = 0.5 * (row_dropped(s, x, x, parts) + row_dropped(s, y, y, parts)) + row_dropped(s, x, y, parts);
   double far = A - (row_l(s, x) + row_l(s, y)) + x[s->norms + NORM_L_FAR] + y[s->norms + NORM_L_FAR] + 8 * UNIT * A;
+  if (!(parts & TRIPLES)) far = A;
   double ratio = A / r, size = ratio + ratio * ratio + ratio * ratio * ratio;
   return lost / (r * r) + 4 * ratio * ratio * far / r + A * A * A * A / (4 * near * near * near * near) +
          64 * UNIT * (0.5 + 2 * size);
@@ -328,7 +330,7 @@ static void bound_slots(zono *z, double length) {
   }
 }
 
-/* x'_i: V_F - V_x', triples of F that x' does not hold among it; R: all of it */
+/* x'_i: V_F - V_x', parts of F that x' does not hold among it; R: all of it */
 static void bound_outputs(zono *z, double length) {
   for (uint32_t o = 0; o < z->nout; o++) {
     uint32_t slot = slot_out(z)[o];
@@ -336,7 +338,7 @@ static void bound_outputs(zono *z, double length) {
     for (uint32_t k = 0; k <= last(z, slot); k++, power *= length) {
       double share = o >= z->nx || k == z->K ? 1 : k & (k + 1) ? 4 * UNIT : 0; /* 1 / (k + 1) may be exact */
       sum += total(z, slot, k) * power * share;
-      if (o < z->nx && k + 1 == z->shape.cubed) sum += row_c(&z->shape, row_at(z, slot, k)) * power;
+      if (o < z->nx) sum += row_lost(&z->shape, row_at(z, slot, k), row_parts(&z->shape, k + 1)) * power;
     }
     z->rr_out[o] = sum * ABOVE + LEAST;
   }
@@ -349,7 +351,10 @@ int defect_evaluate(zono *z, double length) {
   for (uint32_t j = 0; j < t->nconst; j++)
     if (t->hi[j] == t->lo[j]) z->r[j] = 0;
   for (uint32_t j = t->nconst; j < t->nconst + t->nin; j++) z->r[j] = 0;
-  for (uint32_t i = 0; i < z->np; i++) z->r[slot_p(z, i)] = z->p_rad ? z->p_rad[i] : 0;
+  for (uint32_t i = 0; i < z->np; i++) {
+    double lost = row_lost(&z->shape, z->p_row + (size_t)i * z->shape.stride, row_parts(&z->shape, 0));
+    z->r[slot_p(z, i)] = (z->p_rad ? z->p_rad[i] : 0) + lost * ABOVE;
+  }
   for (uint32_t i = 0; i < t->ninstr; i++) {
     double r = evaluate(z, i, length);
     if (!(r < INFINITY)) return z->why = WHY_UNDEFINED, z->culprit = t->dst[i], 0;

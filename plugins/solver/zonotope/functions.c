@@ -18,21 +18,22 @@ static void put_angle(const zono *z, const instr *n, double *to) {
   const shape *s = &z->shape;
   const double *y = row_at(z, n->a, 0), *x = row_at(z, n->b, 0);
   double r = x[0] * x[0] + y[0] * y[0], *u = s->scratch, *w = u + s->stride, *square = w + s->stride;
+  uint32_t parts = row_parts(s, 0);
   terms sum;
   terms_clear(&sum);
   terms_moving(s, &sum, x[0] / r, y), terms_moving(s, &sum, -y[0] / r, x);
-  terms_sum(s, &sum, u, 1);
+  terms_sum(s, &sum, u, parts);
   terms_clear(&sum);
   terms_moving(s, &sum, x[0] / r, x), terms_moving(s, &sum, y[0] / r, y);
-  terms_sum(s, &sum, w, 1);
+  terms_sum(s, &sum, w, parts);
   terms_clear(&sum);
   terms_outer(s, &sum, 1, w, w), terms_outer(s, &sum, -1.0 / 3, u, u);
   terms_moving(s, &sum, -1, w);
-  terms_sum(s, &sum, square, 1); /* w^2 - u^2 / 3 - w */
+  terms_sum(s, &sum, square, parts); /* w^2 - u^2 / 3 - w */
   terms_clear(&sum);
   sum.c = value_of(z, AMBIT_OP_ATAN2, y[0], x[0]);
   terms_moving(s, &sum, 1, u), terms_outer(s, &sum, 1, u, square);
-  terms_sum(s, &sum, to, 1);
+  terms_sum(s, &sum, to, row_parts(s, 0));
 }
 
 static void put_quotient(zono *z, uint32_t i, const instr *n, double *to) {
@@ -42,7 +43,7 @@ static void put_quotient(zono *z, uint32_t i, const instr *n, double *to) {
   terms sum;
   terms_clear(&sum);
   terms_product(s, &sum, 1, row_at(z, n->a, 0), inverse);
-  terms_sum(s, &sum, to, 1);
+  terms_sum(s, &sum, to, row_parts(s, 0));
 }
 
 static void set(double g[4], double g0, double g1, double g2, double g3) { g[0] = g0, g[1] = g1, g[2] = g2, g[3] = g3; }
@@ -137,7 +138,7 @@ static int find_inverse(zono *z, uint32_t i, const instr *n) {
   const double *a = row_at(z, of, 0);
   if (a[0] == 0) return 0;
   row_inverse(s, zono_inverse(z, i), a);
-  if (n->op == AMBIT_OP_SQRT) row_scale(s, zono_inverse(z, i), 0.5, zono_inverse(z, i), 1);
+  if (n->op == AMBIT_OP_SQRT) row_scale(s, zono_inverse(z, i), 0.5, zono_inverse(z, i), row_parts(s, 0));
   return 1;
 }
 
@@ -157,10 +158,10 @@ int zono_function(zono *z, uint32_t i, uint32_t k) {
     if (!z->has_inverse[i]) return 0;
     if (k == 1 && !find_inverse(z, i, &n)) return 0;
     add_dividend(z, &sum, &n);
-    terms_sum(s, &sum, z->scratch, has_triples(z, k));
+    terms_sum(s, &sum, z->scratch, row_parts(&z->shape, k));
     terms_clear(&sum);
     terms_product(s, &sum, 1, z->scratch, inverse_at(z, i));
   }
-  terms_sum(s, &sum, to, has_triples(z, k));
+  terms_sum(s, &sum, to, row_parts(&z->shape, k));
   return 1;
 }

@@ -80,7 +80,7 @@ static int change(zono *z, uint32_t i, uint32_t stamp) {
     break;
   default: return 0;
   }
-  terms_sum(s, &sum, at(z, m->change, dst), 1);
+  terms_sum(s, &sum, at(z, m->change, dst), row_parts(s, 0));
   m->changed[dst] = stamp;
   return 1;
 }
@@ -121,7 +121,7 @@ static void subtract(const zono *z, uint32_t stage, uint32_t r, uint32_t c, uint
   }
   if (!sum.nrow && !sum.nouter && sum.c == 0 && sum.low == 0) return;
   terms_row(s, &sum, 1, to);
-  terms_sum(s, &sum, z->scratch, 1);
+  terms_sum(s, &sum, z->scratch, row_parts(s, 0));
   memcpy(to, z->scratch, s->stride * sizeof *to);
 }
 
@@ -141,7 +141,7 @@ static int eliminate(zono *z, uint32_t stage, uint32_t q) {
     terms sum;
     terms_clear(&sum);
     if (row_total(s, l) > 0) terms_product(s, &sum, 1, l, inverse);
-    terms_sum(s, &sum, z->scratch, 1);
+    terms_sum(s, &sum, z->scratch, row_parts(s, 0));
     memcpy(l, z->scratch, s->stride * sizeof *l);
   }
   return 1;
@@ -158,13 +158,13 @@ int zono_factor(zono *z, uint32_t stage) {
 
 /* -- the solution */
 
-static void add_to(const zono *z, double *to, const double *x, int triples) {
+static void add_to(const zono *z, double *to, const double *x, uint32_t parts) {
   const shape *s = &z->shape;
   terms sum;
   terms_clear(&sum);
   terms_row(s, &sum, 1, to), terms_row(s, &sum, 1, x);
-  terms_sum(s, &sum, z->scratch, triples);
-  memcpy(to, z->scratch, (triples ? s->stride : s->cube) * sizeof *to);
+  terms_sum(s, &sum, z->scratch, parts);
+  memcpy(to, z->scratch, (parts & TRIPLES ? s->stride : s->cube) * sizeof *to);
 }
 
 void zono_solve(zono *z, uint32_t stage, uint32_t k) {
@@ -179,7 +179,7 @@ void zono_solve(zono *z, uint32_t stage, uint32_t k) {
       const double *l = entry(z, stage, r, q);
       if (row_total(s, l) > 0) terms_product(s, &sum, -1, l, at(z, z->implicit->y, q));
     }
-    terms_sum(s, &sum, at(z, z->implicit->y, r), has_triples(z, k));
+    terms_sum(s, &sum, at(z, z->implicit->y, r), row_parts(&z->shape, k));
   }
   for (uint32_t r = n; r-- > 0;) {
     terms_clear(&sum);
@@ -188,10 +188,10 @@ void zono_solve(zono *z, uint32_t stage, uint32_t k) {
       const double *u = entry(z, stage, r, q);
       if (row_total(s, u) > 0) terms_product(s, &sum, -1, u, at(z, z->implicit->y, q));
     }
-    terms_sum(s, &sum, z->scratch, has_triples(z, k));
+    terms_sum(s, &sum, z->scratch, row_parts(&z->shape, k));
     terms_clear(&sum);
     terms_product(s, &sum, 1, z->scratch, inverse_of(z, stage, r));
-    terms_sum(s, &sum, at(z, z->implicit->y, r), has_triples(z, k));
-    add_to(z, row_at(z, slot_a(z, p->pivot[start + r]), k), at(z, z->implicit->y, r), has_triples(z, k));
+    terms_sum(s, &sum, at(z, z->implicit->y, r), row_parts(&z->shape, k));
+    add_to(z, row_at(z, slot_a(z, p->pivot[start + r]), k), at(z, z->implicit->y, r), row_parts(&z->shape, k));
   }
 }

@@ -27,7 +27,7 @@ static double centre_of(const zono *z, uint32_t i, double scale, double *moving)
   terms_clear(&sum);
   add_operand(z, &sum, i, 0, 1);
   if (scale != 0) add_operand(z, &sum, i, 1, scale);
-  terms_sum(&z->shape, &sum, z->kinks->row, 1);
+  terms_sum(&z->shape, &sum, z->kinks->row, row_parts(&z->shape, 0));
   *moving = row_moving(&z->shape, z->kinks->row);
   return z->kinks->row[0];
 }
@@ -82,7 +82,7 @@ void kink_row(zono *z, uint32_t i, uint32_t k) {
     sum.c = offset_share(t->op[i]) * z->kinks->of[i].offset;
   if (share_a != 0) terms_row(&z->shape, &sum, share_a, coefficient(z, t->a[i], k));
   if (share_b != 0) terms_row(&z->shape, &sum, share_b, coefficient(z, t->b[i], k));
-  terms_sum(&z->shape, &sum, row_at(z, t->dst[i], k), has_triples(z, k));
+  terms_sum(&z->shape, &sum, row_at(z, t->dst[i], k), row_parts(&z->shape, k));
 }
 
 /* -- phase 2 */

@@ -97,7 +97,8 @@ static int open_states(zono *z) {
     if (!doubles(h, square, matrix[n])) return 0;
   return doubles(h, nx, &p->zeta) && doubles(h, nx, &p->zeta_new) && doubles(h, z->na, &p->alpha) &&
          doubles(h, z->na, &p->alpha_new) && doubles(h, nx, &p->grow) && doubles(h, nx, &p->grow_path) &&
-         doubles(h, ORIGINS * nx, &p->boxes) && doubles(h, nx, &p->spread) && doubles(h, nx, &p->unit) &&
+         doubles(h, ORIGINS * nx, &p->boxes) && doubles(h, nx, &p->spread) && doubles(h, nx, &p->largest) &&
+         doubles(h, nx, &p->budget) && doubles(h, 3 * nx, &p->worth) && doubles(h, nx, &p->unit) &&
          doubles(h, 4 * (nx + z->na), &p->work) && doubles(h, columns * nx, &p->columns) &&
          doubles(h, (z->ngen_max + nx) * (nx + 1), &p->turned) && doubles(h, columns, &p->score) &&
          (p->origin = h->alloc(h, columns + 1)) != NULL && (p->from = h->alloc(h, z->ngen_max + nx + 1)) != NULL &&

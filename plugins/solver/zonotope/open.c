@@ -77,7 +77,7 @@ int zono_open_rows(zono *z) {
   z->has_inverse = room(h, t->ninstr, sizeof *z->has_inverse);
   if (!z->num || !z->first || !z->at || !z->has_inverse || !open_program(z) || !kinks_open(z)) return 0;
   for (uint32_t i = 0; i < t->nslot; i++) {
-    size_t n = t->degree[i] ? z->K_max + 1u : 1u, cubed = z->shape.cubed < n ? z->shape.cubed : n;
+    size_t n = t->degree[i] ? z->K_max + 1u : 1u, cubed = z->shape.room < n ? z->shape.room : n;
     z->first[i] = rows, z->at[i] = at;
     rows += n, at += cubed * stride + (n - cubed) * z->shape.cube;
   }

@@ -1,9 +1,9 @@
 /* pace.c -- the length of a step and the order in time, by need.
 **
 ** What the lumps add to each state per second, weighed with coefficients at the set's centre, is rate_i(h). It starts
-** from what rows drop at order 0 and grows with h. A step is the longest over which it at most doubles (grows by a
-** quarter where lumps matter much), but for what is negligible beside the state's motion and beside its set. No proof
-** depends on anything here.
+** from what rows drop at order 0 and grows with h. A step is the longest over which it at most doubles, but for what is
+** negligible beside the state's motion, beside its set, or for the run as a whole (its budget). No proof depends on
+** anything here.
 */
 #include "kink.h"
 #include "proof.h"
@@ -12,6 +12,8 @@
 #define GROWTH 2.0     /* of the rate over a step; */
 #define LESS 1.25      /* where lumps matter so much that quartic.c is at work: it knows them at one time of the step */
 #define FROM_REST 1e-4 /* most that a step may add, as a share of a state that starts at 0 */
+#define SHARE 0.005    /* of its set: what a state may be widened by in a whole run without more ado; */
+#define FADED 0.1      /* of a set that was larger once, as if it still were so large */
 #define ORDER_DATA 8   /* in time, with data; */
 #define ORDER_EXACT 18 /* without, and least */
 #define ORDER_LEAST 10
@@ -68,17 +70,31 @@ static int is_of_like_order(const zono *z, uint32_t i, double length, double rat
   return length * rate <= FROM_REST * size && rate * size_half <= 2 * half * size;
 }
 
-/* 1: short enough; start: rates over a step of length 0 */
-static int fits(zono *z, double length, const double *start) {
-  const proof *p = z->proof;
-  double *rate = p->grow, *half = p->zeta_new, growth = p->quartic->count ? LESS : GROWTH;
-  int known = 0; /* half */
-  if (!defect_evaluate(z, length) || !kinks_fit(z, length)) return 0;
-  find_rates(z, rate);
+/* What is added to a state at such a rate for the whole run is a small part of its set, now or at its widest. */
+void pace_budget(zono *z, double length) {
+  proof *p = z->proof;
+  const double *time = z->problem.time;
+  double span = fabs(time[z->problem.ntime - 1] - time[0]);
   for (uint32_t i = 0; i < z->nx; i++) {
     double size, set;
     find_sizes(z, i, length, &size, &set);
-    double allowed = share_of(z, size, set) * size + BESIDE_SET * set;
+    p->budget[i] = z->m ? SHARE * fmax(set, FADED * p->largest[i]) / span : 0;
+  }
+}
+
+/* 1: short enough; start: rates over a step of length 0 */
+static int fits(zono *z, double length, const double *start) {
+  const proof *p = z->proof;
+  double *rate = p->grow, *half = p->zeta_new;
+  int known = 0; /* half */
+  double growth = p->quartic->count ? LESS : GROWTH;
+  if (!defect_evaluate(z, length) || !kinks_fit(z, length)) return 0;
+  find_rates(z, rate);
+  pace_budget(z, length);
+  for (uint32_t i = 0; i < z->nx; i++) {
+    double size, set;
+    find_sizes(z, i, length, &size, &set);
+    double allowed = share_of(z, size, set) * size + BESIDE_SET * set + p->budget[i] * length;
     if (length * rate[i] <= growth * length * start[i] + allowed) continue;
     if (!known && !defect_evaluate(z, 0.5 * length)) return 0;
     if (!known) find_rates(z, half), known = 1;
@@ -98,6 +114,7 @@ double zono_choose_step(zono *z, double h_most) {
     double size, set;
     find_sizes(z, i, 0, &size, &set);
     p->spread[i] = set > 0 ? set : size;
+    p->largest[i] = fmax(p->largest[i], set);
     find_sizes(z, i, most, &size, &set);
     if (!(p->spread[i] > 0)) p->spread[i] = size > 0 ? size : 1;
   }

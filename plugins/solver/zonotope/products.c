@@ -9,7 +9,7 @@
 #define MOST 27          /* data */
 #define ROOM 1e6         /* doubles of sums, at most */
 #define LEFT_SLOTS 0.002 /* share of what lumps add that is left to them */
-#define WORTH 1e-5       /* of the states' sets: what lumps must add in a step */
+#define WORTH 1          /* of the states' budgets: what lumps must add, or they are left as they are */
 
 static int doubles(const ambit_host *h, size_t n, double **to) {
   *to = h->alloc(h, (n + 4) * sizeof(double));
@@ -104,13 +104,13 @@ int quartic_open(zono *z) {
 
 /* -- choice */
 
-/* of x'_i in the units of the states' sets */
+/* the rate of lump j by the budgets of the states (pace.c), the most */
 static double weight_of(const zono *z, uint32_t j) {
   const proof *p = z->proof;
-  double sum = 0;
+  double most = 0;
   for (uint32_t i = 0; i < z->nx; i++)
-    if (p->link[i] != LINK_STATE) sum += fabs(p->C[(size_t)p->link_to[i] * z->nslot + j]) / p->spread[i];
-  return sum * z->rr[j];
+    if (p->link[i] != LINK_STATE) most = fmax(most, fabs(p->C[(size_t)p->link_to[i] * z->nslot + j]) / p->budget[i]);
+  return most * z->rr[j];
 }
 
 static int choose_slots(zono *z) {
@@ -119,7 +119,7 @@ static int choose_slots(zono *z) {
   double all = 0;
   for (uint32_t j = 0; j < z->nslot; j++) all += weight_of(z, j), q->chosen[j] = 0;
   q->count = 0;
-  if (!(all * fabs(z->h) > WORTH)) return 0;
+  if (!(all > WORTH)) return 0;
   for (uint32_t i = 0; i < t->ninstr; i++) {
     if (!is_product(t->op[i]) || weight_of(z, t->dst[i]) * z->nslot < LEFT_SLOTS * all) continue;
     q->chosen[t->dst[i]] = 1, q->count++;

@@ -69,6 +69,9 @@ typedef struct proof {
   double *score, *sorted;  /* one of each column */
   double *end;             /* [nx x stride] rows at the end of the step */
   double *spread;          /* [nx] sizes of states' sets, for weights */
+  double *largest;         /* [nx] of these, of the whole run */
+  double *budget;          /* [nx] rates at which each state may be widened: pace.c */
+  double *worth;           /* [3 nx] parts.c */
   double *unit;            /* [nx] of the states, for norms */
   double *work;            /* [4 nx + na] */
   double paced;            /* what pace.c chose for the last step */
@@ -101,6 +104,10 @@ void origin_text(const zono *z, char *text, size_t room);
 /* slope.c: forms of slots and of derivatives */
 void slope_open(double gaps[TIME_ORDERS]);
 int slope_forms(zono *z, const sweeps *w, double h);
+/* pace.c: budgets for a step of this length */
+void pace_budget(zono *z, double length);
+/* parts.c: z->shape's numbers of orders for the next step, from the rows and slopes of this one */
+void parts_choose(zono *z);
 /* set.c, dense.c; 0: no memory */
 int set_open(zono *z);
 int dense_open(zono *z);

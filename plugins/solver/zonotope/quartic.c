@@ -36,8 +36,7 @@ static void take(const zono *z, operand *o, uint32_t slot, double power) {
         double y = row[s->mix + q->datum[d] * z->nx + v];
         x[d * z->nx + v] += power * y, o->size_x[k] += fabs(y);
       }
-    o->size_c[k] =
-        has_triples(z, k) && row_c(&z->shape, row) > 0 ? gather(o->c, row, q->triple_at, q->triples, power) : 0;
+    o->size_c[k] = row_c(&z->shape, row) > 0 ? gather(o->c, row, q->triple_at, q->triples, power) : 0;
   }
 }
 

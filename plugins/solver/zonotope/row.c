@@ -15,8 +15,8 @@ void shape_place(shape *s) {
   s->norms = s->mix + s->mixed * s->nx;
   for (uint32_t i = s->cubic; i-- > 0;)
     if (s->reach[i] < s->cubic) s->cubic = i;
-  if (s->cubed == 0) s->cubic = 0;
-  if (s->cubic == 0) s->cubed = 0;
+  if (s->room == 0) s->cubic = 0;
+  if (s->cubic == 0) s->cubed = s->room = 0;
   s->cube = (s->norms + NORMS + 4) / 4 * 4;
   s->triples = s->cubic * (s->cubic + 1) * (s->cubic + 2) / 6;
   s->stride = s->triples ? (s->cube + s->triples + 3 + 3) / 4 * 4 : s->cube; /* the last vector may run over */
@@ -24,12 +24,19 @@ void shape_place(shape *s) {
 
 #define CUBIC_ALL 34  /* data that have triples if there are no more, */
 #define CUBIC_MOST 27 /* and if there are */
-#define CUBED 3
+#define CUBED 3       /* orders that have room for triples */
+#define EVERY UINT32_MAX
 
 int shape_open(const ambit_host *h, shape *s, uint32_t m, uint32_t nx) {
-  *s = (shape) {
-    .m = m, .nx = nx, .mixed = m, .cubic = m <= CUBIC_ALL ? m : CUBIC_MOST, .cubed = CUBED, .sum = sum_portable
-  };
+  *s = (shape) { .m = m,
+    .nx = nx,
+    .mixed = m,
+    .cubic = m <= CUBIC_ALL ? m : CUBIC_MOST,
+    .cubed = CUBED,
+    .room = CUBED,
+    .paired = EVERY,
+    .mixing = EVERY,
+    .sum = sum_portable };
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx2")) s->sum = sum_avx2;
 #endif
@@ -63,16 +70,58 @@ void row_norms_all(const shape *s, double *x) {
 }
 
 void row_constant(const shape *s, double *to, double c) {
-  memset(to, 0, s->cube * sizeof *to);
+  memset(to, 0, s->pair[0] * sizeof *to);
+  memset(to + s->norms, 0, NORMS * sizeof *to);
   to[0] = c;
 }
 
-void row_scale(const shape *s, double *to, double scale, const double *a, int triples) {
-  int cubed = triples && row_c(s, a) > 0;
-  for (uint32_t i = 0; i < s->norms; i++) to[i] = scale * a[i];
+/* -- parts: where they are */
+
+typedef struct range {
+  uint32_t from, to;
+} range;
+
+/* the ranges of a row's parts that are there */
+static uint32_t ranges_of(const shape *s, const double *x, range at[4]) {
+  uint32_t n = 0;
+  at[n++] = (range) { 0, s->pair[0] };
+  if (row_q(s, x) > 0) at[n++] = (range) { s->pair[0], s->mix };
+  if (row_x(s, x) > 0) at[n++] = (range) { s->mix, s->norms };
+  if (row_c(s, x) > 0) at[n++] = (range) { s->cube, s->cube + s->triples };
+  return n;
+}
+
+double row_lost(const shape *s, const double *x, uint32_t parts) {
+  return (parts & PAIRS ? 0 : row_q(s, x)) + (parts & MIXED ? 0 : row_x(s, x)) + (parts & TRIPLES ? 0 : row_c(s, x));
+}
+
+/* norms of parts that `to` does not hold := 0 */
+static void leave_out(const shape *s, double *to, uint32_t parts) {
+  if (!(parts & PAIRS)) to[s->norms + NORM_Q] = to[s->norms + NORM_Q_FAR] = 0;
+  if (!(parts & MIXED)) to[s->norms + NORM_X] = 0;
+  if (!(parts & TRIPLES)) to[s->norms + NORM_C] = 0;
+}
+
+void row_scale(const shape *s, double *to, double scale, const double *a, uint32_t parts) {
+  range at[4];
   for (uint32_t i = s->norms; i < s->norms + NORMS; i++) to[i] = fabs(scale) * a[i];
-  if (!cubed) to[s->norms + NORM_C] = 0;
-  for (uint32_t i = 0; cubed && i < s->triples; i++) to[s->cube + i] = scale * a[s->cube + i];
+  leave_out(s, to, parts);
+  uint32_t n = ranges_of(s, to, at);
+  for (uint32_t r = 0; r < n; r++)
+    for (uint32_t i = at[r].from; i < at[r].to; i++) to[i] = scale * a[i];
+}
+
+void row_add(const shape *s, double *to, double scale, const double *a) {
+  range at[4];
+  uint32_t n = ranges_of(s, a, at);
+  for (uint32_t r = 0; r < n; r++)
+    for (uint32_t i = at[r].from; i < at[r].to; i++) to[i] += scale * a[i];
+}
+
+void row_copy(const shape *s, double *to, const double *a) {
+  memset(to, 0, s->stride * sizeof *to);
+  row_add(s, to, 1, a);
+  memcpy(to + s->norms, a + s->norms, NORMS * sizeof *to);
 }
 
 /* pairs of linear terms that are not held: what row i misses is at its end */
@@ -92,23 +141,31 @@ static double dropped_pairs(const shape *s, const double *a, const double *b) {
   return sum;
 }
 
-double row_dropped(const shape *s, const double *a, const double *b, int triples) {
+double row_dropped(const shape *s, const double *a, const double *b, uint32_t parts) {
   double la = row_l(s, a), ra = row_r(s, a), qa = row_q(s, a), last_a = row_x(s, a) + row_c(s, a);
   double lb = row_l(s, b), rb = row_r(s, b), qb = row_q(s, b), last_b = row_x(s, b) + row_c(s, b);
   double sum = la * last_b + ra * (rb + qb + last_b) + qa * (rb + qb + last_b) + last_a * (lb + rb + qb + last_b);
-  if (triples)
+  sum += fabs(a[0]) * row_lost(s, b, parts) + fabs(b[0]) * row_lost(s, a, parts);
+  if (parts & TRIPLES)
     sum += a[s->norms + NORM_L_FAR] * qb + la * b[s->norms + NORM_Q_FAR] + b[s->norms + NORM_L_FAR] * qa +
            lb * a[s->norms + NORM_Q_FAR];
   else
-    sum += la * qb + qa * lb + fabs(a[0]) * row_c(s, b) + fabs(b[0]) * row_c(s, a);
-  if (s->mixed < s->m) sum += sizes(a, 1 + s->mixed, 1 + s->m) * rb + sizes(b, 1 + s->mixed, 1 + s->m) * ra;
-  if (s->m && s->reach[s->m - 1] < s->m) sum += dropped_pairs(s, a, b);
+    sum += la * qb + qa * lb;
+  if (!(parts & MIXED))
+    sum += la * rb + ra * lb;
+  else if (s->mixed < s->m)
+    sum += sizes(a, 1 + s->mixed, 1 + s->m) * rb + sizes(b, 1 + s->mixed, 1 + s->m) * ra;
+  if (!(parts & PAIRS))
+    sum += la * lb;
+  else if (s->m && s->reach[s->m - 1] < s->m)
+    sum += dropped_pairs(s, a, b);
   return sum;
 }
 
-/* a^3 - b^3 <= 3 a^2 (a - b): b the linear terms that have triples */
+/* a^3 - b^3 <= 3 a^2 (a - b): b the linear terms that have triples; without triples all of a^3 */
 double row_dropped_cube(const shape *s, const double *x) {
   double all = row_moving(s, x);
+  if (!(row_parts(s, 0) & TRIPLES)) return all * all * all;
   return 3 * all * all * (x[s->norms + NORM_L_FAR] + row_r(s, x) + row_bent(s, x));
 }
 
@@ -146,25 +203,26 @@ void terms_product(const shape *s, terms *t, double scale, const double *a, cons
   terms_outer(s, t, scale, a, b);
 }
 
-void terms_sum(const shape *s, const terms *t, double *to, int triples) {
+void terms_sum(const shape *s, const terms *t, double *to, uint32_t parts) {
   if (!t->nrow && !t->nouter && !t->nbend)
     row_constant(s, to, t->c + t->low);
   else
-    s->sum(s, t, to, triples && s->cubed);
+    s->sum(s, t, to, parts);
 }
 
 /* d = a - its constant: g0 + g1 d + g2 / 2 d^2 + g3 / 6 d^3 */
 void row_function(const shape *s, double *to, const double *a, const double g[4]) {
   double *square = s->scratch;
+  uint32_t parts = row_parts(s, 0);
   terms t;
   terms_clear(&t);
   terms_outer(s, &t, 1, a, a);
-  terms_sum(s, &t, square, 1);
+  terms_sum(s, &t, square, parts);
   terms_clear(&t);
   t.c = g[0];
   terms_moving(s, &t, g[1], a), terms_moving(s, &t, g[2] / 2, square);
   terms_outer(s, &t, g[3] / 6, a, square);
-  terms_sum(s, &t, to, 1);
+  terms_sum(s, &t, to, parts);
 }
 
 void row_inverse(const shape *s, double *to, const double *a) {

@@ -96,6 +96,8 @@ static int advance(zono *z) {
   if (!step(z)) return 0;
   zono_tube(z);
   if (z->problem.wish & AMBIT_WISH_DENSE) zono_describe_dense(z, &r);
+  pace_budget(z, fabs(z->h));
+  parts_choose(z);
   zono_finish(z);
   zono_hull(z);
   if (is_wide(z)) return fails(z, WHY_WIDE);

@@ -34,7 +34,7 @@ static void put_partial(zono *z, uint32_t i, uint32_t k) {
   terms sum;
   terms_clear(&sum);
   add_convolution(z, &sum, t->a[i], t->b[i], k, z->program.level[t->dst[i]], 0);
-  terms_sum(&z->shape, &sum, implicit_partial(z, i), has_triples(z, k));
+  terms_sum(&z->shape, &sum, implicit_partial(z, i), row_parts(&z->shape, k));
 }
 
 static void put_product(zono *z, uint32_t i, uint32_t k) {
@@ -51,7 +51,7 @@ static void put_product(zono *z, uint32_t i, uint32_t k) {
     if (z->program.level[a] == level) terms_product(s, &sum, 1, coefficient(z, a, k), row_at(z, b, 0));
     if (z->program.level[b] == level) terms_product(s, &sum, 1, row_at(z, a, 0), coefficient(z, b, k));
   }
-  terms_sum(s, &sum, row_at(z, t->dst[i], k), has_triples(z, k));
+  terms_sum(s, &sum, row_at(z, t->dst[i], k), row_parts(&z->shape, k));
 }
 
 static int evaluate(zono *z, uint32_t i, uint32_t k) {
@@ -74,7 +74,7 @@ static int evaluate(zono *z, uint32_t i, uint32_t k) {
   case AMBIT_OP_SQR: add_square(z, &sum, t->a[i], k); break;
   default: return k ? zono_function(z, i, k) : zono_function_order0(z, i);
   }
-  terms_sum(s, &sum, row_at(z, dst, k), has_triples(z, k));
+  terms_sum(s, &sum, row_at(z, dst, k), row_parts(&z->shape, k));
   return 1;
 }
 
@@ -87,11 +87,10 @@ static void put_inputs(zono *z) {
   for (uint32_t i = 0; i < z->nx; i++) {
     double *x = row_at(z, slot_x(z, i), 0);
     memcpy(x, z->P + (size_t)i * s->stride, s->stride * sizeof *x);
-    x[s->eps + i] = z->E[i];
-    row_norms(s, x);
+    x[s->eps + i] = x[s->norms + NORM_R] = z->E[i];
   }
   for (uint32_t i = 0; i < z->np; i++)
-    memcpy(row_at(z, slot_p(z, i), 0), z->p_row + (size_t)i * s->stride, s->stride * sizeof(double));
+    row_scale(s, row_at(z, slot_p(z, i), 0), 1, z->p_row + (size_t)i * s->stride, row_parts(s, 0));
   if (!z->program.uses_time) return;
   row_constant(s, row_at(z, slot_t(z), 0), z->t);
   if (z->K > 0) row_constant(s, row_at(z, slot_t(z), 1), 1);
@@ -100,7 +99,7 @@ static void put_inputs(zono *z) {
 static void integrate(zono *z, uint32_t k) {
   for (uint32_t i = 0; i < z->nx; i++)
     row_scale(&z->shape, row_at(z, slot_x(z, i), k + 1), 1 / (k + 1.0), coefficient(z, slot_out(z)[i], k),
-        has_triples(z, k + 1));
+        row_parts(&z->shape, k + 1));
 }
 
 /* -- stages */
@@ -123,19 +122,32 @@ static int evaluate_level(zono *z, uint32_t level, uint32_t k, enum pass pass) {
   return 1;
 }
 
+static int solve_stage(zono *z, uint32_t stage, uint32_t k, enum pass pass) {
+  if (!evaluate_level(z, stage + 1, k, pass)) return 0;
+  if (k == 0 && pass == FIRST && !zono_factor(z, stage)) return 0;
+  zono_solve(z, stage, k);
+  return 1;
+}
+
+static int find_without_triples(zono *z, uint32_t stage) {
+  uint32_t cubed = z->shape.cubed;
+  z->shape.cubed = 0;
+  int found = solve_stage(z, stage, 0, FIRST);
+  z->shape.cubed = cubed;
+  return found;
+}
+
 static int find_unknowns(zono *z, uint32_t stage, uint32_t k) {
   const program *p = &z->program;
   for (uint32_t j = stage ? p->stage_end[stage - 1] : 0; j < p->stage_end[stage]; j++)
     row_constant(&z->shape, row_at(z, slot_a(z, j), k), 0);
-  if (!evaluate_level(z, stage + 1, k, FIRST)) return 0;
-  if (k == 0 && !zono_factor(z, stage)) return 0;
-  zono_solve(z, stage, k);
+  /* M_0 holds no triples. With unknowns that are right but for triples, what is left of the equations has nothing but
+  ** triples, and M_0's constants are all that corrects them. */
+  int cubed = row_parts(&z->shape, k) & TRIPLES;
+  if (!(cubed && k == 0 ? find_without_triples(z, stage) : solve_stage(z, stage, k, FIRST))) return 0;
   /* Rounding is all that there is: less of it. Not from rest: what states at 0 become by rounding is less then than
   ** what they are off by, and pace.c would take ever shorter steps. */
-  if (z->m == 0 && z->guess > 0) {
-    if (!evaluate_level(z, stage + 1, k, AGAIN)) return 0;
-    zono_solve(z, stage, k);
-  }
+  if ((cubed || (z->m == 0 && z->guess > 0)) && !solve_stage(z, stage, k, AGAIN)) return 0;
   return evaluate_level(z, stage + 1, k, ALL);
 }
 

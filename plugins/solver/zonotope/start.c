@@ -70,7 +70,7 @@ static void keep(zono *z, const zono *i, const double *delta, uint32_t *own) {
     int state = o < z->nx;
     double *to = state ? z->start + (size_t)o * s->stride : z->start_p + (size_t)(o - z->nx) * s->stride;
     double *rad = state ? z->start_rad + o : z->start_p_rad + (o - z->nx);
-    memcpy(to, row_at(i, slot, 0), s->stride * sizeof *to);
+    row_copy(s, to, row_at(i, slot, 0));
     *rad = delta[slot];
     if (*rad <= THIN * row_total(s, to) + 0x1p-900) continue;
     if (first + found < z->m) {

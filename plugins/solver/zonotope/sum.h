@@ -11,9 +11,21 @@ typedef int64_t four_bits __attribute__((vector_size(32)));
 
 #define SPREAD(x) ((four) { (x), (x), (x), (x) })
 
+/* the terms that have a part */
+typedef struct picked {
+  uint32_t nrow, nouter;
+  const scaled_row *row;
+  const scaled_product *outer;
+} picked;
+
+typedef struct picks {
+  scaled_row row[TERMS];
+  scaled_product outer[TERMS];
+} picks;
+
 /* `width` vectors of a segment: rows at `at`; linear parts at `linear`, each times the other's coefficient `by` */
 static inline __attribute__((always_inline)) void sum_block(
-    const terms *t, double *to, uint32_t at, uint32_t by, uint32_t linear, int outer, int width) {
+    const picked *t, double *to, uint32_t at, uint32_t by, uint32_t linear, int outer, int width) {
   four sum[4];
 #pragma GCC unroll 4
   for (int w = 0; w < width; w++) sum[w] = (four) { 0, 0, 0, 0 };
@@ -36,7 +48,7 @@ static inline __attribute__((always_inline)) void sum_block(
 }
 
 static inline __attribute__((always_inline)) void sum_segment(
-    const terms *t, double *to, uint32_t at, uint32_t length, uint32_t by, uint32_t linear, int outer) {
+    const picked *t, double *to, uint32_t at, uint32_t length, uint32_t by, uint32_t linear, int outer) {
   uint32_t done = 0;
   for (; done + 12 < length; done += 16) sum_block(t, to, at + done, by, linear + done, outer, 4);
   if (done >= length) return;
@@ -47,22 +59,48 @@ static inline __attribute__((always_inline)) void sum_segment(
   }
 }
 
-static inline double sum_square(const terms *t, uint32_t at, uint32_t by) {
+static inline double sum_square(const picked *t, uint32_t at, uint32_t by) {
   double sum = 0;
   for (uint32_t n = 0; n < t->nrow; n++) sum += t->row[n].scale * t->row[n].x[at];
   for (uint32_t n = 0; n < t->nouter; n++) sum += t->outer[n].scale * t->outer[n].a[by] * t->outer[n].b[by];
   return sum;
 }
 
-/* -- triples: coefficient ijk of a product is the sum of l_v q_(the other two) over its different v */
+/* rows whose norm is not 0 */
+static picked pick_rows(const shape *s, const terms *t, uint32_t norm, picks *room) {
+  uint32_t count = 0;
+  for (uint32_t n = 0; n < t->nrow; n++)
+    if (t->row[n].x[s->norms + norm] > 0) room->row[count++] = t->row[n];
+  return (picked) { count, 0, room->row, room->outer };
+}
 
-typedef struct cubes {
-  uint32_t nrow;
-  struct {
-    double scale;
-    const double *x;
-  } row[TERMS]; /* those of the terms that have triples */
-} cubes;
+/* each returns 0 if there are none */
+static int sum_pairs(const shape *s, const terms *t, double *to) {
+  picks room;
+  picked p = pick_rows(s, t, NORM_Q, &room);
+  for (uint32_t n = 0; n < t->nouter; n++)
+    if (row_l(s, t->outer[n].a) * row_l(s, t->outer[n].b) > 0) room.outer[p.nouter++] = t->outer[n];
+  if (!p.nrow && !p.nouter) return 0;
+  for (uint32_t i = 0; i < s->m && s->reach[i] > i; i++) {
+    to[s->pair[i]] = sum_square(&p, s->pair[i], 1 + i);
+    sum_segment(&p, to, s->pair[i] + 1, s->reach[i] - i - 1, 1 + i, 2 + i, 1);
+  }
+  return 1;
+}
+
+static int sum_mixed(const shape *s, const terms *t, double *to) {
+  picks room;
+  picked p = pick_rows(s, t, NORM_X, &room);
+  for (uint32_t n = 0; n < t->nouter; n++) {
+    const double *a = t->outer[n].a, *b = t->outer[n].b;
+    if (row_l(s, a) * row_r(s, b) + row_r(s, a) * row_l(s, b) > 0) room.outer[p.nouter++] = t->outer[n];
+  }
+  if (!p.nrow && !p.nouter) return 0;
+  for (uint32_t j = 0; j < s->mixed; j++) sum_segment(&p, to, s->mix + j * s->nx, s->nx, 1 + j, s->eps, 1);
+  return 1;
+}
+
+/* -- triples: coefficient ijk of a product is the sum of l_v q_(the other two) over its different v */
 
 /* where the run of triples (i, j, k), k > j, and what it is made of starts */
 typedef struct run_of {
@@ -70,7 +108,7 @@ typedef struct run_of {
 } run_of;
 
 static inline __attribute__((always_inline)) void sum_bend(
-    const cubes *c, const terms *t, double *to, const run_of *r, uint32_t done, int same, int width) {
+    const picked *c, const terms *t, double *to, const run_of *r, uint32_t done, int same, int width) {
   four sum[4];
 #pragma GCC unroll 4
   for (int w = 0; w < width; w++) sum[w] = (four) { 0, 0, 0, 0 };
@@ -97,7 +135,7 @@ static inline __attribute__((always_inline)) void sum_bend(
 }
 
 static inline __attribute__((always_inline)) void sum_run(
-    const cubes *c, const terms *t, double *to, const run_of *r, uint32_t length, int same) {
+    const picked *c, const terms *t, double *to, const run_of *r, uint32_t length, int same) {
   uint32_t done = 0;
   for (; done + 12 < length; done += 16) sum_bend(c, t, to, r, done, same, 4);
   if (done >= length) return;
@@ -109,7 +147,7 @@ static inline __attribute__((always_inline)) void sum_run(
 }
 
 /* triple (i, j, j) */
-static double sum_first(const shape *s, const cubes *c, const terms *t, uint32_t at, uint32_t i, uint32_t j) {
+static double sum_first(const shape *s, const picked *c, const terms *t, uint32_t at, uint32_t i, uint32_t j) {
   double sum = 0;
   uint32_t jj = s->pair[j], ij = s->pair[i] + j - i;
   for (uint32_t n = 0; n < c->nrow; n++) sum += c->row[n].scale * c->row[n].x[at];
@@ -122,12 +160,10 @@ static double sum_first(const shape *s, const cubes *c, const terms *t, uint32_t
   return sum;
 }
 
-/* 0: there are none */
 static int sum_triples(const shape *s, const terms *t, double *to) {
-  cubes c = { .nrow = 0 };
+  picks room;
+  const picked c = pick_rows(s, t, NORM_C, &room);
   uint32_t at = s->cube, n = s->cubic;
-  for (uint32_t k = 0; k < t->nrow; k++)
-    if (row_c(s, t->row[k].x) > 0) c.row[c.nrow].scale = t->row[k].scale, c.row[c.nrow++].x = t->row[k].x;
   if (!c.nrow && !t->nbend) return 0;
   for (uint32_t i = 0; i < n; i++)
     for (uint32_t j = i; j < n; j++) {
@@ -154,26 +190,28 @@ static double sum_sizes(const double *x, uint32_t n) {
   return all;
 }
 
-static void sum_norms(const shape *s, double *x, int triples) {
-  double *norm = x + s->norms, far = 0;
-  double l = sum_sizes(x + 1, s->m), r = sum_sizes(x + s->eps, s->nx);
-  double q = sum_sizes(x + s->pair[0], s->mix - s->pair[0]), mixed = sum_sizes(x + s->mix, s->norms - s->mix);
-  for (uint32_t i = 0; i < s->cubic && s->cubic < s->m; i++)
-    far += sum_sizes(x + s->pair[i] + s->cubic - i, s->pair[i + 1] - s->pair[i] - (s->cubic - i));
-  norm[NORM_L] = l, norm[NORM_R] = r, norm[NORM_Q] = q, norm[NORM_X] = mixed;
+static void sum_norms(const shape *s, double *x, uint32_t parts) {
+  double *norm = x + s->norms, far = 0, q = 0;
+  if (parts & PAIRS) {
+    for (uint32_t i = 0; i < s->cubic && s->cubic < s->m; i++)
+      far += sum_sizes(x + s->pair[i] + s->cubic - i, s->pair[i + 1] - s->pair[i] - (s->cubic - i));
+    far += sum_sizes(x + s->pair[s->cubic], s->mix - s->pair[s->cubic]);
+    q = sum_sizes(x + s->pair[0], s->mix - s->pair[0]);
+  }
+  double mixed = parts & MIXED ? sum_sizes(x + s->mix, s->norms - s->mix) : 0;
+  norm[NORM_L] = sum_sizes(x + 1, s->m), norm[NORM_R] = sum_sizes(x + s->eps, s->nx);
   norm[NORM_L_FAR] = sum_sizes(x + 1 + s->cubic, s->m - s->cubic);
-  norm[NORM_Q_FAR] = far + sum_sizes(x + s->pair[s->cubic], s->mix - s->pair[s->cubic]);
-  norm[NORM_C] = triples ? sum_sizes(x + s->cube, s->triples) : 0;
+  norm[NORM_Q] = q, norm[NORM_Q_FAR] = far, norm[NORM_X] = mixed;
+  norm[NORM_C] = parts & TRIPLES ? sum_sizes(x + s->cube, s->triples) : 0;
 }
 
-void VARIANT(const shape *s, const terms *t, double *to, int triples) {
+void VARIANT(const shape *s, const terms *t, double *to, uint32_t parts) {
+  const picked all = { t->nrow, 0, t->row, NULL };
+  uint32_t made = 0;
   to[0] = t->c + t->low;
-  sum_segment(t, to, 1, s->m + s->nx, 0, 0, 0);
-  for (uint32_t i = 0; i < s->m && s->reach[i] > i; i++) {
-    to[s->pair[i]] = sum_square(t, s->pair[i], 1 + i);
-    sum_segment(t, to, s->pair[i] + 1, s->reach[i] - i - 1, 1 + i, 2 + i, 1);
-  }
-  for (uint32_t j = 0; j < s->mixed; j++) sum_segment(t, to, s->mix + j * s->nx, s->nx, 1 + j, s->eps, 1);
-  int made = triples && sum_triples(s, t, to);
+  sum_segment(&all, to, 1, s->m + s->nx, 0, 0, 0);
+  if ((parts & PAIRS) && sum_pairs(s, t, to)) made |= PAIRS;
+  if ((parts & MIXED) && sum_mixed(s, t, to)) made |= MIXED;
+  if ((parts & TRIPLES) && sum_triples(s, t, to)) made |= TRIPLES;
   sum_norms(s, to, made);
 }

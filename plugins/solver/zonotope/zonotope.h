@@ -24,9 +24,10 @@
 **   ABS MIN MAX    a multiple of a, or of a and b, plus a constant: those of kink.c
 ** and for k = 0 of a function the Taylor polynomial of degree 3 about the constant of its operand.
 ** Each coefficient of a sum of n products is got by at most 10 n + 14 operations in doubles, in any order, contracted
-** or not, but the constant, of which row.c knows more; the divisions by k and factors j are among them. i_0 is inverse_at(): b_0 (*) i_0 = 1 but for rounding. No
-** value from before the solution of the implicit equations is left in them: nothing cancels that is not in the rows.
-** Slots of degree 0 (constant in time) have row 0 only, the others K + 1, zero above the slot's degree.
+** or not, but the constant, of which row.c knows more; the divisions by k and factors j are among them. i_0 is
+** inverse_at(): b_0 (*) i_0 = 1 but for rounding. No value from before the solution of the implicit equations is left
+** in them: nothing cancels that is not in the rows. Slots of degree 0 (constant in time) have row 0 only, the others
+** K + 1, zero above the slot's degree.
 */
 #ifndef ZONOTOPE_H
 #define ZONOTOPE_H
@@ -117,11 +118,10 @@ typedef struct zono {
 /* -- rows of slots */
 
 static inline uint32_t orders(const zono *z, uint32_t slot) { return z->program.tape->degree[slot] ? z->K + 1 : 1; }
-static inline int has_triples(const zono *z, uint32_t k) { return k < z->shape.cubed; }
 static inline double *row_at(const zono *z, uint32_t slot, uint32_t k) {
   const shape *s = &z->shape;
   double *row = z->row + z->at[slot];
-  return k < s->cubed ? row + k * s->stride : row + s->cubed * s->stride + (k - s->cubed) * s->cube;
+  return k < s->room ? row + k * s->stride : row + s->room * s->stride + (k - s->room) * s->cube;
 }
 /* order k of a slot that may have fewer */
 static inline const double *coefficient(const zono *z, uint32_t slot, uint32_t k) {
