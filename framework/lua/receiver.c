@@ -7,6 +7,8 @@
 
 #define FASTER 4    /* times what was covered in half as long before: not judged yet, as a run from rest gets faster */
 #define HOPELESS 20 /* times what a run has taken until now, that the rest of it would take */
+#define STEADY 0.5  /* of what was covered in the time before: a run that covers less is getting stuck */
+#define IN_REACH 8  /* times what a steady run has taken until now, that the rest of it may take */
 
 static bool is_hopeless(ambit_pace *p) {
   if (!(p->patience > 0) || !p->has_moved) return false; /* pieces write nothing until all have passed an instant */
@@ -22,8 +24,20 @@ static bool is_hopeless(ambit_pace *p) {
   return p->is_hopeless;
 }
 
+static bool is_overdue(ambit_pace *p) {
+  if (!(p->due > 0) || p->is_overdue) return p->is_overdue;
+  double spent = ambit_context_seconds() - p->began;
+  if (!p->has_middle && spent >= 0.5 * p->due) p->t_middle = p->t, p->has_middle = true;
+  if (spent < p->due) return false;
+  double covered = fabs(p->t - p->t_middle), before = fabs(p->t_middle - p->first), left = fabs(p->last - p->t);
+  p->is_overdue = !(covered > 0 && covered >= STEADY * before && 0.5 * left <= IN_REACH * covered);
+  p->t_middle = p->t;
+  p->due *= 2;
+  return p->is_overdue;
+}
+
 static bool is_to_stop(ambit_receiver *r) {
-  return is_hopeless(&r->pace) || ambit_interrupt_pending() ||
+  return is_hopeless(&r->pace) || is_overdue(&r->pace) || ambit_interrupt_pending() ||
          (r->deadline > 0 && ambit_context_seconds() >= r->deadline);
 }
 
@@ -94,7 +108,7 @@ void ambit_receiver_tell(
   bool own = r->failure.status != AMBIT_OK;
   if (own) status = AMBIT_STOPPED;
   if (!own && status == AMBIT_STOPPED && r->deadline > 0 && !ambit_interrupt_pending()) code = AMBIT_CODE_STOPPED_LIMIT;
-  if (!own && status == AMBIT_STOPPED && r->pace.is_hopeless && !ambit_interrupt_pending()) {
+  if (!own && status == AMBIT_STOPPED && (r->pace.is_hopeless || r->pace.is_overdue) && !ambit_interrupt_pending()) {
     status = AMBIT_UNABLE;
     code = AMBIT_CODE_UNABLE_CREEP;
     snprintf(slow, sizeof slow, "at t = %.9g s steps are so short, or take so long, that the end is out of reach",

@@ -116,9 +116,25 @@ static int record_shift(lua_State *L) {
   return 0;
 }
 
+static int hold_records(lua_State *L) {
+  ambit_lua *core = AMBIT_LUA(L);
+  if (core->records) ambit_records_hold(core->records);
+  return 0;
+}
+
+/* records_release(keep): what was recorded since records_hold() is written, or dropped */
+static int release_records(lua_State *L) {
+  ambit_lua *core = AMBIT_LUA(L);
+  ambit_failure f = { 0 };
+  bool keep = lua_toboolean(L, 1);
+  if (core->records && ambit_records_release(core->records, keep, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
+  return 0;
+}
+
 void ambit_lua_open_records(lua_State *L, ambit_lua *core) {
   static const luaL_Reg functions[] = { { "records_open", open_records }, { "records_close", close_records },
     { "record", record }, { "provenance_begin", begin_provenance }, { "recording", recording },
-    { "record_shift", record_shift }, { NULL, NULL } };
+    { "record_shift", record_shift }, { "records_hold", hold_records }, { "records_release", release_records },
+    { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
 }

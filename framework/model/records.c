@@ -26,6 +26,9 @@ struct ambit_records {
   bool inside;           /* `before` is writing */
   ambit_failure trouble; /* what it failed with */
   ambit_interval shift;
+  bool holds; /* lines wait here */
+  unsigned char *held;
+  size_t nheld, capacity;
 };
 
 static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
@@ -33,6 +36,7 @@ static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOM
 static void destroy(ambit_records *r) {
   if (r->generator) yajl_gen_free(r->generator);
   free(r->path);
+  free(r->held);
   free(r);
 }
 
@@ -195,6 +199,37 @@ static int write_line(const ambit_records *r, const unsigned char *text, size_t 
   return problem;
 }
 
+static ambit_status put_down(ambit_records *r, const unsigned char *text, size_t length, ambit_failure *f) {
+  int problem = write_line(r, text, length);
+  r->length += length;
+  if (problem == 0) return AMBIT_OK;
+  r->failed = true;
+  bool torn = r->file != STDOUT_FILENO && ftruncate(r->file, (off_t)(r->length - length)) != 0; /* no part of a line */
+  (void)torn; /* of a pipe: nothing can be taken back */
+  return ambit_fail(f, AMBIT_STOPPED, "cannot write records to %s: %s", r->path, strerror(problem));
+}
+
+static ambit_status put_aside(ambit_records *r, const unsigned char *text, size_t length, ambit_failure *f) {
+  if (r->nheld + length > r->capacity) {
+    size_t capacity = 2 * (r->nheld + length);
+    unsigned char *held = realloc(r->held, capacity);
+    if (!held) return no_memory(f);
+    r->held = held, r->capacity = capacity;
+  }
+  memcpy(r->held + r->nheld, text, length);
+  r->nheld += length;
+  return AMBIT_OK;
+}
+
+void ambit_records_hold(ambit_records *r) { r->holds = true; }
+
+ambit_status ambit_records_release(ambit_records *r, bool keep, ambit_failure *f) {
+  ambit_status status = keep && r->nheld && !r->failed ? put_down(r, r->held, r->nheld, f) : AMBIT_OK;
+  free(r->held);
+  r->held = NULL, r->nheld = r->capacity = 0, r->holds = false;
+  return status;
+}
+
 ambit_status ambit_records_end(ambit_records *r, ambit_failure *f) {
   if (r->failed) return AMBIT_STOPPED; /* said once */
   if (r->trouble.status != AMBIT_OK && !r->inside) {
@@ -208,13 +243,7 @@ ambit_status ambit_records_end(ambit_records *r, ambit_failure *f) {
     return ambit_fail(f, AMBIT_BROKEN, "a record was not built as JSON");
   yajl_gen_reset(r->generator, "\n"); /* the separator of the next value ends this line, in the same buffer */
   yajl_gen_get_buf(r->generator, &text, &length);
-  int problem = write_line(r, text, length);
-  r->length += length;
-  if (problem == 0) return AMBIT_OK;
-  r->failed = true;
-  bool torn = r->file != STDOUT_FILENO && ftruncate(r->file, (off_t)(r->length - length)) != 0; /* no part of a line */
-  (void)torn; /* of a pipe: nothing can be taken back */
-  return ambit_fail(f, AMBIT_STOPPED, "cannot write records to %s: %s", r->path, strerror(problem));
+  return r->holds && !r->inside ? put_aside(r, text, length, f) : put_down(r, text, length, f);
 }
 
 ambit_status ambit_records_close(ambit_records *r, ambit_failure *f) {

@@ -35,6 +35,10 @@ void ambit_records_close_object(ambit_records *r);
 ambit_status ambit_records_end(ambit_records *r, ambit_failure *f);
 /* The times of solvers' records are those of a clock: `shift` is added to them. */
 void ambit_records_shift(ambit_records *r, ambit_interval shift);
+/* From hold on lines wait, but for those that `before` writes; release writes those that waited, or drops them. What is
+** tried, and may not be taken, leaves no trace so. */
+void ambit_records_hold(ambit_records *r);
+ambit_status ambit_records_release(ambit_records *r, bool keep, ambit_failure *f);
 /* what a solver emits: a step, an event or a root; name [nx] */
 ambit_status ambit_records_solver(
     ambit_records *r, const ambit_record *record, const char *const *name, ambit_failure *f);

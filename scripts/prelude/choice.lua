@@ -10,7 +10,8 @@ local choice = {}
 local LOOSE = 1.5       -- times the sampled hull: what is wider is worth another solver ...
 local TIGHT = 1.2       -- ... and from what is not, another one can go on
 local PATIENCE = 2      -- s of CPU time after which it is asked whether the end is in reach
-local MORE, LEAST = 4, 5 -- CPU time of a further solver: so many times that of the first, and so many seconds
+local MORE, LEAST = 4, 8 -- CPU time of all that follows the first run: so many times its own, and at least so many s
+local PART = 0.5        -- of what is left of that: what one try has without question, or one hull of draws
 local PIECES = { 8, 64 } -- into which the data are cut where every solver fails
 local DRAWS, MOST = 8, 128 -- draws of the hull for each datum, and at most
 local VISIBLE = 1e-6    -- width of a hull, in parts of its state, below which it is mostly rounding
@@ -62,9 +63,11 @@ local function is_plainly_tight(run)
   return true
 end
 
--- The hull of draws at these times by state, or nil if there is none: { t, lo = { [state] = { [time] } }, hi }.
-local function hull_of(q, times, unknowns)
-  local inner = require "ambit.sample".inner(q, math.min(MOST, DRAWS * (unknowns + 2)), 1, { t = times, threads = 1 })
+-- The hull of draws at these times by state, or nil if there is none, or none in so many seconds: { t, lo = { [state] =
+-- { [time] } }, hi }.
+local function hull_of(q, times, unknowns, seconds)
+  local inner = require "ambit.sample".inner(q, math.min(MOST, DRAWS * (unknowns + 2)), 1,
+    { t = times, threads = 1, cpu = seconds })
   return inner and inner.failed == 0 and inner or nil
 end
 
@@ -96,6 +99,13 @@ function choice.overestimate(run, q)
   local hull = hull_of(q, times_of(run), unknowns)
   if hull then return worst(run, hull) end
 end
+
+-- -- the CPU time of everything that follows the first run
+
+local function budget_after(seconds) return core.cpu() + math.max(LEAST, MORE * seconds) end
+
+-- What the next try or hull has of it; not positive: nothing is left.
+local function part_of(ends) return PART * (ends - core.cpu()) end
 
 -- -- who goes on?
 
@@ -140,23 +150,24 @@ end
 local function is_through(run) return run.status == "complete" or run.status == "partial" end
 
 -- Sets what is known of the width; a run that came to the end needs no other solver if that is little.
-local function judge(run, q, hull)
+local function judge(run, q, hull, ends)
   if not is_through(run) then return false end
   local is_tight = run.report.unknowns == 0 or is_plainly_tight(run)
   if is_tight and not hull.made then return true end
-  if not hull.made then hull.made, hull.draws = true, hull_of(q, times_of(run), run.report.unknowns) end
+  if not hull.made and part_of(ends) <= 0 then return true end
+  if not hull.made then hull.made, hull.draws = true, hull_of(q, times_of(run), run.report.unknowns, part_of(ends)) end
   if not hull.draws then return true end -- nothing to hold it against
   run.overestimate = worst(run, hull.draws)
   return is_tight or not run.overestimate or run.overestimate <= LOOSE
 end
 
 -- Can a run that ended early be gone on from: is what it reached still tight, and are its times those of the scene?
-local function goes_on(run, q)
+local function goes_on(run, q, ends)
   local times = q.times
   if run.status ~= "unable" or q.events or times.shift or times.final or run.t_reached == times[1] then return false end
   local unknowns = run.report.unknowns
-  if unknowns == 0 or not core.track_set(run.track) then return false end
-  local hull = hull_of(q, times_of(run), unknowns)
+  if unknowns == 0 or not core.track_set(run.track) or part_of(ends) <= 0 then return false end
+  local hull = hull_of(q, times_of(run), unknowns, part_of(ends))
   local factor = hull and worst(run, hull)
   return factor and factor <= TIGHT
 end
@@ -197,31 +208,45 @@ local function is_beyond(run, q)
 end
 
 -- May another solver be asked after this? Not where the run was stopped from outside, or where nothing is to be gained.
-local function may_go_on(run, was_limit)
-  return is_through(run) or run.status == "unable" or run.status == "stopped" and was_limit
+local function may_go_on(run) return is_through(run) or run.status == "unable" end
+
+local function record_way(state, try)
+  local last, from = state.tried[#state.tried], try.from
+  local fields = { "solver", try.solver, "t", from and from.t_reached or state.q.times[1], "after", last.solver,
+    "because", last.outcome }
+  if try.pieces then table.move({ "pieces", try.pieces }, 1, 2, #fields + 1, fields) end
+  core.record("way_back", fields)
 end
 
--- One after the other of the ways to go on, each within `limit` s: -> the best run, and is it good? try.left: the
--- fields of the request that differ.
+-- One try: -> the run, is it the best one until now, is it good? Its records are kept only if it is the best.
+local function try_one(state, try)
+  local left, from = try.left or {}, try.from
+  record_way(state, try)
+  left.patience = not try.pieces and PATIENCE or nil -- pieces pass the instants late, and then all at once
+  left.due = part_of(state.ends)
+  local run = state.ask(try, left)
+  local gained = not from or gains(run, state)
+  if from and gained then run = joined(from, run, state.q) end
+  local good = gained and judge(run, state.q, state.hull, state.ends)
+  state.tried[#state.tried + 1] = { solver = try.solver, pieces = try.pieces, outcome = describe(run), run = run }
+  local better = gained and is_better(run, state.best)
+  if better then state.best, state.by = run, try end
+  return run, better, good
+end
+
+-- One after the other of the ways to go on, while there is CPU time left -> is the best run good, or was it stopped?
 local function try_all(state, ways)
   for try in ways do
-    local left, from = try.left or {}, try.from
-    local last = state.tried[#state.tried]
-    core.record("way_back", { "solver", try.solver, "pieces", try.pieces, "t", from and from.t_reached
-      or state.q.times[1], "after", last.solver, "because", last.outcome })
-    local run
-    local was_limit = choice.within(state.limit, function()
-      left.patience = not try.pieces and PATIENCE or nil -- pieces pass the instants late, and then all at once
-      run = state.ask(try, left)
-    end)
-    local gained = not from or gains(run, state)
-    if from and gained then run = joined(from, run, state.q) end
-    local good = gained and judge(run, state.q, state.hull)
-    state.tried[#state.tried + 1] = { solver = try.solver, pieces = try.pieces, outcome = describe(run), run = run }
-    local better = gained and is_better(run, state.best)
-    if better then state.best, state.by = run, try end
-    if good or not may_go_on(run, was_limit) then return true end
-    if try.pieces and not better then return false end
+    if part_of(state.ends) <= 0 then
+      state.untried[#state.untried + 1] = { solver = try.solver, pieces = try.pieces }
+    else
+      core.records_hold()
+      local called, run, better, good = pcall(try_one, state, try)
+      core.records_release(called and better)
+      if not called then error(run, 0) end
+      if good or not may_go_on(run) then return true end
+      if try.pieces and not better then return false end
+    end
   end
   return false
 end
@@ -229,7 +254,7 @@ end
 -- The next best solvers, the first of which goes on from what the run reached, if that is tight.
 local function other_solvers(state)
   local next_one = choice.proving(state.q.suggestion.others)
-  local from = goes_on(state.best, state.q) and state.best or nil
+  local from = goes_on(state.best, state.q, state.ends) and state.best or nil
   return function()
     local other = next_one()
     if not other then return nil end
@@ -254,17 +279,17 @@ end
 -- q: a request with a suggestion; ask({ solver, reason }, changes) -> its run. changes: what is not as in the request.
 function choice.solve(q, ask)
   local others = q.suggestion.others
+  local began = core.cpu()
   local first = ask(q.suggestion, { patience = #others > 0 and PATIENCE or nil })
-  local hull = {}
-  if judge(first, q, hull) or #others == 0 or not may_go_on(first) then return first end
+  local hull, ends = {}, budget_after(core.cpu() - began)
+  if judge(first, q, hull, ends) or #others == 0 or not may_go_on(first) then return first end
   if q.run_options.pieces or q.run_options.unknown or is_beyond(first, q) then return first end
-  local state = { q = q, ask = ask, hull = hull, best = first, by = q.suggestion,
-    limit = math.max(LEAST, MORE * first.cpu_seconds),
+  local state = { q = q, ask = ask, hull = hull, ends = ends, best = first, by = q.suggestion, untried = {},
     tried = { { solver = first.solver, outcome = describe(first), run = first } } }
   if not try_all(state, other_solvers(state)) and first.report.unknowns > 0 then try_all(state, cut_data(state)) end
   local best = state.best
   if best.status == "unable" then
-    require "ambit.choice_reason".add(q, best, state.tried, choice.within)
+    require "ambit.choice_reason".add(q, best, state, choice.within)
   end
   for _, try in ipairs(state.tried) do try.run = nil end
   best.tried = state.tried

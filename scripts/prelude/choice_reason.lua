@@ -6,7 +6,7 @@ local uncertain = require "ambit.uncertain"
 local reason = {}
 
 local PARTS = { { 0.5, "half" }, { 0.25, "a quarter" }, { 0.1, "a tenth" }, { 0.01, "a hundredth" } } -- of the width
-local LEAST, MORE = 1, 5 -- CPU time for all that is tried: s, and times what the run took
+local LEAST = 1 -- s of CPU time for all that is tried, if the tries of other solvers left less
 
 local function uncertain_data(q)
   local all = table.move(q.initial, 1, #q.initial, 1, {})
@@ -28,10 +28,10 @@ local function completes(q, solver, part, data)
 end
 
 -- The widest of a few narrower data with which `solver` completes, as a sentence; nil: none was found in time.
-local function narrower(q, run, within)
+local function narrower(q, run, ends, within)
   local data, found = {}, nil
   data.unknowns, data.lo, data.hi = uncertain_data(q)
-  within(LEAST + MORE * run.cpu_seconds, function()
+  within(math.max(LEAST, ends - core.cpu()), function()
     for _, part in ipairs(PARTS) do
       if completes(q, run.solver, part[1], data) then
         found = ("with data %s as wide, `%s` completes"):format(part[2], run.solver)
@@ -42,22 +42,33 @@ local function narrower(q, run, within)
   return found
 end
 
+local function named(try)
+  return ("`%s`%s"):format(try.solver, try.pieces and (" in %d parts"):format(try.pieces) or "")
+end
+
 local function besides(tried, run)
   local list = {}
   for _, try in ipairs(tried) do
     if try.run ~= run then
-      list[#list + 1] = ("`%s`%s, %s"):format(try.solver, try.pieces and (" in %d parts"):format(try.pieces) or "",
-        try.outcome)
+      list[#list + 1] = ("%s, %s"):format(named(try), try.outcome)
     end
   end
   return #list > 0 and "tried besides: " .. table.concat(list, "; ") or nil
 end
 
--- Adds to the reason of a run that ended early. within(seconds, f): calls f with its CPU time limited.
-function reason.add(q, run, tried, within)
-  for _, sentence in ipairs { besides(tried, run) or "", run.report.unknowns > 0 and narrower(q, run, within) or "" } do
-    if sentence ~= "" then run.reason = run.reason .. "; " .. sentence end
-  end
+local function not_asked(untried)
+  local list = {}
+  for i, try in ipairs(untried) do list[i] = named(try) end
+  return #list > 0 and "not tried, since the CPU time for this was spent: " .. table.concat(list, ", ") or nil
+end
+
+-- Adds to the reason of a run that ended early. state: tried and untried ways, and when the CPU time for them ends;
+-- within(seconds, f): calls f with its CPU time limited.
+function reason.add(q, run, state, within)
+  local function add(sentence) run.reason = sentence and run.reason .. "; " .. sentence or run.reason end
+  add(besides(state.tried, run))
+  add(not_asked(state.untried))
+  if run.report.unknowns > 0 then add(narrower(q, run, state.ends, within)) end
 end
 
 return reason

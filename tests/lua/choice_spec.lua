@@ -139,6 +139,60 @@ describe("a run of the solver that suits", function()
     assert.equal("complete", narrow.status) -- the advice is true
   end)
 
+  it("leaves no records of tries that were not taken", function()
+    local function lines(scene)
+      local path, out = os.tmpname(), os.tmpname()
+      local file <close> = assert(io.open(path, "w"))
+      file:write('local ambit = require "ambit"\n', scene)
+      file:flush()
+      os.execute(("'%s' run --json %s %s >%s.text 2>&1"):format(os.getenv "AMBIT_COMMAND", out, path, out))
+      local list = {}
+      for line in io.lines(out) do list[#list + 1] = line end
+      for _, name in ipairs { path, out, out .. ".text" } do os.remove(name) end
+      return list
+    end
+    local list, last, steps = lines [[
+      local o = ambit.ode { states = { "y", "z" }, equations = function(s)
+        return { y = -ambit.number(1), z = ambit.sqrt(s.y) }
+      end }
+      local run = ambit.simulate { o, initial = { y = ambit.around(1, "1%"), z = 0 }, t = { 0, 1 } }
+      print(#run.tried)]], 0, 0
+    for _, line in ipairs(list) do
+      assert.is_nil(line:find('"nil"', 1, true), line)
+      if line:find('"record":"way_back"', 1, true) then last = tonumber(line:match '"t":([^,]+)') end
+      local t = line:find('"record":"step"', 1, true) and tonumber(line:match '"t":%[([^,]+)')
+      if t then
+        assert.is_true(t >= last, line)
+        last, steps = t, steps + 1
+      end
+    end
+    assert.is_true(steps > 0)
+  end)
+
+  it("has one budget of CPU time for all that follows the first run", function()
+    local system, initial = chain(2, "1%")
+    local clock, asked, cpu, simulate, own = 0, {}, core.cpu, core.simulate, suggest.solver
+    core.cpu = function() return clock end -- luacheck: ignore
+    core.simulate = function(s, solver, ...) -- luacheck: ignore
+      asked[#asked + 1] = solver
+      local track, facts, report = simulate(s, solver, ...)
+      clock = clock + 3 -- s: the first run took three, so that twelve are left
+      if solver == "valencia" then clock = clock + 10 end
+      facts.status, facts.code, facts.reason, facts.t_reached = "unable", "unable.step", "made to", 0
+      return track, facts, report
+    end
+    suggest.solver = function() -- luacheck: ignore
+      return { solver = "lohner", reason = "first here", others = { { solver = "valencia", reason = "", score = 1 },
+        { solver = "taylor_model", reason = "", score = 1 }, { solver = "zonotope", reason = "", score = 1 } } }
+    end
+    local good, run = pcall(ambit.simulate, { system, initial = initial, t = { 0, 0.1 } })
+    core.cpu, core.simulate, suggest.solver = cpu, simulate, own
+    assert(good, run)
+    assert.same({ "lohner", "valencia" }, asked)
+    assert.matches("not tried, since the CPU time for this was spent: `taylor_model`, `zonotope`, `lohner` in 8 parts",
+      run.reason)
+  end)
+
   it("keeps its events when another goes on", function()
     local system, initial = chain(2, "0.1%")
     local run = with_lohner_first { system, initial = initial, t = { 0, 2 },

@@ -109,6 +109,22 @@ describe("a PID controller", function()
     assert.is_true(run.x.s:width() < 0.05 and math.abs(run.x.s:mid() - 1) < 0.2)
   end)
 
+  it("without a proportional part leads the integral back in a time of its own", function()
+    local function servo(m, joint, proportional, tracking)
+      return m:pid { joint = joint, name = "servo", proportional = proportional, integral = 40, goal = 1, limit = 30,
+        tracking = tracking }
+    end
+    local m, joint = slider()
+    expect_error(function() servo(m, joint, 0) end, "`tracking` is needed")
+    m, joint = slider()
+    expect_error(function() servo(m, joint, around("0.5 N/m", "100%")) end, "`tracking` is needed")
+    m, joint = slider()
+    expect_error(function() servo(m, joint, 0, 0) end, "tracking: expected a time above 0 s")
+    m, joint = slider()
+    servo(m, joint, 0, "0.5 s")
+    near(value(m:dynamics():rate "servo.integral", { s = 0, ["s'"] = 0, ["servo.integral"] = 1 }), 1 - (40 - 30) / 20)
+  end)
+
   it("has no state without an integral, and refuses a goal that moves with the mechanism", function()
     local m, joint = bar()
     m:pid { joint = joint, goal = "0.5", proportional = 10 }

@@ -151,6 +151,40 @@ static void writes_steps(void **state) {
       strchr(content(x), '\n') + 1, "{\"record\":\"event\",\"t\":[1,2],\"event\":3,\"rigorous\":false}\n");
 }
 
+static void put_value(ambit_records *r, double x) {
+  ambit_records_begin(r, "value");
+  ambit_records_number(r, "x", x);
+  assert_int_equal(ambit_records_end(r, NULL), AMBIT_OK);
+}
+
+static ambit_status put_basis(void *user, ambit_failure *f) {
+  fixture *x = user;
+  ambit_records_watch(x->records, NULL, NULL); /* once */
+  ambit_records_begin(x->records, "plugin");
+  return ambit_records_end(x->records, f);
+}
+
+/* What is held is written or dropped; what later lines rest on is written in any case. */
+static void holds_lines_until_it_is_known_whether_they_count(void **state) {
+  fixture *x = *state;
+  put_value(x->records, 1);
+  ambit_records_hold(x->records);
+  for (int i = 0; i < 100; i++) put_value(x->records, 2);
+  ambit_records_watch(x->records, put_basis, x);
+  put_value(x->records, 3);
+  assert_string_equal(content(x), "{\"record\":\"value\",\"x\":1}\n{\"record\":\"plugin\"}\n");
+  assert_int_equal(ambit_records_release(x->records, false, NULL), AMBIT_OK);
+  ambit_records_hold(x->records);
+  put_value(x->records, 4);
+  put_value(x->records, 5);
+  assert_int_equal(ambit_records_release(x->records, true, NULL), AMBIT_OK);
+  assert_int_equal(ambit_records_release(x->records, true, NULL), AMBIT_OK);
+  put_value(x->records, 6);
+  assert_string_equal(content(x),
+      "{\"record\":\"value\",\"x\":1}\n{\"record\":\"plugin\"}\n{\"record\":\"value\",\"x\":4}\n"
+      "{\"record\":\"value\",\"x\":5}\n{\"record\":\"value\",\"x\":6}\n");
+}
+
 /* After a refused write: one message, then quietly AMBIT_STOPPED. */
 static void assert_refused_once(ambit_records *r, const char *part) {
   ambit_failure f = { 0 }, later = { 0 };
@@ -201,6 +235,7 @@ int main(void) {
     cmocka_unit_test_setup_teardown(numbers_round_trip, set_up, tear_down),
     cmocka_unit_test_setup_teardown(repairs_text, set_up, tear_down),
     cmocka_unit_test_setup_teardown(writes_steps, set_up, tear_down),
+    cmocka_unit_test_setup_teardown(holds_lines_until_it_is_known_whether_they_count, set_up, tear_down),
     cmocka_unit_test(reports_a_full_disk),
     cmocka_unit_test(survives_a_closed_pipe),
     cmocka_unit_test(refuses_a_path_that_cannot_be),
