@@ -7,6 +7,7 @@
 #define ORDER_MOST 40 /* that may be asked for */
 #define ORDER_HIGH 24 /* that is chosen */
 #define ORDER_LEAST 8
+#define SORTED 27  /* data: fewer are held all alike */
 #define HISTORY 60 /* generators kept for each state */
 
 static void *room(const ambit_host *h, size_t count, size_t size) { return h->alloc(h, (count ? count : 1) * size); }
@@ -126,6 +127,14 @@ static ambit_status no_memory(const ambit_host *h) {
   return h->fail(h, AMBIT_NOMEM, "zonotope: out of memory; make fewer data uncertain, or lower `time_order`");
 }
 
+/* the data once more, in the order of how much they matter */
+static ambit_status sort_data(zono *z) {
+  double *weight = doubles(z->host, z->problem.nu);
+  if (!weight) return AMBIT_NOMEM;
+  zono_pilot(z, weight);
+  return zono_start_open(z, weight);
+}
+
 static ambit_status open_all(zono *z) {
   const ambit_host *h = z->host;
   choose_program(z);
@@ -134,13 +143,13 @@ static ambit_status open_all(zono *z) {
       return h->fail(h, AMBIT_INVALID,
           "zonotope: %u accelerations and multipliers at once, more than %d; take `lohner`",
           z->program.stage_end[s] - from, STAGE_MAX);
-  ambit_status status = zono_start_open(z);
+  ambit_status status = zono_start_open(z, NULL);
   if (status == AMBIT_NOMEM) return no_memory(h);
   if (status != AMBIT_OK) return status;
   z->K_max = highest_order(z), z->K = z->K_max;
-  if (!zono_open_rows(z) || (z->na && !zono_open_implicit(z)) || !open_set(z) || !zono_open_proof(z))
-    return no_memory(h);
-  return AMBIT_OK;
+  if (!zono_open_rows(z) || (z->na && !zono_open_implicit(z)) || !open_set(z)) return no_memory(h);
+  if (z->m > SORTED && sort_data(z) != AMBIT_OK) return no_memory(h);
+  return zono_open_proof(z) ? AMBIT_OK : no_memory(h);
 }
 
 static ambit_status refuse(const ambit_host *h, const char *option, const char *expected, double got) {

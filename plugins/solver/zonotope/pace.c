@@ -12,7 +12,7 @@
 #define GROWTH 2.0     /* of the rate over a step; */
 #define LESS 1.25      /* where lumps matter so much that quartic.c is at work: it knows them at one time of the step */
 #define FROM_REST 1e-4 /* most that a step may add, as a share of a state that starts at 0 */
-#define SHARE 0.005    /* of its set: what a state may be widened by in a whole run without more ado; */
+#define SHARE 0.001    /* of its set: what a state may be widened by in a whole run without more ado; */
 #define FADED 0.1      /* of a set that was larger once, as if it still were so large */
 #define ORDER_DATA 8   /* in time, with data; */
 #define ORDER_EXACT 18 /* without, and least */

@@ -30,17 +30,30 @@ static void put_unknowns(const zono *z, zono *i) {
   }
 }
 
+/* unknowns with a width, those of the largest weight [nu] first */
+static uint32_t list_unknowns(zono *z, const double *weight) {
+  const ambit_problem *p = &z->problem;
+  uint32_t n = 0;
+  for (uint32_t u = 0; u < p->nu; u++) {
+    if (!(p->u_hi[u] > p->u_lo[u])) continue;
+    uint32_t at = n++;
+    for (; weight && at > 0 && weight[z->unknown[at - 1]] < weight[u]; at--) z->unknown[at] = z->unknown[at - 1];
+    z->unknown[at] = u;
+  }
+  return n;
+}
+
 /* the middle of an unknown's range and its half width both may be rounded: |u - about - scale xi| is 0 all the same,
 ** for scale is rounded up and xi is what it must be */
-static void choose_data(zono *z) {
+static void choose_data(zono *z, const double *weight) {
   const ambit_problem *p = &z->problem;
-  uint32_t j = 0;
-  for (uint32_t u = 0; u < p->nu; u++) {
+  uint32_t known = list_unknowns(z, weight);
+  for (uint32_t j = 0; j < known; j++) {
+    uint32_t u = z->unknown[j];
     double mid = 0.5 * (p->u_lo[u] + p->u_hi[u]), up = p->u_hi[u] - mid, down = mid - p->u_lo[u];
-    if (!(up > 0 || down > 0)) continue;
-    z->unknown[j] = u, z->about[j] = mid, z->scale[j++] = nextafter(up > down ? up : down, INFINITY);
+    z->about[j] = mid, z->scale[j] = nextafter(up > down ? up : down, INFINITY);
   }
-  for (; j < z->m; j++) z->unknown[j] = AMBIT_NO_SLOT, z->about[j] = 0, z->scale[j] = 1;
+  for (uint32_t j = known; j < z->m; j++) z->unknown[j] = AMBIT_NO_SLOT, z->about[j] = 0, z->scale[j] = 1;
 }
 
 static uint32_t count_data(const ambit_problem *p) {
@@ -94,7 +107,7 @@ static ambit_status undefined(const zono *z, const zono *i) {
       z->problem.time[0]);
 }
 
-static ambit_status evaluate_over(zono *z, uint32_t m, uint32_t *own) {
+static ambit_status evaluate_over(zono *z, uint32_t m, uint32_t *own, const double *weight) {
   const ambit_host *h = z->host;
   const ambit_tape *t = z->problem.initial;
   zono i;
@@ -102,7 +115,7 @@ static ambit_status evaluate_over(zono *z, uint32_t m, uint32_t *own) {
   if (!shape_open(h, &z->shape, m, z->nx) || !allocate(z) || !open_initial(z, &i)) return AMBIT_NOMEM;
   double *delta = h->alloc(h, (t->nslot + 1u) * sizeof *delta), *input = h->alloc(h, (t->nin + 1u) * sizeof *input);
   if (!delta || !input) return AMBIT_NOMEM;
-  choose_data(z);
+  choose_data(z, weight);
   put_unknowns(z, &i);
   if (!zono_series(&i) || !zono_defects(&i) || !zono_spread(&i, input, delta)) return undefined(z, &i);
   for (uint32_t o = 0; o < t->nout; o++)
@@ -111,10 +124,10 @@ static ambit_status evaluate_over(zono *z, uint32_t m, uint32_t *own) {
   return AMBIT_OK;
 }
 
-ambit_status zono_start_open(zono *z) {
+ambit_status zono_start_open(zono *z, const double *weight) {
   uint32_t own = 0, m = count_data(&z->problem);
-  ambit_status status = evaluate_over(z, m, &own);
-  return status == AMBIT_OK && own ? evaluate_over(z, m + own, &own) : status;
+  ambit_status status = evaluate_over(z, m, &own, weight);
+  return status == AMBIT_OK && own ? evaluate_over(z, m + own, &own, weight) : status;
 }
 
 void zono_start(zono *z) {

@@ -148,8 +148,10 @@ void zono_close(void *self);
 /* arrays of rows, r, rr; host, program, shape, K_max are set; also for the initial tape, whose inputs are all p: it has
 ** neither x nor a nor implicit nor proof, and K = 0 */
 int zono_open_rows(zono *z);
-ambit_status zono_start_open(zono *z); /* m, start, p_row from the initial tape */
-void zono_start(zono *z);              /* P, G, t as at time[0] */
+/* m, start, p_row from the initial tape; data in the order of the weights [nu] of their unknowns, or as they are */
+ambit_status zono_start_open(zono *z, const double *weight);
+void zono_start(zono *z);                 /* P, G, t as at time[0] */
+void zono_pilot(zono *z, double *weight); /* pilot.c: weight [nu] += how much each datum matters in the whole run */
 /* rows of all slots from P, E, p_row, t; z->K orders. 0: see z->why */
 int zono_series(zono *z);
 /* functions.c: row 0, row k > 0 of a quotient, root or elementary function; 0: undefined */
