@@ -1,6 +1,6 @@
-/* pilot.c -- how much each datum matters, before the first step: by its linear terms in the states along an unproved run
-** of low degree. Data that matter most are numbered first, since parts of the rows and terms of degree 4 are held for
-** the first data only. No proof depends on anything here.
+/* pilot.c -- how much each datum matters, before the first step: by its linear terms in the states along an unproved
+** run of low degree. Data that matter most are numbered first, since parts of the rows and terms of degree 4 are held
+** for the first data only. No proof depends on anything here.
 */
 #include "zonotope.h"
 
