@@ -8,7 +8,6 @@
 #define FASTER 4    /* times what was covered in half as long before: not judged yet, as a run from rest gets faster */
 #define HOPELESS 20 /* times what a run has taken until now, that the rest of it would take */
 #define STEADY 0.5  /* of what was covered in the time before: a run that covers less is getting stuck */
-#define IN_REACH 8  /* times what a steady run has taken until now, that the rest of it may take */
 
 static bool is_hopeless(ambit_pace *p) {
   if (!(p->patience > 0) || !p->has_moved) return false; /* pieces write nothing until all have passed an instant */
@@ -30,7 +29,7 @@ static bool is_overdue(ambit_pace *p) {
   if (!p->has_middle && spent >= 0.5 * p->due) p->t_middle = p->t, p->has_middle = true;
   if (spent < p->due) return false;
   double covered = fabs(p->t - p->t_middle), before = fabs(p->t_middle - p->first), left = fabs(p->last - p->t);
-  p->is_overdue = !(covered > 0 && covered >= STEADY * before && 0.5 * left <= IN_REACH * covered);
+  p->is_overdue = !(covered > 0 && covered >= STEADY * before && 0.5 * left <= p->reach * covered);
   p->t_middle = p->t;
   p->due *= 2;
   return p->is_overdue;

@@ -10,14 +10,14 @@
 /* Is a run so slow that its end is out of reach? Looked at when it has taken `patience`, twice that, and so on: the
 ** time that it covered since half of that says how long the rest will take, but for a run that gets much faster.
 ** `due` is the CPU time that it may take without question: then it has twice that if it goes on steadily, as fast as
-** before and with the end in reach, and so on. */
+** before, and if the rest takes at most `reach` times what it has taken, and so on. */
 typedef struct ambit_pace {
-  double patience;       /* s of CPU time; 0: never */
-  double first, last;    /* of the run's own time */
-  double began, look, t; /* CPU time: when it began, when it is looked at next; the time reached by then */
-  double t_half;         /* the time that was reached at half of that, */
-  double t_quarter;      /* and at a quarter */
-  double due, t_middle;  /* s of CPU time, 0: never; the time that was reached at half of that */
+  double patience;             /* s of CPU time; 0: never */
+  double first, last;          /* of the run's own time */
+  double began, look, t;       /* CPU time: when it began, when it is looked at next; the time reached by then */
+  double t_half;               /* the time that was reached at half of that, */
+  double t_quarter;            /* and at a quarter */
+  double due, reach, t_middle; /* s of CPU time, 0: never; the time that was reached at half of that */
   bool has_moved, has_half, has_middle, is_hopeless, is_overdue;
 } ambit_pace;
 

@@ -88,8 +88,8 @@ static bool is_silent(lua_State *L, int idx) {
 }
 
 /* Seconds of CPU time after which the run ends if its own end is out of reach, { patience = s } at idx, or if it does
-** not go on steadily, { due = s }; 0: never. */
-static double seconds_of(lua_State *L, int idx, const char *key) {
+** not go on steadily, with so many times what it took to the end, { due = s, reach = times }; 0: never. */
+static double number_of(lua_State *L, int idx, const char *key) {
   if (lua_isnoneornil(L, idx)) return 0;
   lua_getfield(L, idx, key);
   double s = lua_tonumber(L, -1);
@@ -107,8 +107,9 @@ static int simulate(lua_State *L) {
   uint32_t keep = ambit_lua_run_options(L, 9, &q);
   ambit_receiver to = ambit_receiver_push(L, q.system->nx, q.system->name, keep);
   if (is_silent(L, 9)) to.records = NULL;
-  to.pace = (ambit_pace) { .patience = seconds_of(L, 9, "patience"),
-    .due = seconds_of(L, 9, "due"),
+  to.pace = (ambit_pace) { .patience = number_of(L, 9, "patience"),
+    .due = number_of(L, 9, "due"),
+    .reach = number_of(L, 9, "reach"),
     .first = q.time[0],
     .last = q.time[q.ntime - 1] };
   q.sink = &to.sink;

@@ -11,7 +11,10 @@ local LOOSE = 1.5       -- times the sampled hull: what is wider is worth anothe
 local TIGHT = 1.2       -- ... and from what is not, another one can go on
 local PATIENCE = 2      -- s of CPU time after which it is asked whether the end is in reach
 local MORE, LEAST = 4, 8 -- CPU time of all that follows the first run: so many times its own, and at least so many s
+local REACH = 8         -- times what a steady try has taken, that its rest may take for it to go on
 local PART = 0.5        -- of what is left of that: what one try has without question, or one hull of draws
+local AGAIN = 2         -- times what a run took that was stopped for its pace, after which it must be steady
+local CREEP = "unable.creep"
 local PIECES = { 8, 64 } -- into which the data are cut where every solver fails
 local DRAWS, MOST = 8, 128 -- draws of the hull for each datum, and at most
 local VISIBLE = 1e-6    -- width of a hull, in parts of its state, below which it is mostly rounding
@@ -222,8 +225,8 @@ end
 local function try_one(state, try)
   local left, from = try.left or {}, try.from
   record_way(state, try)
-  left.patience = not try.pieces and PATIENCE or nil -- pieces pass the instants late, and then all at once
-  left.due = part_of(state.ends)
+  left.patience = not try.pieces and not try.reach and PATIENCE or nil -- pieces pass the instants late, all at once
+  left.due, left.reach = part_of(state.ends), try.reach or REACH
   local run = state.ask(try, left)
   local gained = not from or gains(run, state)
   if from and gained then run = joined(from, run, state.q) end
@@ -276,6 +279,17 @@ local function cut_data(state)
   end
 end
 
+-- The best run was stopped for its pace, and nobody got further: it is done again, for as long as it goes on steadily.
+local function carry_on(state)
+  local best, by, is_asked = state.best, state.by, false
+  state.ends = core.cpu() + best.cpu_seconds / PART * AGAIN
+  return function()
+    if is_asked then return nil end
+    is_asked = true
+    return { solver = by.solver, reason = by.reason, reach = math.huge }
+  end
+end
+
 -- q: a request with a suggestion; ask({ solver, reason }, changes) -> its run. changes: what is not as in the request.
 function choice.solve(q, ask)
   local others = q.suggestion.others
@@ -286,7 +300,11 @@ function choice.solve(q, ask)
   if q.run_options.pieces or q.run_options.unknown or is_beyond(first, q) then return first end
   local state = { q = q, ask = ask, hull = hull, ends = ends, best = first, by = q.suggestion, untried = {},
     tried = { { solver = first.solver, outcome = describe(first), run = first } } }
-  if not try_all(state, other_solvers(state)) and first.report.unknowns > 0 then try_all(state, cut_data(state)) end
+  local good = try_all(state, other_solvers(state))
+  good = good or first.report.unknowns > 0 and try_all(state, cut_data(state))
+  if not good and state.best.code == CREEP and not state.by.pieces and not state.by.from then
+    try_all(state, carry_on(state))
+  end
   local best = state.best
   if best.status == "unable" then
     require "ambit.choice_reason".add(q, best, state, choice.within)

@@ -43,7 +43,7 @@ local function request(t)
   local start, latest = instant.read(t.t_start or 0, "poincare: t_start"), instant.read(t.t_max, "poincare: t_max")
   copy.t = { start.hi, latest.lo } -- the legs have clocks of their own, and take the start as it is
   if t.t ~= nil then check.fail("poincare: unknown key `t`; did you mean `t_max`?") end
-  local q = simulate.request(copy, "poincare", "lohner", own_keys)
+  local q = simulate.request(copy, "poincare", nil, own_keys)
   if q.times[2] < q.times[1] then check.fail "poincare: t_max must be later than the start" end
   q.start = instant.expression(start)
   leg.prepare(q, t)

@@ -62,7 +62,7 @@ function session.finish(verb, result, report, settings)
   if code.is_worse(ended, session.worst) then session.worst = ended end
   if session.closing then session.closing(ended) end
   local entry = { verb = verb, status = result.status, code = ended, reason = result.reason, report = report,
-    settings = settings, cpu_seconds = result.cpu_seconds or report.seconds_run or 0 }
+    settings = settings, tried = result.tried, cpu_seconds = result.cpu_seconds or report.seconds_run or 0 }
   session.last = entry
   if session.verbs then session.verbs[#session.verbs + 1] = entry end
   if session.observer then session.observer(entry) end

@@ -188,7 +188,7 @@ local function asking(t, q)
     local own = other.solver == q.solver and q or q.by(other.solver)
     if next(changes) then own = setmetatable(changes, { __index = own }) end
     if changes.patience or changes.due then
-      local more = { patience = changes.patience, due = changes.due, pieces = changes.pieces }
+      local more = { patience = changes.patience, due = changes.due, reach = changes.reach, pieces = changes.pieces }
       own.run_options = setmetatable(more, { __index = q.run_options })
     end
     if other.solver ~= q.solver then event.request(t.events, own) end

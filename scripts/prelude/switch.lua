@@ -100,7 +100,7 @@ local function request(t)
   if not mode then check.fail("hybrid: there is no mode `%s`%s", first, check.suggest(first, names)) end
   local copy = { mode.given[1] }
   for key, value in pairs(t) do copy[key] = value end
-  local q = simulate.request(copy, "hybrid", "lohner", { "modes", "mode", "switches_max" })
+  local q = simulate.request(copy, "hybrid", nil, { "modes", "mode", "switches_max" })
   if q.times[#q.times] < q.times[1] then check.fail "hybrid: t must ascend: a switch cannot be undone" end
   q.switches_max = t.switches_max == nil and SWITCHES or check.count(t.switches_max, "hybrid: switches_max")
   leg.prepare(q, t)

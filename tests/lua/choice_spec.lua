@@ -193,6 +193,30 @@ describe("a run of the solver that suits", function()
       run.reason)
   end)
 
+  it("goes on with the first, as long as it is steady, where that was slow and nobody got further", function()
+    local system, initial = chain(2, "1%")
+    local asked, reach, simulate = {}, {}, core.simulate
+    core.simulate = function(s, solver, a, o, p, i, times, watch, options) -- luacheck: ignore
+      local n = #asked + 1
+      asked[n], reach[n] = solver, options.reach
+      local track, facts, report = simulate(s, solver, a, o, p, i, n == 1 and { 0, 0.01 } or times, watch, options)
+      if n == 1 then
+        facts.status, facts.code, facts.reason, facts.cpu_seconds = "unable", "unable.creep", "made to", 60
+      end
+      if solver == "valencia" or options.pieces then
+        facts.status, facts.code, facts.reason, facts.t_reached = "unable", "unable.step", "made to", 0
+      end
+      return track, facts, report
+    end
+    local good, run = pcall(with_lohner_first, { system, initial = initial, t = { 0, 0.1 } }, "valencia")
+    core.simulate = simulate
+    assert(good, run)
+    assert.same({ "lohner", "valencia", "lohner", "lohner" }, asked) -- the third in parts
+    assert.equal(math.huge, reach[4])
+    assert.equal("complete", run.status)
+    assert.equal(4, #run.tried)
+  end)
+
   it("keeps its events when another goes on", function()
     local system, initial = chain(2, "0.1%")
     local run = with_lohner_first { system, initial = initial, t = { 0, 2 },

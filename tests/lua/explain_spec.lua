@@ -117,6 +117,15 @@ ambit.evaluate { ambit.between(0, 1), arithmetic = "taylor_model" }]])
       "uncertain:       a [0.9899")
   end)
 
+  it("lists who was tried where the first choice was not good enough", function()
+    local _, output = explain [[
+      local o = ambit.ode { states = { "y", "z" }, equations = function(s)
+        return { y = -ambit.number(1), z = ambit.sqrt(s.y) }
+      end }
+      ambit.simulate { o, initial = { y = ambit.around(1, "1%"), z = 0 }, t = { 0, 1 } }]]
+    has(output, "     tried: lohner: unable at t = ", "     tried: zonotope: unable at t = ")
+  end)
+
   it("shows what a reduction has cut", function()
     local code, output = explain "scripts/reduce_arm.lua"
     assert.equal(0, code)

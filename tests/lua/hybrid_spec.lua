@@ -317,6 +317,24 @@ describe("hybrid", function()
     end
   end)
 
+  it("chooses a solver that crosses kinks, where the first mode has some", function()
+    local bilinear = ambit.ode { states = { "x", "v" },
+      equations = function(s) return { x = s.v, v = -s.x - ambit.max(s.x, 0) } end }
+    local run = ambit.hybrid {
+      modes = { go = { bilinear, guards = { { g = function(s) return s.x + "0.3" end, to = "go", name = "stop",
+        direction = "falling", reset = function(s) return { x = s.x, v = -s.v / 2 } end } } } },
+      initial = { x = ambit.around(1, "1%"), v = 0 }, t = { 0, 2 },
+    }
+    assert.equal("complete", run.status)
+    for _, x in ipairs { 0.99, 1, 1.01 } do
+      local speed = math.sqrt(2 * x ^ 2 - 0.09) / 2 -- behind the stop
+      local most = math.sqrt(speed ^ 2 + 0.09)      -- of the speed, at x = 0
+      local t = math.pi / 2 / math.sqrt(2) + math.asin(0.3 / (math.sqrt(2) * x)) + math.asin(0.3 / most)
+      local exact = most / math.sqrt(2) * math.sin(math.sqrt(2) * (2 - t))
+      assert.is_true(run.x.x.lo <= exact and exact <= run.x.x.hi and run.x.x:width() < 0.1, tostring(run.x.x))
+    end
+  end)
+
   it("is unable where the data decide which guard comes first", function()
     local run = ambit.hybrid {
       modes = { go = { ambit.ode { states = { "x", "y" }, equations = { x = 1, y = 1 } },

@@ -24,6 +24,18 @@ local function limit_cycle(radius, more)
 end
 
 describe("poincare", function()
+  it("chooses a solver that crosses kinks, where the equations have some", function()
+    local bilinear = ambit.ode { states = { "x", "v" },
+      equations = function(s) return { x = s.v, v = -s.x - ambit.max(s.x, 0) } end }
+    local map = ambit.poincare { bilinear, initial = { x = 0, v = ambit.around(1, "1%") }, direction = "rising",
+      section = function(s) return s.x end, t_max = 20, returns = 2 }
+    assert.equal("complete", map.status)
+    for i, found in ipairs(map.returns) do
+      local t = i * (math.pi + math.pi / math.sqrt(2)) -- half a swing of each stiffness, whatever the amplitude
+      assert.is_true(found.t.lo <= t and t <= found.t.hi and found.t:width() < 1e-2, tostring(found.t))
+    end
+  end)
+
   it("proves the limit cycle of Van der Pol and encloses its period", function()
     for _, radius in ipairs { 1e-3, 1e-6, 1e-11 } do
       local map = limit_cycle(radius)

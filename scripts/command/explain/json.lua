@@ -75,6 +75,11 @@ local function write_verb(number, verb)
     append(list, "suggested", verb.suggestion.solver, "because", verb.suggestion.reason)
   end
   core.record("verb", list)
+  for _, try in ipairs(verb.tried or {}) do
+    local fields = { "verb", number, "solver", try.solver, "outcome", try.outcome }
+    if try.pieces then append(fields, "pieces", try.pieces) end
+    core.record("tried", fields)
+  end
 end
 
 local function write_datum(datum)

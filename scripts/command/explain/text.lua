@@ -222,6 +222,13 @@ local function write_suggestion(write, verb)
   end
 end
 
+-- Who else was asked, where the first choice was not good enough.
+local function write_tried(write, verb)
+  for _, try in ipairs(verb.tried or {}) do
+    write("     tried: %s%s: %s\n", try.solver, try.pieces and (" in %d parts"):format(try.pieces) or "", try.outcome)
+  end
+end
+
 local function write_verb(write, i, verb)
   local r = verb.report
   local ended = verb.code == "ok" and verb.status or ("%s, %s"):format(verb.status, verb.code)
@@ -236,6 +243,7 @@ local function write_verb(write, i, verb)
   words[#words + 1] = ("%s in memory, %s at most"):format(bytes(verb.resident), bytes(verb.peak))
   write("  %s\n", table.concat(words, ", "))
   write_suggestion(write, verb)
+  write_tried(write, verb)
 end
 
 local function write_times(write, facts)
