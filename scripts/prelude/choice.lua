@@ -12,6 +12,7 @@ local TIGHT = 1.2       -- ... and from what is not, another one can go on
 local PATIENCE = 2      -- s of CPU time after which it is asked whether the end is in reach
 local MORE, LEAST = 4, 8 -- CPU time of all that follows the first run: so many times its own, and at least so many s
 local REACH = 8         -- times what a steady try has taken, that its rest may take for it to go on
+local CUT = 4           -- times that, for the parts of a run that came to the end
 local PART = 0.5        -- of what is left of that: what one try has without question, or one hull of draws
 local AGAIN = 2         -- times what a run took that was stopped for its pace, after which it must be steady
 local CREEP = "unable.creep"
@@ -103,9 +104,20 @@ function choice.overestimate(run, q)
   if hull then return worst(run, hull) end
 end
 
+-- Did it come to the end? "partial": it is not certain which events happen.
+local function is_through(run) return run.status == "complete" or run.status == "partial" end
+
 -- -- the CPU time of everything that follows the first run
 
-local function budget_after(seconds) return core.cpu() + math.max(LEAST, MORE * seconds) end
+-- Other solvers may take half of it, so that there is as much for cutting the data. Where a run came to the end it is
+-- known what its parts take, and that they do: they may cost more.
+local function budget_after(seconds) return core.cpu() + math.max(LEAST, MORE * seconds) / 2 end
+
+local function budget_of_parts(state)
+  local spent = state.best.cpu_seconds
+  if is_through(state.best) then return core.cpu() + CUT * math.max(LEAST, MORE * spent) end
+  return math.max(core.cpu(), state.ends) + math.max(LEAST, MORE * state.first_seconds) / 2
+end
 
 -- What the next try or hull has of it; not positive: nothing is left.
 local function part_of(ends) return PART * (ends - core.cpu()) end
@@ -148,9 +160,6 @@ local function is_better(run, best)
   local first, last = run.times[1], run.times[#run.times]
   return math.abs(run.t_reached - first) > math.abs(best.t_reached - first) + FURTHER * math.abs(last - first)
 end
-
--- Did it come to the end? "partial": it is not certain which events happen.
-local function is_through(run) return run.status == "complete" or run.status == "partial" end
 
 -- Sets what is known of the width; a run that came to the end needs no other solver if that is little.
 local function judge(run, q, hull, ends)
@@ -270,6 +279,7 @@ end
 -- The best solver until now, with the data that matter most cut.
 local function cut_data(state)
   local i = 0
+  state.ends = budget_of_parts(state)
   return function()
     i = i + 1
     local n = PIECES[i]
@@ -295,10 +305,12 @@ function choice.solve(q, ask)
   local others = q.suggestion.others
   local began = core.cpu()
   local first = ask(q.suggestion, { patience = #others > 0 and PATIENCE or nil })
-  local hull, ends = {}, budget_after(core.cpu() - began)
+  local hull, first_seconds = {}, core.cpu() - began
+  local ends = budget_after(first_seconds)
   if judge(first, q, hull, ends) or #others == 0 or not may_go_on(first) then return first end
   if q.run_options.pieces or q.run_options.unknown or is_beyond(first, q) then return first end
-  local state = { q = q, ask = ask, hull = hull, ends = ends, best = first, by = q.suggestion, untried = {},
+  local state = { q = q, ask = ask, hull = hull, ends = ends, first_seconds = first_seconds,
+    best = first, by = q.suggestion, untried = {},
     tried = { { solver = first.solver, outcome = describe(first), run = first } } }
   local good = try_all(state, other_solvers(state))
   good = good or first.report.unknowns > 0 and try_all(state, cut_data(state))

@@ -176,7 +176,7 @@ describe("a run of the solver that suits", function()
     core.simulate = function(s, solver, ...) -- luacheck: ignore
       asked[#asked + 1] = solver
       local track, facts, report = simulate(s, solver, ...)
-      clock = clock + 3 -- s: the first run took three, so that twelve are left
+      clock = clock + 3 -- s: the first run took three, so that others have six
       if solver == "valencia" then clock = clock + 10 end
       facts.status, facts.code, facts.reason, facts.t_reached = "unable", "unable.step", "made to", 0
       return track, facts, report
@@ -188,9 +188,28 @@ describe("a run of the solver that suits", function()
     local good, run = pcall(ambit.simulate, { system, initial = initial, t = { 0, 0.1 } })
     core.cpu, core.simulate, suggest.solver = cpu, simulate, own
     assert(good, run)
-    assert.same({ "lohner", "valencia" }, asked)
-    assert.matches("not tried, since the CPU time for this was spent: `taylor_model`, `zonotope`, `lohner` in 8 parts",
-      run.reason)
+    assert.same({ "lohner", "valencia", "lohner" }, asked) -- the third in parts, for which half of it is kept
+    assert.matches("not tried, since the CPU time for this was spent: `taylor_model`, `zonotope`", run.reason)
+  end)
+
+  it("has more CPU time for the parts of a run that came to the end and was too wide", function()
+    local system, initial = chain(2, "0.1%")
+    local clock, due, cpu, simulate = 0, nil, core.cpu, core.simulate
+    core.cpu = function() return clock end -- luacheck: ignore
+    core.simulate = function(s, solver, a, o, p, i, times, watch, options) -- luacheck: ignore
+      if options.pieces == 8 then due = options.due end
+      local track, facts, report = simulate(s, solver, a, o, p, i, times, watch,
+        { silent = true, pieces = options.pieces })
+      clock, facts.cpu_seconds = clock + 3, 3
+      if solver == "valencia" then facts.status, facts.code, facts.t_reached = "unable", "unable.step", 0 end
+      return track, facts, report
+    end
+    local good, run = pcall(with_lohner_first, { system, initial = initial, t = { 0, 1 } }, "valencia")
+    core.cpu, core.simulate = cpu, simulate
+    assert(good, run)
+    assert.equal(24, due) -- half of 4 times 4 times 3 s
+    assert.equal("complete", run.status)
+    assert.is_true(run.overestimate < 2, run.overestimate) -- whole more than that
   end)
 
   it("goes on with the first, as long as it is steady, where that was slow and nobody got further", function()
