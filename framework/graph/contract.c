@@ -9,6 +9,8 @@
 */
 #include "graph/contract.h"
 #include <ambit/work.h>
+#include <float.h>
+#include <math.h>
 #include <string.h>
 
 struct ambit_contractor {
@@ -91,13 +93,29 @@ static bool demand(const ambit_contractor *c, const double *out_lo, const double
   return true;
 }
 
-static bool backward(const ambit_contractor *c) {
+static bool is_bounded(const ambit_contractor *c, const double *lo, const double *hi) {
+  for (uint32_t i = 0; i < c->tape->nin; i++)
+    if (isinf(lo[i]) || isinf(hi[i])) return false;
+  return true;
+}
+
+/* exp has no zero, but the limit 0 at -infinity. Where bounded inputs lead there, at the edge of the domain of a
+** logarithm or quotient, it is kept: x^y, which is exp(y log(x)), is 0 at x = 0 as whoever writes it means it. */
+static bool inverse_exp(bool bounded, ambit_interval r, ambit_interval *a) {
+  if (!bounded || r.hi != 0 || a->lo > -INFINITY) return ambit_inverse(AMBIT_OP_EXP, r, a, a);
+  a->hi = fmin(a->hi, -DBL_MAX);
+  return true;
+}
+
+static bool backward(const ambit_contractor *c, bool bounded) {
   const ambit_tape *t = c->tape;
   ambit_interval *slot = c->slot;
   for (uint32_t i = t->ninstr; i-- > 0;) {
     ambit_interval r = slot[t->dst[i]], a = slot[t->a[i]];
     if (t->op[i] == AMBIT_OP_POWN) {
       if (!ambit_inverse_pown(exponent(t, i), r, &a)) return false;
+    } else if (t->op[i] == AMBIT_OP_EXP) {
+      if (!inverse_exp(bounded, r, &a)) return false;
     } else {
       ambit_interval b = slot[t->b[i]];
       if (!ambit_inverse(t->op[i], r, &a, &b)) return false;
@@ -112,7 +130,7 @@ static ambit_status narrow(ambit_contractor *c, double *lo, double *hi, const do
   const ambit_tape *t = c->tape;
   if (c->work) c->work->contractions++, c->work->operations += 2 * (uint64_t)t->ninstr;
   if (forward(c, lo, hi, 0) & AMBIT_F_EMPTY) return AMBIT_DOMAIN;
-  if (!demand(c, out_lo, out_hi) || !backward(c)) return AMBIT_DOMAIN;
+  if (!demand(c, out_lo, out_hi) || !backward(c, is_bounded(c, lo, hi))) return AMBIT_DOMAIN;
   for (uint32_t i = 0; i < t->nin; i++) {
     lo[i] = c->slot[t->nconst + i].lo;
     hi[i] = c->slot[t->nconst + i].hi;

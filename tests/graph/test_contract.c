@@ -128,6 +128,16 @@ typedef struct fixture {
   const ambit_tape *tape;
 } fixture;
 
+static void seal(fixture *s, uint32_t nout, const ambit_expr *out, uint32_t nin, const ambit_expr *in) {
+  ambit_failure f = { 0 };
+  if (ambit_tape_seal(s->graph, s->arena, nout, out, nin, in, 0, 0, &s->tape, &f) != AMBIT_OK)
+    fail_msg("%s", f.message);
+  assert_int_equal(ambit_lease_open(&s->lease, NULL, NULL), AMBIT_OK);
+  const ambit_contract_service *service = s->lease->host.service(&s->lease->host, AMBIT_CONTRACT_SERVICE);
+  assert_ptr_equal(service, &ambit_contract_service_v1);
+  assert_int_equal(service->open(&s->lease->host, s->tape, &s->contractor), AMBIT_OK);
+}
+
 /* x^2 + y^2 - 1 and atan2(y, x) - z */
 static fixture make_fixture(void) {
   fixture s = { .graph = ambit_graph_open(), .arena = ambit_arena_open() };
@@ -138,12 +148,7 @@ static fixture make_fixture(void) {
       ambit_graph_op(g, AMBIT_OP_ADD, ambit_graph_op(g, AMBIT_OP_SQR, x, x), ambit_graph_op(g, AMBIT_OP_SQR, y, y));
   ambit_expr out[] = { ambit_graph_op(g, AMBIT_OP_SUB, sum, ambit_graph_number(g, 1)),
     ambit_graph_op(g, AMBIT_OP_SUB, ambit_graph_op(g, AMBIT_OP_ATAN2, y, x), z) };
-  ambit_failure f = { 0 };
-  if (ambit_tape_seal(g, s.arena, 2, out, 3, in, 0, 0, &s.tape, &f) != AMBIT_OK) fail_msg("%s", f.message);
-  assert_int_equal(ambit_lease_open(&s.lease, NULL, NULL), AMBIT_OK);
-  const ambit_contract_service *service = s.lease->host.service(&s.lease->host, AMBIT_CONTRACT_SERVICE);
-  assert_ptr_equal(service, &ambit_contract_service_v1);
-  assert_int_equal(service->open(&s.lease->host, s.tape, &s.contractor), AMBIT_OK);
+  seal(&s, 2, out, 3, in);
   return s;
 }
 
@@ -201,9 +206,28 @@ static void inspection_sees_jumps_and_domains(void **unused) {
   free_fixture(&s);
 }
 
+/* e^u, u = x or log(x)/3: no zero but the limit 0, which is kept where finite x lead to it */
+static void powers_keep_their_limit(void **unused) {
+  (void)unused;
+  for (int power = 0; power < 2; power++) {
+    fixture s = { .graph = ambit_graph_open(), .arena = ambit_arena_open() };
+    ambit_graph *g = s.graph;
+    ambit_expr x = ambit_graph_symbol(g, "x", "1"), u = ambit_graph_op(g, AMBIT_OP_LOG, x, x);
+    u = ambit_graph_op(g, AMBIT_OP_DIV, u, ambit_graph_number(g, 3));
+    ambit_expr out = ambit_graph_op(g, AMBIT_OP_EXP, power ? u : x, x);
+    seal(&s, 1, &out, 1, &x);
+    double lo = power ? -1 : -2000, hi = 2, low = power ? 1e-9 : -INFINITY, high = 3;
+    ambit_status status = ambit_contract_service_v1.narrow(s.contractor, &lo, &hi, NULL, NULL);
+    assert_int_equal(status, power ? AMBIT_OK : AMBIT_DOMAIN);
+    if (power) assert_true(lo >= 0 && lo <= DBL_TRUE_MIN && hi <= DBL_TRUE_MIN);
+    assert_int_equal(ambit_contract_service_v1.narrow(s.contractor, &low, &high, NULL, NULL), AMBIT_DOMAIN);
+    free_fixture(&s);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = { cmocka_unit_test(inverses_keep_every_solution), cmocka_unit_test(inverses_narrow),
     cmocka_unit_test(tapes_keep_every_solution), cmocka_unit_test(tapes_narrow_and_refuse),
-    cmocka_unit_test(inspection_sees_jumps_and_domains) };
+    cmocka_unit_test(inspection_sees_jumps_and_domains), cmocka_unit_test(powers_keep_their_limit) };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

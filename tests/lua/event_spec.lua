@@ -125,6 +125,7 @@ describe("events", function()
       { "graze", function(s) return s.x ^ 2 end }, { "graze", function(s) return ambit.sqrt(s.x ^ 2) end },
       { "graze", function(s) return ambit.abs(s.x) end }, { "leave its domain", function(s) return ambit.sqrt(s.x) end },
       { "leave its domain", function(s) return s.x * ambit.sqrt(s.x) end },
+      { "leave its domain", function(s) return ambit.abs(s.x) ^ "1/3" end },
       { "more than once", function(s) return ambit.min(s.x, 2 * s.x) end },
     } do
       for _, solver in ipairs { "lohner", "taylor_model", "stiff", "valencia" } do
