@@ -7,7 +7,7 @@ command.usage = [[
 usage: ambit test [PATH ...] [-- BUSTED-OPTION ...]
 Runs the *_spec.lua files in the given files and directories (default: tests) with busted; `require "ambit"` is this
 command's own.
-exit: 0 all passed, 1 some failed]]
+exit: 0 all passed, 1 some failed or there was none]]
 
 local missing = [[
 ambit: the test runner "busted" is not installed for Lua 5.4
@@ -21,6 +21,20 @@ local function refuse_exit()
   core.leave(1)
 end
 
+-- Counts the tests that ended in the run that is about to begin: busted itself calls a suite of none passed.
+local function count_tests(foreign)
+  local open, counted = foreign.find "busted.core", { tests = 0 }
+  package.loaded["busted.core"] = function()
+    local busted = open()
+    busted.subscribe({ "test", "end" }, function()
+      counted.tests = counted.tests + 1
+      return nil, true
+    end)
+    return busted
+  end
+  return counted
+end
+
 function command.run(words)
   local foreign = require "ambit.foreign"
   local compatibility = foreign.find "busted.compatibility"
@@ -30,7 +44,7 @@ function command.run(words)
     io.stderr:write(missing)
     return 1
   end
-  local list, rest = {}, false
+  local list, rest, listing = {}, false, false
   for _, word in ipairs(words) do
     if word == "--" and not rest then
       rest = true
@@ -38,6 +52,7 @@ function command.run(words)
       return 2, ("unknown option `%s`"):format(word)
     else
       list[#list + 1] = word
+      listing = listing or word == "--list"
     end
   end
   if not list[1] or list[1]:sub(1, 1) == "-" then table.insert(list, 1, "tests") end
@@ -45,8 +60,11 @@ function command.run(words)
   list[0] = "ambit test"
   _G.arg = list
   _G.os.exit = refuse_exit
+  local counted = count_tests(foreign)
   runner { standalone = false } -- leaves by the function above if anything failed
-  return 0
+  if counted.tests > 0 or listing then return 0 end
+  io.stderr:write "ambit: no test ran: there is none in the files given, or an option of busted left all out\n"
+  return 1
 end
 
 return command

@@ -96,19 +96,36 @@ describe("ambit run", function()
 end)
 
 describe("ambit test", function()
-  it("fails where a spec calls os.exit(0)", function()
+  -- Exit code and all output for a file that holds `text`.
+  local function suite(text, options)
     local name = os.tmpname()
     os.remove(name)
     name = name .. "_spec.lua"
     local file = assert(io.open(name, "w"))
-    file:write 'describe("x", function() it("leaves", function() os.exit(0) end) end)'
+    file:write(text)
     file:close()
-    local pipe = io.popen(("'%s' test %s 2>&1"):format(command, name))
+    local pipe = io.popen(("'%s' test %s %s 2>&1"):format(command, name, options or ""))
     local output = pipe:read "a"
     local _, _, code = pipe:close()
     os.remove(name)
+    return code, output
+  end
+
+  it("fails where a spec calls os.exit(0)", function()
+    local code, output = suite 'describe("x", function() it("leaves", function() os.exit(0) end) end)'
     assert.equal(1, code)
     has(output, "os.exit in a spec")
+  end)
+
+  it("fails where no test ran", function()
+    local one = 'describe("x", function() it("is", function() end) end)'
+    for _, case in ipairs { { "local x = 1" }, { 'describe("x", function() end)' }, { one, "-- --filter=nothing" } } do
+      local code, output = suite(table.unpack(case))
+      assert.equal(1, code, output)
+      has(output, "no test ran")
+    end
+    assert.equal(0, (suite(one)))
+    assert.equal(0, (suite(one, "-- --list")))
   end)
 end)
 
