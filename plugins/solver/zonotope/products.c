@@ -6,10 +6,10 @@
 #include "quartic.h"
 #include "proof.h"
 
-#define MOST 27          /* data */
-#define ROOM 1e6         /* doubles of sums, at most */
-#define LEFT_SLOTS 0.002 /* share of what lumps add that is left to them */
-#define WORTH 1          /* of the states' budgets: what lumps must add, or they are left as they are */
+#define MOST 27  /* data */
+#define ROOM 1e6 /* doubles of sums, at most */
+#define LEFT 1   /* of the states' budgets: what is left to lumps that add little */
+#define WORTH 1  /* of the states' budgets: what lumps must add, or they are left as they are */
 
 static int doubles(const ambit_host *h, size_t n, double **to) {
   *to = h->alloc(h, (n + 4) * sizeof(double));
@@ -71,6 +71,7 @@ static int open_groups(zono *z) {
   const ambit_host *h = z->host;
   size_t n = z->nslot + 1u;
   uint32_t *work;
+  if (!doubles(h, n, &q->weight)) return 0;
   q->chosen = h->alloc(h, n), q->sign = h->alloc(h, n);
   if (!q->chosen || !q->sign || !numbers(h, n, &q->root) || !numbers(h, n, &q->next) || !numbers(h, n, &q->made) ||
       !numbers(h, n, &work))
@@ -113,17 +114,34 @@ static double weight_of(const zono *z, uint32_t j) {
   return most * z->rr[j];
 }
 
+/* sum of the weights of products below `least` */
+static double left_below(const zono *z, double least) {
+  const ambit_tape *t = z->program.tape;
+  double sum = 0;
+  for (uint32_t i = 0; i < t->ninstr; i++) {
+    double w = is_product(t->op[i]) ? z->proof->quartic->weight[t->dst[i]] : 0;
+    if (w < least) sum += w;
+  }
+  return sum;
+}
+
+/* the largest products: those that are left to their lumps add up to LEFT at most */
 static int choose_slots(zono *z) {
   const ambit_tape *t = z->program.tape;
   quartic *q = z->proof->quartic;
-  double all = 0;
-  for (uint32_t j = 0; j < z->nslot; j++) all += weight_of(z, j), q->chosen[j] = 0;
+  double all = 0, least = 0, above = LEFT;
   q->count = 0;
+  for (uint32_t j = 0; j < z->nslot; j++) all += q->weight[j] = weight_of(z, j), q->chosen[j] = 0;
   if (!(all > WORTH)) return 0;
-  for (uint32_t i = 0; i < t->ninstr; i++) {
-    if (!is_product(t->op[i]) || weight_of(z, t->dst[i]) * z->nslot < LEFT_SLOTS * all) continue;
-    q->chosen[t->dst[i]] = 1, q->count++;
+  for (int n = 0; n < 20; n++) {
+    double middle = 0.5 * (least + above);
+    if (left_below(z, middle) <= LEFT)
+      least = middle;
+    else
+      above = middle;
   }
+  for (uint32_t i = 0; i < t->ninstr; i++)
+    if (is_product(t->op[i]) && q->weight[t->dst[i]] >= least) q->chosen[t->dst[i]] = 1, q->count++;
   return q->count > 0;
 }
 

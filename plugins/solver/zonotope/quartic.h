@@ -31,6 +31,7 @@ typedef struct quartic {
   double *rounding; /* [nx] of the sum */
   double *group;    /* [length] of products with the same coefficient together; near of it: */
   double *near_group;
+  double *weight;               /* [nslot] of lumps, by the budgets of the states */
   uint8_t *chosen;              /* [nslot] */
   int8_t *sign;                 /* [nslot] of a product in the sum that it goes into; 0: the slot is no product */
   uint32_t *root, *next, *made; /* [nslot] that sum; the next product of it; the instruction that makes a slot */
