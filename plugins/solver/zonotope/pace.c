@@ -13,6 +13,7 @@
 #define LESS 1.25      /* where lumps matter so much that quartic.c is at work: it knows them at one time of the step */
 #define FROM_REST 1e-4 /* most that a step may add, as a share of a state that starts at 0 */
 #define SHARE 0.001    /* of its set: what a state may be widened by in a whole run without more ado; */
+#define MANY 20.0      /* data; of fewer, triples cost less, by the cube, and that much less is given away */
 #define FADED 0.1      /* of a set that was larger once, as if it still were so large */
 #define ORDER_DATA 8   /* in time, with data; */
 #define ORDER_EXACT 18 /* without, and least */
@@ -74,11 +75,11 @@ static int is_of_like_order(const zono *z, uint32_t i, double length, double rat
 void pace_budget(zono *z, double length) {
   proof *p = z->proof;
   const double *time = z->problem.time;
-  double span = fabs(time[z->problem.ntime - 1] - time[0]);
+  double span = fabs(time[z->problem.ntime - 1] - time[0]), many = fmin(z->m / MANY, 1);
   for (uint32_t i = 0; i < z->nx; i++) {
     double size, set;
     find_sizes(z, i, length, &size, &set);
-    p->budget[i] = z->m ? SHARE * fmax(set, FADED * p->largest[i]) / span : 0;
+    p->budget[i] = SHARE * many * many * many * fmax(set, FADED * p->largest[i]) / span;
   }
 }
 

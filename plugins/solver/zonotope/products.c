@@ -109,9 +109,11 @@ int quartic_open(zono *z) {
 static double weight_of(const zono *z, uint32_t j) {
   const proof *p = z->proof;
   double most = 0;
-  for (uint32_t i = 0; i < z->nx; i++)
-    if (p->link[i] != LINK_STATE) most = fmax(most, fabs(p->C[(size_t)p->link_to[i] * z->nslot + j]) / p->budget[i]);
-  return most * z->rr[j];
+  for (uint32_t i = 0; i < z->nx && z->rr[j] > 0; i++) {
+    double c = p->link[i] == LINK_STATE ? 0 : fabs(p->C[(size_t)p->link_to[i] * z->nslot + j]);
+    if (c > 0) most = fmax(most, c * z->rr[j] / p->budget[i]);
+  }
+  return most;
 }
 
 /* sum of the weights of products below `least` */
