@@ -3,10 +3,12 @@
 ** A scene may redefine globals and what libraries hold (`type = 3`, `table.concat = nil`). Ambit's own modules see a
 ** copy from when Ambit was loaded; _G in it is the true one. Methods of strings (`("x"):rep(2)`) Lua finds in one place
 ** for all: what stands there looks who asks. A scene that replaces the metatable's `__index` itself is not held off.
+** Modules are made once and get each other, whatever a scene makes of package.loaded.
 */
 #include "lua/embedded.h"
 #include "lua/core.h"
 #include "num/environment.h"
+#include <stdbool.h>
 #include <string.h>
 
 static const char environment_key = 0; /* its address is the key in the Lua registry */
@@ -86,6 +88,8 @@ static void write_plainly(lua_State *L, const char *name) {
 
 /* -- modules */
 
+static int require_own(lua_State *L);
+
 /* Pushes the environment; the first time that is the globals, and copies of the libraries in them. */
 static void push_environment(lua_State *L) {
   static const char *const libraries[] = { "coroutine", "debug", "io", "math", "os", "string", "table", "utf8" };
@@ -101,6 +105,9 @@ static void push_environment(lua_State *L) {
     }
     lua_pop(L, 1);
   }
+  lua_getfield(L, -1, "require");
+  lua_pushcclosure(L, require_own, 1);
+  lua_setfield(L, -2, "require");
   write_plainly(L, "tostring");
   lua_getfield(L, -1, "string");
   write_plainly(L, "format");
@@ -110,13 +117,57 @@ static void push_environment(lua_State *L) {
   lua_rawsetp(L, LUA_REGISTRYINDEX, &environment_key);
 }
 
-static int load_file(lua_State *L) {
-  const ambit_embedded *file = lua_touserdata(L, lua_upvalueindex(1));
-  if (luaL_loadbufferx(L, file->text, file->size, file->chunk, "t") != LUA_OK) return lua_error(L);
-  push_environment(L);
-  if (!lua_setupvalue(L, -2, 1)) lua_pop(L, 1); /* _ENV; a file without globals has none */
-  lua_insert(L, 1);
-  lua_call(L, lua_gettop(L) - 1, 1);
+static const ambit_embedded *find_file(const char *name) {
+  for (const ambit_embedded *file = ambit_embedded_files; file->name; file++)
+    if (strcmp(file->name, name) == 0) return file;
+  return NULL;
+}
+
+/* Pushes the module called `name`, which is one of Ambit's own: made once in a Lua state, so that a scene that clears
+** package.loaded (to read its own modules anew) does not get a second session, which would know nothing of what the
+** first could not prove. */
+static void push_module(lua_State *L, const char *name) {
+  const ambit_embedded *file = find_file(name);
+  luaL_getsubtable(L, LUA_REGISTRYINDEX, "ambit.modules");
+  if (lua_getfield(L, -1, name) == LUA_TNIL) {
+    lua_pop(L, 1);
+    if (!file) {
+      lua_pushcfunction(L, luaopen_ambit_core);
+    } else {
+      if (luaL_loadbufferx(L, file->text, file->size, file->chunk, "t") != LUA_OK) lua_error(L);
+      push_environment(L);
+      if (!lua_setupvalue(L, -2, 1)) lua_pop(L, 1); /* _ENV; a file without globals has none */
+    }
+    lua_pushstring(L, name);
+    lua_call(L, 1, 1);
+    lua_pushvalue(L, -1);
+    lua_setfield(L, -3, name);
+  }
+  lua_remove(L, -2);
+}
+
+static bool is_own(const char *name) { return strcmp(name, "ambit.core") == 0 || find_file(name); }
+
+/* in package.preload: what a scene's `require` calls */
+static int load_module(lua_State *L) {
+  push_module(L, luaL_checkstring(L, 1));
+  return 1;
+}
+
+/* `require` of Ambit's modules: they get each other whatever stands in package.loaded and package.preload. */
+static int require_own(lua_State *L) {
+  const char *name = luaL_checkstring(L, 1);
+  if (!is_own(name)) {
+    lua_pushvalue(L, lua_upvalueindex(1));
+    lua_insert(L, 1);
+    lua_call(L, lua_gettop(L) - 1, LUA_MULTRET);
+    return lua_gettop(L);
+  }
+  push_module(L, name);
+  luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
+  lua_pushvalue(L, -2);
+  lua_setfield(L, -2, name);
+  lua_pop(L, 1);
   return 1;
 }
 
@@ -124,11 +175,10 @@ static int load_file(lua_State *L) {
 int luaopen_ambit(lua_State *L) {
   luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_PRELOAD_TABLE);
   for (const ambit_embedded *file = ambit_embedded_files; file->name; file++) {
-    lua_pushlightuserdata(L, (void *)(uintptr_t)file);
-    lua_pushcclosure(L, load_file, 1);
+    lua_pushcfunction(L, load_module);
     lua_setfield(L, -2, file->name);
   }
-  lua_pushcfunction(L, luaopen_ambit_core);
+  lua_pushcfunction(L, load_module);
   lua_setfield(L, -2, "ambit.core");
   lua_pop(L, 1);
   push_environment(L);

@@ -120,6 +120,36 @@ print(pieces, pieces.ode:lua())
     assert.equal(0, found_code)
   end)
 
+  it("cannot take the place of Ambit's modules, nor forget what was not proved", function()
+    local escape = [[
+local f = ambit.ode { states = { "x" }, equations = function(s) return { x = s.x^2 } end }
+assert(ambit.simulate { f, initial = { 1 }, t = { 0, 2 } }.status == "unable")
+]]
+    for _, before in ipairs {
+      "for name in pairs(package.loaded) do package.loaded[name] = nil end", "package.loaded['ambit.session'] = nil",
+      "package.loaded['ambit.session'] = { worst = 'ok', add = print, finish = print, remember = print }",
+      "for name in pairs(package.preload) do package.preload[name] = function() return {} end end package.searchers = {}",
+      "require, package = nil",
+    } do
+      local output, code = run(("local ambit, require = require 'ambit', require\n%s\n%s"):format(before, escape))
+      assert.equal(3, code, before .. "\n" .. output)
+    end
+    local output, code = run [[
+local ambit = require "ambit"
+for name in pairs(package.loaded) do package.loaded[name] = nil end
+print(require "ambit" == ambit)]]
+    assert.equal("true\n", output)
+    assert.equal(0, code)
+  end)
+
+  it("does not turn an error into exit code 0", function()
+    local _, code = run [[
+local ambit = require "ambit"
+getmetatable("").__index = function() return function() return "x" end end
+print(ambit.evaluate { ambit.number "0.1" * 3 })]]
+    assert.equal(1, code)
+  end)
+
   it("is not what Ambit makes of them", function()
     local known = {}
     for name in pairs(_G) do known[name] = true end
