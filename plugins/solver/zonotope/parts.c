@@ -7,12 +7,16 @@
 #include "proof.h"
 
 #define SHARE 0.25 /* of the budget, for each kind of parts */
+#define FADING 0.97 /* of the usual length of a step, from one to the next */
+#define AHEAD 2.0 /* the next step may be so much longer; else what is left out would keep steps short */
 
 enum kind { KIND_PAIRS, KIND_MIXED, KIND_TRIPLES, KINDS };
 
-/* sizes of what a (*) b has of each kind */
-static void add_worth(const shape *s, double w, const double *a, const double *b, double worth[KINDS]) {
-  double x = w * fabs(a[0]), y = w * fabs(b[0]), la = w * row_l(s, a), lb = w * row_l(s, b);
+/* Sizes of what a (*) b has of each kind. is_a, is_b: that operand is of the order of the product, and would not hold
+** the part either. */
+static void add_worth(
+    const shape *s, double w, const double *a, int is_a, const double *b, int is_b, double worth[KINDS]) {
+  double x = is_b ? 0 : w * fabs(a[0]), y = is_a ? 0 : w * fabs(b[0]), la = w * row_l(s, a), lb = w * row_l(s, b);
   worth[KIND_PAIRS] += x * row_q(s, b) + y * row_q(s, a) + la * row_l(s, b);
   worth[KIND_MIXED] += x * row_x(s, b) + y * row_x(s, a) + la * row_r(s, b) + lb * row_r(s, a);
   worth[KIND_TRIPLES] += x * row_c(s, b) + y * row_c(s, a) + la * row_q(s, b) + lb * row_q(s, a);
@@ -22,7 +26,7 @@ static void add_worth(const shape *s, double w, const double *a, const double *b
 static void add_product(const zono *z, uint32_t u, uint32_t v, uint32_t k, int weighted, double worth[KINDS]) {
   for (uint32_t j = (uint32_t)weighted; j <= k && j < orders(z, u); j++)
     if (k - j < orders(z, v))
-      add_worth(&z->shape, weighted ? (double)j / k : 1, row_at(z, u, j), row_at(z, v, k - j), worth);
+      add_worth(&z->shape, weighted ? (double)j / k : 1, row_at(z, u, j), j == k, row_at(z, v, k - j), j == 0, worth);
 }
 
 /* of instruction i at order k; quotients and the like: what multiplying them out drops */
@@ -78,12 +82,20 @@ static uint32_t count_orders(double share[][KINDS], uint32_t K, enum kind n) {
 }
 
 void parts_choose(zono *z) {
-  double share[TIME_ORDERS][KINDS], power = 1;
+  const double *usual = &z->proof->usual;
+  double share[TIME_ORDERS][KINDS], power = 1, length = fabs(z->h);
   shape *s = &z->shape;
   if (z->m == 0) return;
-  for (uint32_t k = 0; k <= z->K; k++, power *= fabs(z->h)) {
+  if (length < *usual) length = fmin(*usual, AHEAD * length);
+  z->proof->usual = fmax(fabs(z->h), FADING * *usual);
+  for (uint32_t k = 0; k <= z->K; k++, power *= length) {
     memset(share[k], 0, sizeof share[k]);
     find_shares(z, k, power, z->proof->worth, share[k]);
+  }
+  for (uint32_t i = 0; i < z->nx; i++) { /* triples of the states become errors once */
+    double once =
+        row_c(s, row_at(z, slot_x(z, i), 0)) / fabs(z->problem.time[z->problem.ntime - 1] - z->problem.time[0]);
+    if (once > 0) share[0][KIND_TRIPLES] = fmax(share[0][KIND_TRIPLES], once / z->proof->budget[i]);
   }
   uint32_t paired = count_orders(share, z->K, KIND_PAIRS), cubed = count_orders(share, z->K, KIND_TRIPLES);
   s->paired = paired > 0 ? paired : 1, s->mixing = count_orders(share, z->K, KIND_MIXED);

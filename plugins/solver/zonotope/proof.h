@@ -71,7 +71,7 @@ typedef struct proof {
   double *spread;          /* [nx] sizes of states' sets, for weights */
   double *largest;         /* [nx] of these, of the whole run */
   double *budget;          /* [nx] rates at which each state may be widened: pace.c */
-  double *worth;           /* [3 nx] parts.c */
+  double *worth, usual;    /* parts.c: [3 nx]; length of steps */
   double *unit;            /* [nx] of the states, for norms */
   double *work;            /* [4 nx + na] */
   double paced;            /* what pace.c chose for the last step */
