@@ -100,6 +100,25 @@ static void pendulum(const void *self, const real *x, real *f) {
   f[3] = (2 * r2 - c * r1) / d - f[2];
 }
 
+/* Until where the paper's mean-value rule carries intervals (.5705), and the samples are inside. */
+static void double_pendulum_over_intervals(void **unused) {
+  (void)unused;
+  model m;
+  check c;
+  double lo[INSTANTS][4], hi[INSTANTS][4];
+  const oracle o = { 4, pendulum, NULL };
+  model_wide_double_pendulum(&m);
+  ambit_simulate_result r = run(&m, &c, 0.5705, "interval", NULL);
+  if (r.status != AMBIT_OK) fail_msg("%s", r.reason);
+  reset(lo, hi);
+  for (int k = 0; k < SAMPLES; k++) {
+    const real pi = acosl(-1);
+    real x[4] = { 3 * pi / 4 * (1 + 0.01L * (2 * k - SAMPLES + 1) / (SAMPLES - 1)), -11 * pi / 20, 0.43L, 0.67L };
+    assert_int_equal(judge(&o, &c, x, 500, 1e-11, lo, hi), 0);
+  }
+  model_close(&m);
+}
+
 static void double_pendulum(void **unused) {
   (void)unused;
   model m;
@@ -185,6 +204,7 @@ static void random_systems(void **unused) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = { cmocka_unit_test(double_pendulum), cmocka_unit_test(random_systems) };
+  const struct CMUnitTest tests[] = { cmocka_unit_test(double_pendulum),
+    cmocka_unit_test(double_pendulum_over_intervals), cmocka_unit_test(random_systems) };
   return cmocka_run_group_tests_name("solver valencia, figures", tests, NULL, NULL);
 }

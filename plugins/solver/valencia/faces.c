@@ -1,4 +1,5 @@
-/* faces.c -- the hull of the set, moved face by face: for steps over kinks, where slopes are wide.
+/* faces.c -- the hull of the set, moved face by face: narrower than the set where slopes are wide, at kinks and near
+** the end of what a first-order set can carry.
 **
 ** The line y(s) = hi_i + beta s bounds x_i from above if x_i' < beta wherever x_i = y(s) and the other states are in
 ** the tube: the first solution to cross it would have to cross it faster (Mueller 1926; Walter, Differential and
@@ -83,6 +84,14 @@ int valencia_faces(valencia *s, double *lo, double *hi) {
   if (!survey(s)) return 0;
   for (uint32_t i = 0; i < s->nx; i++)
     if (!move_face(s, i, 0, &lo[i]) || !move_face(s, i, 1, &hi[i])) return 0;
+  return 1;
+}
+
+static int has_kink(uint32_t op) { return op == AMBIT_OP_ABS || op == AMBIT_OP_MIN || op == AMBIT_OP_MAX; }
+
+int valencia_is_smooth(const ambit_tape *t) {
+  for (uint32_t i = 0; i < t->ninstr; i++)
+    if (has_kink(t->op[i])) return 0;
   return 1;
 }
 

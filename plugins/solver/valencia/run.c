@@ -77,7 +77,7 @@ static int32_t emit(valencia *s, ambit_sink *sink, double t_from) {
     find_dense(s);
     r.ndense = s->stages.n + 1, r.dense_mid = s->dense_mid, r.dense_rad = s->dense_rad;
   }
-  if (p->wish & AMBIT_WISH_SET && !s->has_faces) r.set = &set; /* else the set is not inside [lo, hi] */
+  if (p->wish & AMBIT_WISH_SET && !s->is_cut) r.set = &set; /* else the set is not inside [lo, hi] */
   double done = (s->t - p->time[0]) / (p->time[p->ntime - 1] - p->time[0]);
   return deliver(sink, &r, smaller(larger(done, 0), 1));
 }
@@ -282,18 +282,22 @@ static int explodes(valencia *s) {
 #define CLEARLY 0.8
 #define BY_FAR 0.15 /* by volume */
 
-/* Both boxes hold. Where that of the faces is clearly narrower in every state, or by far as a whole (a state may be
-** constant), the set begins anew as their intersection, and forgets how it depended on the unknowns. */
-static void meet_faces(valencia *s) {
+/* Is the box of the faces clearly narrower than the set's hull: in every state, or as a whole (a state may be
+** constant)? Of smooth equations the mean state must gain that much: a small gain in each of many is not worth
+** forgetting how the set depends on the unknowns. */
+static int is_far_narrower(const valencia *s) {
   int narrower = 1;
   double volume = 1;
   for (uint32_t i = 0; i < s->nx; i++) {
-    interval x = meet((interval) { s->lo[i], s->hi[i] }, (interval) { s->face_lo[i], s->face_hi[i] });
-    narrower = narrower && width(x) < CLEARLY * (s->hi[i] - s->lo[i]);
-    volume *= width(x) < s->hi[i] - s->lo[i] ? width(x) / (s->hi[i] - s->lo[i]) : 1;
-    s->face_lo[i] = s->lo[i] = x.lo, s->face_hi[i] = s->hi[i] = x.hi;
+    double hull = s->hi[i] - s->lo[i], box = s->face_hi[i] - s->face_lo[i];
+    narrower = narrower && box < CLEARLY * hull;
+    volume *= box < hull ? box / hull : 1;
   }
-  if (!narrower && !(volume < BY_FAR)) return;
+  return narrower || volume < (s->kink ? BY_FAR : pow(CLEARLY, (double)s->nx));
+}
+
+/* The set begins anew as the box of the faces, and forgets how it depended on the unknowns. */
+static void begin_anew(valencia *s) {
   memset(s->p, 0, s->nx * s->terms.n * sizeof *s->p);
   for (uint32_t i = 0; i < s->nx; i++) {
     double mid = middle((interval) { s->face_lo[i], s->face_hi[i] });
@@ -304,13 +308,27 @@ static void meet_faces(valencia *s) {
   find_hull(s);
 }
 
+/* Both boxes hold, and so does their intersection, from which the faces go on. A record shows it at kinks only: such a
+** record has no set (emit). */
+static void meet_faces(valencia *s) {
+  for (uint32_t i = 0; i < s->nx; i++) {
+    interval x = meet((interval) { s->lo[i], s->hi[i] }, (interval) { s->face_lo[i], s->face_hi[i] });
+    s->face_lo[i] = x.lo, s->face_hi[i] = x.hi;
+  }
+  int anew = is_far_narrower(s);
+  if (s->kink) memcpy(s->lo, s->face_lo, s->nx * sizeof *s->lo), memcpy(s->hi, s->face_hi, s->nx * sizeof *s->hi);
+  if (anew) begin_anew(s);
+  s->is_cut = s->kink;
+}
+
 static enum why advance(valencia *s) {
   enum why why = find_step(s);
   if (why != WHY_NOTHING) return why;
   if (!s->has_faces) memcpy(s->face_lo, s->lo, s->nx * sizeof *s->lo), memcpy(s->face_hi, s->hi, s->nx * sizeof *s->hi);
   valencia_move(s);
   find_hull(s);
-  s->has_faces = s->kink && valencia_faces(s, s->face_lo, s->face_hi);
+  s->is_cut = 0;
+  s->has_faces = (s->kink || s->is_smooth) && valencia_faces(s, s->face_lo, s->face_hi);
   if (s->has_faces) meet_faces(s);
   note_magnitudes(s, s->t_next, FORGET);
   if (s->options.width_max == 0 && explodes(s)) return WHY_WIDE;
@@ -328,7 +346,8 @@ static void begin(valencia *s) {
   memcpy(s->p, s->start_p, s->nx * s->terms.n * sizeof *s->p);
   memcpy(s->w, s->start_w, s->nx * sizeof *s->w);
   for (uint32_t k = 0; k < s->nx * s->nx; k++) s->b[k] = k % (s->nx + 1) == 0;
-  s->t = p->time[0], s->next = 1, s->has_faces = 0, s->rate_known = 0;
+  s->t = p->time[0], s->next = 1, s->has_faces = s->is_cut = 0, s->is_smooth = valencia_is_smooth(p->rhs),
+  s->rate_known = 0;
   s->guess = smaller(larger(0.01 * fabs(p->time[p->ntime - 1] - p->time[0]), least_step(s)), s->options.step_max);
   find_hull(s);
   memset(s->magnitude, 0, s->nx * sizeof *s->magnitude);

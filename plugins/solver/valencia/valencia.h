@@ -132,6 +132,8 @@ typedef struct valencia {
   double guess, rate_known, *magnitude, *limit;
   uint32_t culprit;
   int kink, has_faces;       /* the tube reaches one; the box of the faces goes on from the step before */
+  int is_smooth;             /* no operation of the right-hand side has a kink */
+  int is_cut;                /* and [lo, hi] is that box's intersection with the set's hull */
   const char *kink_name;     /* of the one that the last tube reached, as the tape names it; or NULL */
   double *face_lo, *face_hi; /* [nx] */
   double *lo, *hi, *tube_lo, *tube_hi, *dense_mid, *dense_rad, *rest;
@@ -191,6 +193,7 @@ void valencia_unit_basis(valencia *s);
 /* faces.c: the box [lo, hi] at the start of the step -> one at its end, by the tube; 0: not evaluated */
 int valencia_faces(valencia *s, double *lo, double *hi);
 int valencia_at_kink(valencia *s);
+int valencia_is_smooth(const ambit_tape *t); /* it has no kink anywhere */
 
 /* frame.c: the set at the end of the step */
 void valencia_move(valencia *s);
