@@ -6,9 +6,9 @@
 */
 #include "proof.h"
 
-#define SHARE 0.25 /* of the budget, for each kind of parts */
+#define SHARE 0.25  /* of the budget, for each kind of parts */
 #define FADING 0.97 /* of the usual length of a step, from one to the next */
-#define AHEAD 2.0 /* the next step may be so much longer; else what is left out would keep steps short */
+#define AHEAD 2.0   /* the next step may be so much longer; else what is left out would keep steps short */
 
 enum kind { KIND_PAIRS, KIND_MIXED, KIND_TRIPLES, KINDS };
 
