@@ -25,18 +25,14 @@ void shape_place(shape *s) {
 #define CUBIC_ALL 34  /* data that have triples if there are no more, */
 #define CUBIC_MOST 27 /* and if there are */
 #define CUBED 3       /* orders that have room for triples */
-#define EVERY UINT32_MAX
+
+void shape_hold_all(shape *s) { s->paired = s->mixing = UINT32_MAX, s->cubed = s->room; }
 
 int shape_open(const ambit_host *h, shape *s, uint32_t m, uint32_t nx) {
-  *s = (shape) { .m = m,
-    .nx = nx,
-    .mixed = m,
-    .cubic = m <= CUBIC_ALL ? m : CUBIC_MOST,
-    .cubed = CUBED,
-    .room = CUBED,
-    .paired = EVERY,
-    .mixing = EVERY,
-    .sum = sum_portable };
+  *s = (shape) {
+    .m = m, .nx = nx, .mixed = m, .cubic = m <= CUBIC_ALL ? m : CUBIC_MOST, .room = CUBED, .sum = sum_portable
+  };
+  shape_hold_all(s);
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx2")) s->sum = sum_avx2;
 #endif

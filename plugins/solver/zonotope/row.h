@@ -39,7 +39,8 @@ typedef struct shape {
 } shape;
 
 int shape_open(const ambit_host *h, shape *s, uint32_t m, uint32_t nx); /* all pairs; 0: no memory */
-void shape_place(shape *s);                                             /* offsets, from reach, mixed and cubic */
+void shape_hold_all(shape *s); /* every order in time holds every part that it has room for */
+void shape_place(shape *s);    /* offsets, from reach, mixed and cubic */
 
 /* what rows of order k hold */
 static inline uint32_t row_parts(const shape *s, uint32_t k) {

@@ -131,6 +131,7 @@ ambit_status zono_start_open(zono *z, const double *weight) {
 }
 
 void zono_start(zono *z) {
+  shape_hold_all(&z->shape);
   size_t bytes = z->shape.stride * sizeof(double);
   z->t = z->problem.time[0], z->next = 1, z->guess = 0, z->ngen = 0, z->why = WHY_NOTHING, z->detail = NULL;
   memcpy(z->P, z->start, z->nx * bytes);
