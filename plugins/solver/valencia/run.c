@@ -346,7 +346,7 @@ static void begin(valencia *s) {
   memcpy(s->p, s->start_p, s->nx * s->terms.n * sizeof *s->p);
   memcpy(s->w, s->start_w, s->nx * sizeof *s->w);
   for (uint32_t k = 0; k < s->nx * s->nx; k++) s->b[k] = k % (s->nx + 1) == 0;
-  s->t = p->time[0], s->next = 1, s->has_faces = s->is_cut = 0, s->is_smooth = valencia_is_smooth(p->rhs),
+  s->t = p->time[0], s->next = 1, s->has_faces = s->is_cut = 0, s->is_smooth = s->nu > 0 && valencia_is_smooth(p->rhs),
   s->rate_known = 0;
   s->guess = smaller(larger(0.01 * fabs(p->time[p->ntime - 1] - p->time[0]), least_step(s)), s->options.step_max);
   find_hull(s);
