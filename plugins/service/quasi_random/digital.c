@@ -15,7 +15,7 @@ static uint32_t degree_of(uint64_t polynomial) {
 
 /* returns the entry of the next dimension */
 static const uint16_t *sobol_dimension(const uint16_t *entry, uint32_t *direction) {
-  uint32_t polynomial = entry[0], s = degree_of(polynomial), m[DIGITS];
+  uint32_t polynomial = entry[0], s = degree_of(polynomial), m[DIGITS] = { 0 };
   for (uint32_t k = 0; k < DIGITS; k++) {
     m[k] = k < s ? entry[1 + k] : m[k - s] ^ (m[k - s] << s);
     for (uint32_t j = 1; k >= s && j < s; j++)

@@ -34,7 +34,8 @@ void eigen_find(size_t n, const double *J, const double *scale, spectrum *r) {
   square T, Z, vector;
   double re[N_MAX], im[N_MAX], work[2 * N_MAX];
   size_t order[N_MAX], count, c = 0;
-  for (size_t k = 0; k < n * n; k++) T[k] = J[k] * (scale[k % n] / scale[k / n]);
+  for (size_t i = 0; i < n; i++)
+    for (size_t k = 0; k < n; k++) T[i * n + k] = J[i * n + k] * (scale[k] / scale[i]);
   r->ok = decompose(n, T, Z);
   if (!r->ok) return;
   real_schur_vectors(n, T, Z, re, im, vector, work);
@@ -48,7 +49,8 @@ void eigen_find(size_t n, const double *J, const double *scale, spectrum *r) {
     normalise(n, c, columns, r->V);
     c += columns;
   }
-  for (size_t k = 0; k < n * n; k++) r->V[k] *= scale[k / n];
+  for (size_t i = 0; i < n; i++)
+    for (size_t k = 0; k < n; k++) r->V[i * n + k] *= scale[i];
 }
 
 int eigen_schur(size_t n, const double *A, double *Z, double *T, int *second) {
