@@ -279,6 +279,7 @@ static int explodes(valencia *s) {
   return ambit_explodes(&e);
 }
 
+#define ROUNDING 1e-8 /* of the state: narrower sets are a matter of it */
 #define CLEARLY 0.8
 #define BY_FAR 0.15 /* by volume */
 
@@ -321,6 +322,13 @@ static void meet_faces(valencia *s) {
   s->is_cut = s->kink;
 }
 
+/* Is the set more than rounding? Faces gain nothing before. */
+static int is_wide(const valencia *s) {
+  for (uint32_t i = 0; i < s->nx; i++)
+    if (s->hi[i] - s->lo[i] > ROUNDING * s->magnitude[i]) return 1;
+  return 0;
+}
+
 static enum why advance(valencia *s) {
   enum why why = find_step(s);
   if (why != WHY_NOTHING) return why;
@@ -328,7 +336,7 @@ static enum why advance(valencia *s) {
   valencia_move(s);
   find_hull(s);
   s->is_cut = 0;
-  s->has_faces = (s->kink || s->is_smooth) && valencia_faces(s, s->face_lo, s->face_hi);
+  s->has_faces = (s->kink || (s->is_smooth && is_wide(s))) && valencia_faces(s, s->face_lo, s->face_hi);
   if (s->has_faces) meet_faces(s);
   note_magnitudes(s, s->t_next, FORGET);
   if (s->options.width_max == 0 && explodes(s)) return WHY_WIDE;
@@ -346,7 +354,7 @@ static void begin(valencia *s) {
   memcpy(s->p, s->start_p, s->nx * s->terms.n * sizeof *s->p);
   memcpy(s->w, s->start_w, s->nx * sizeof *s->w);
   for (uint32_t k = 0; k < s->nx * s->nx; k++) s->b[k] = k % (s->nx + 1) == 0;
-  s->t = p->time[0], s->next = 1, s->has_faces = s->is_cut = 0, s->is_smooth = s->nu > 0 && valencia_is_smooth(p->rhs),
+  s->t = p->time[0], s->next = 1, s->has_faces = s->is_cut = 0, s->is_smooth = valencia_is_smooth(p->rhs),
   s->rate_known = 0;
   s->guess = smaller(larger(0.01 * fabs(p->time[p->ntime - 1] - p->time[0]), least_step(s)), s->options.step_max);
   find_hull(s);

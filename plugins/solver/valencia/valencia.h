@@ -132,7 +132,7 @@ typedef struct valencia {
   double guess, rate_known, *magnitude, *limit;
   uint32_t culprit;
   int kink, has_faces;       /* the tube reaches one; the box of the faces goes on from the step before */
-  int is_smooth;             /* something is uncertain, and no operation of the right-hand side has a kink */
+  int is_smooth;             /* no operation of the right-hand side has a kink */
   int is_cut;                /* and [lo, hi] is that box's intersection with the set's hull */
   const char *kink_name;     /* of the one that the last tube reached, as the tape names it; or NULL */
   double *face_lo, *face_hi; /* [nx] */
