@@ -55,7 +55,7 @@ static int is_irreducible(uint64_t p) {
 static void expand(uint64_t p, uint32_t d, uint32_t count, uint8_t *coefficient) {
   for (uint32_t r = 0; r < count; r++) {
     coefficient[r] = r + 1 == d;
-    for (uint32_t k = 1; k <= d && k <= r; k++) coefficient[r] ^= coefficient[r - k] & (p >> (d - k) & 1);
+    for (uint32_t k = 1; k <= d && k <= r; k++) coefficient[r] ^= coefficient[r - k] & (uint8_t)(p >> (d - k) & 1);
   }
 }
 
