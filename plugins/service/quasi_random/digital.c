@@ -52,17 +52,18 @@ static int is_irreducible(uint64_t p) {
 }
 
 /* coefficients of 1/x^1, 1/x^2, ... in 1/p, p of degree d; count of them */
-static void expand(uint64_t p, uint32_t d, uint32_t count, uint8_t *coefficient) {
+static void expand(uint64_t p, uint32_t d, uint32_t count, uint32_t *coefficient) {
   for (uint32_t r = 0; r < count; r++) {
     coefficient[r] = r + 1 == d;
-    for (uint32_t k = 1; k <= d && k <= r; k++) coefficient[r] ^= coefficient[r - k] & (uint8_t)(p >> (d - k) & 1);
+    for (uint32_t k = 1; k <= d && k <= r; k++)
+      if (p >> (d - k) & 1) coefficient[r] ^= coefficient[r - k];
   }
 }
 
 static void niederreiter_dimension(uint64_t p, uint32_t *direction) {
   uint32_t e = degree_of(p);
   uint64_t power = 1;
-  uint8_t coefficient[2 * DIGITS];
+  uint32_t coefficient[2 * DIGITS];
   for (uint32_t r = 0; r < DIGITS; r++) direction[r] = 0;
   for (uint32_t j = 0; j < DIGITS; j++) {
     uint32_t u = j % e;
@@ -70,7 +71,7 @@ static void niederreiter_dimension(uint64_t p, uint32_t *direction) {
       power = times(power, p);
       expand(power, degree_of(power), 2 * DIGITS, coefficient);
     }
-    for (uint32_t r = 0; r < DIGITS; r++) direction[r] |= (uint32_t)coefficient[r + u] << (DIGITS - 1 - j);
+    for (uint32_t r = 0; r < DIGITS; r++) direction[r] |= coefficient[r + u] << (DIGITS - 1 - j);
   }
 }
 
