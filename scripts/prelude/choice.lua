@@ -120,7 +120,7 @@ local function budget_of_parts(state)
 end
 
 -- What the next try or hull has of it; not positive: nothing is left.
-local function part_of(ends) return PART * (ends - core.cpu()) end
+local function part_of(ends, is_last) return (is_last and 1 or PART) * (ends - core.cpu()) end
 
 -- -- who goes on?
 
@@ -235,7 +235,7 @@ local function try_one(state, try)
   local left, from = try.left or {}, try.from
   record_way(state, try)
   left.patience = not try.pieces and not try.reach and PATIENCE or nil -- pieces pass the instants late, all at once
-  left.due, left.reach = part_of(state.ends), try.reach or REACH
+  left.due, left.reach = part_of(state.ends, try.pieces == PIECES[#PIECES]), try.reach or REACH
   local run = state.ask(try, left)
   local gained = not from or gains(run, state)
   if from and gained then run = joined(from, run, state.q) end

@@ -378,4 +378,33 @@ end } }
     end
     assert.is_true(run.x.x:width() <= 1.02 * (hi - lo))
   end)
+
+  it("follows lightly damped oscillators whose springs are known worse than their damping allows", function()
+    -- two masses 1 between walls: x1 + x2 and x1 - x2 oscillate alone, with k and k + 2 c
+    local k, c, d = between(97, 103), between(39, 41), between("0.38", "0.42")
+    local pair = ambit.ode { states = { "x", "v", "y", "w" }, equations = function(s)
+      local pull = c * (s.x - s.y)
+      return { x = s.v, v = -k * s.x - pull - d * s.v, y = s.w, w = -k * s.y + pull - d * s.w }
+    end }
+    local function mode(stiffness, damping, t)
+      local w = math.sqrt(stiffness - damping ^ 2 / 4)
+      return math.exp(-damping * t / 2) * (math.cos(w * t) + damping / (2 * w) * math.sin(w * t))
+    end
+    local times = { 0, 2, 5, 10, 20 }
+    local run = ambit.simulate { pair, initial = { x = 1, v = 0, y = 0, w = 0 }, t = times, solver = "zonotope" }
+    assert.equal("complete", run.status)
+    for a = 0, 6 do
+      for b = 0, 2 do
+        for n = 2, #times do
+          local k1, c1, t = 97 + a, 39 + b, times[n]
+          local d1 = (a + b) % 2 == 0 and 0.38 or 0.42
+          local sum, difference = mode(k1, d1, t), mode(k1 + 2 * c1, d1, t)
+          local set = run:at(t)
+          assert.is_true(set.x:contains((sum + difference) / 2), t)
+          assert.is_true(set.y:contains((sum - difference) / 2), t)
+        end
+      end
+    end
+    assert.is_true(run.x.x:width() < 1)
+  end)
 end)

@@ -3,10 +3,12 @@
 ** x(h) = Y(xi) + Y_eps eps + sum_j xi_j Y_j eps + z(h). Old generators move with Y_eps / E; what the mixed terms do to
 ** them is bounded column by column and put into a box, with rounding. What z(h) adds is in distance.c. Then generators
 ** are reduced [Girard 2005]: in units of the states' sizes, the columns that are nearest to an axis, or shortest,
-** become a box.
+** become a box, or go into the ellipsoid.
 */
-#include "proof.h"
+#include "ellipsoid.h"
 #include "quartic.h"
+
+#define KEPT 0.001 /* of all scores: a column that is kept beside the ellipsoid */
 
 /* -- the polynomials */
 
@@ -64,27 +66,53 @@ double close_through(const zono *z, const double *y) {
   for (uint32_t c = 0; c < z->ngen; c++) sum += fabs(to[c]);
   for (uint32_t k = 0; k < z->nx; k++)
     if (z->E[k] > 0) sum += fabs(y[k]) * quartic_size(z, k) / z->E[k];
-  return sum;
+  return sum + ellipsoid_through(z, y);
 }
 
-/* columns [ngen] at p->columns; box += mixed terms and rounding */
+/* What datum j makes of generators goes into the ellipsoid, direction by direction. */
+static void move_by(zono *z, uint32_t j) {
+  proof *p = z->proof;
+  const shape *s = &z->shape;
+  uint32_t nx = z->nx, n = z->ngen;
+  double *to = p->ellipsoid->mixed, *v = p->grow, any = 0;
+  size_t at = s->mix + (size_t)j * nx;
+  for (uint32_t i = 0; i < nx; i++)
+    for (uint32_t k = 0; k < nx; k++) any += fabs(p->end[(size_t)i * s->stride + at + k]);
+  if (any == 0) return;
+  for (uint32_t i = 0; i < nx; i++) through(z, p->end + (size_t)i * s->stride + at, to + (size_t)i * n);
+  for (uint32_t c = 0; c < n; c++) {
+    for (uint32_t i = 0; i < nx; i++) v[i] = to[(size_t)i * n + c];
+    ellipsoid_add(z, v, FROM_MIXED);
+  }
+}
+
+/* a bound of what the data make of old errors of state i, y its row */
+static double mixed_size(const zono *z, const double *y) {
+  double mixed = 0;
+  for (uint32_t j = 0; j < z->shape.mixed; j++) mixed += close_through(z, y + z->shape.mix + (size_t)j * z->nx);
+  return mixed * ABOVE;
+}
+
+/* columns [ngen] at p->columns; box or ellipsoid += mixed terms; box += rounding */
 static void move_generators(zono *z) {
   proof *p = z->proof;
   const shape *s = &z->shape;
   double *moved = p->turned + (size_t)z->nx * z->ngen;
   turn(z);
+  ellipsoid_begin(z, p->end);
+  int is_used = p->ellipsoid->is_used;
+  for (uint32_t j = 0; j < s->mixed && is_used; j++) move_by(z, j);
+  ellipsoid_move(z, p->end);
   memcpy(p->origin, p->from, z->ngen);
   for (uint32_t i = 0; i < z->nx; i++) {
     const double *y = p->end + (size_t)i * s->stride;
-    double mixed = 0;
-    for (uint32_t j = 0; j < s->mixed; j++) mixed += close_through(z, y + s->mix + (size_t)j * z->nx);
+    if (!is_used) *box(z, FROM_MIXED, i) += mixed_size(z, y);
     for (uint32_t k = 0; k < z->nx; k++) p->grow[k] = z->E[k] > 0 ? y[s->eps + k] / z->E[k] : 0;
     quartic_move(z, i, p->grow);
     through(z, y + s->eps, moved);
     for (uint32_t c = 0; c < z->ngen; c++) p->columns[(size_t)c * z->nx + i] = moved[c];
     /* E is rounded up, so sums of |G| / E, with those of terms of degree 4, are at most 1 */
     double rounded = 2 * (z->nx + 4) * UNIT * (row_r(s, y) + row_x(s, y));
-    *box(z, FROM_MIXED, i) += mixed * ABOVE;
     *box(z, FROM_START, i) += rounded;
   }
 }
@@ -125,7 +153,7 @@ static void find_scores(const zono *z, uint32_t n) {
       double u = fabs(g[i]) / p->spread[i];
       sum += u, most = fmax(most, u);
     }
-    p->score[c] = sum - most;
+    p->score[c] = p->ellipsoid->is_used ? sum : sum - most; /* nothing is gained by being near an axis */
   }
 }
 
@@ -161,25 +189,34 @@ static uint32_t put_box(zono *z, uint32_t kept) {
   return kept;
 }
 
+/* the score from which on a column is kept beside the ellipsoid, which holds many small ones as well */
+static double matters(const zono *z, uint32_t n) {
+  double sum = 0;
+  for (uint32_t c = 0; c < n; c++) sum += z->proof->score[c];
+  return KEPT * sum;
+}
+
 /* G := the columns that count most, and the box with all others */
 static void reduce(zono *z, uint32_t n) {
   proof *p = z->proof;
   uint32_t nx = z->nx, room = z->ngen_max - nx, kept = 0;
   double least = -1;
   find_spread(z, n);
+  if (n > room || p->ellipsoid->is_used) find_scores(z, n);
   if (n > room) {
-    find_scores(z, n);
     memcpy(p->sorted, p->score, n * sizeof(double));
     least = ranked(p->sorted, n, room - 1);
   }
+  if (p->ellipsoid->is_used) least = fmax(least, matters(z, n));
   for (uint32_t c = 0; c < n; c++) {
     const double *g = p->columns + (size_t)c * nx;
     if (kept < room && (least < 0 || p->score[c] >= least)) {
       p->from[kept] = p->origin[c];
       memcpy(z->G + (size_t)kept++ * nx, g, nx * sizeof *g);
     } else
-      for (uint32_t i = 0; i < nx; i++) *box(z, p->origin[c], i) += fabs(g[i]);
+      ellipsoid_add(z, g, p->origin[c]);
   }
+  ellipsoid_finish(z);
   z->ngen = put_box(z, kept);
 }
 
@@ -187,7 +224,7 @@ static void find_sizes(zono *z) {
   for (uint32_t i = 0; i < z->nx; i++) {
     double sum = 0;
     for (uint32_t c = 0; c < z->ngen; c++) sum += fabs(z->G[(size_t)c * z->nx + i]);
-    z->E[i] = (sum + quartic_size(z, i)) * ABOVE;
+    z->E[i] = (sum + quartic_size(z, i) + ellipsoid_size(z, i)) * ABOVE;
   }
 }
 

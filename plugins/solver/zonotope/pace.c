@@ -12,6 +12,7 @@
 #define GROWTH 2.0     /* of the rate over a step; */
 #define LESS 1.25      /* where lumps matter so much that quartic.c is at work: it knows them at one time of the step */
 #define FROM_REST 1e-4 /* most that a step may add, as a share of a state that starts at 0 */
+#define OF_SET 0.03    /* or of its set: terms of higher degree in the data are some part of it from the start */
 #define SHARE 0.001    /* of its set: what a state may be widened by in a whole run without more ado; */
 #define MANY 20.0      /* data; of fewer, triples cost less, by the cube, and that much less is given away */
 #define FADED 0.1      /* of a set that was larger once, as if it still were so large */
@@ -63,12 +64,12 @@ static double share_of(const zono *z, double size, double set) {
 ** and of a state that starts at 0 for all data, whose terms of higher degree come up as the state does. Of more than a
 ** small part of the state it is not: orders in time that are missing come up with it as well. */
 static int is_of_like_order(const zono *z, uint32_t i, double length, double rate, double half) {
-  double size, set, size_half, start;
+  double size, set, size_half, set_half, start;
   find_sizes(z, i, 0, &start, &set);
   find_sizes(z, i, length, &size, &set);
   if (set > NARROW * size && start > 0) return 0;
-  find_sizes(z, i, 0.5 * length, &size_half, &set);
-  return length * rate <= FROM_REST * size && rate * size_half <= 2 * half * size;
+  find_sizes(z, i, 0.5 * length, &size_half, &set_half);
+  return length * rate <= fmax(FROM_REST * size, OF_SET * set) && rate * size_half <= 2 * half * size;
 }
 
 /* What is added to a state at such a rate for the whole run is a small part of its set, now or at its widest. */

@@ -173,6 +173,17 @@ static void add_product(const zono *z, double *to, const double *by, const doubl
   }
 }
 
+/* at most |sum_k by_k P_4,k| */
+double quartic_through(zono *z, const double *by) {
+  quartic *q = z->proof->quartic;
+  double size = 0;
+  if (q->n == 0) return 0;
+  memset(q->product, 0, q->length * sizeof *q->product);
+  add_product(z, q->product, by, q->term);
+  for (uint32_t k = 0; k < z->nx; k++) size += fabs(by[k]) * q->size[k];
+  return (sizes(q->product, q->length) + (2.0 * z->nx + 8) * UNIT * size) * ABOVE;
+}
+
 void quartic_move(zono *z, uint32_t i, const double *by) {
   quartic *q = z->proof->quartic;
   if (q->n == 0) return;

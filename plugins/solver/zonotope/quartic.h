@@ -59,6 +59,8 @@ const double *quartic_near(const zono *z, uint32_t i, uint32_t n);
 double quartic_sum(const zono *z, uint32_t i);
 /* sum of sizes of terms of state i */
 double quartic_size(const zono *z, uint32_t i);
+/* at most |sum_k by_k P_4,k|, by [nx] */
+double quartic_through(zono *z, const double *by);
 /* terms of state i at the end of the step: by [nx], what one of each state makes */
 void quartic_move(zono *z, uint32_t i, const double *by);
 /* adds the sum of this step: by [nx], what one of each x' makes; reach: its bound. Returns what is rounded. */

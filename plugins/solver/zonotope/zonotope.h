@@ -1,8 +1,8 @@
 /* zonotope.h -- what the files of the zonotope solver share.
 **
-** The set at time t is { P(xi) + P_4(xi) + G rho : xi in [-1, 1]^m, rho in [-1, 1]^ngen }: P a polynomial of degree 3
-** in the data, P_4 terms of degree 4 (quartic.c), G generators. For one step (P_4 + G rho)_i is written E_i eps_i,
-** |eps_i| <= 1.
+** The set at time t is { P(xi) + P_4(xi) + G rho + e : xi in [-1, 1]^m, rho in [-1, 1]^ngen, e in an ellipsoid }: P a
+** polynomial of degree 3 in the data, P_4 terms of degree 4 (quartic.c), G generators; ellipsoid.c has the ellipsoid.
+** For one step (P_4 + G rho + e)_i is written E_i eps_i, |eps_i| <= 1.
 **
 ** Phase 1 (series.c, implicit.c, functions.c) finds rows V_jk, k <= K, for every slot j of the tape, such that
 ** V_j(s) = sum_k V_jk s^k nearly satisfies the equations. It is plain arithmetic in doubles and proves nothing. Phase 2
@@ -93,7 +93,7 @@ typedef struct zono {
   double *start_p, *start_p_rad; /* [np x stride] [np] of parameters */
   double *p_row, *p_rad;         /* [np x stride] [np] parameters: rows and what is left */
   double *P;                     /* [nx x stride] rows without eps */
-  double *E;                     /* [nx] half widths of P_4 + G rho, rounded up */
+  double *E;                     /* [nx] half widths of P_4 + G rho + e, rounded up */
   double *G;                     /* [(ngen_max + nx) x nx] column c at G + c nx */
   uint32_t ngen, ngen_max;
   /* -- the step: from t, h long (negative: backwards); s in [0, h] */
