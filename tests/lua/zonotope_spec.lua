@@ -381,7 +381,7 @@ end } }
 
   it("follows lightly damped oscillators whose springs are known worse than their damping allows", function()
     -- two masses 1 between walls: x1 + x2 and x1 - x2 oscillate alone, with k and k + 2 c
-    local k, c, d = between(97, 103), between(39, 41), between("0.38", "0.42")
+    local k, c, d = between(97, 103), between(39, 41), between("0.95", "1.05")
     local pair = ambit.ode { states = { "x", "v", "y", "w" }, equations = function(s)
       local pull = c * (s.x - s.y)
       return { x = s.v, v = -k * s.x - pull - d * s.v, y = s.w, w = -k * s.y + pull - d * s.w }
@@ -397,7 +397,7 @@ end } }
       for b = 0, 2 do
         for n = 2, #times do
           local k1, c1, t = 97 + a, 39 + b, times[n]
-          local d1 = (a + b) % 2 == 0 and 0.38 or 0.42
+          local d1 = (a + b) % 2 == 0 and 0.95 or 1.05
           local sum, difference = mode(k1, d1, t), mode(k1 + 2 * c1, d1, t)
           local set = run:at(t)
           assert.is_true(set.x:contains((sum + difference) / 2), t)
@@ -405,6 +405,6 @@ end } }
         end
       end
     end
-    assert.is_true(run.x.x:width() < 1)
+    assert.is_true(run.x.x:width() < 0.01) -- in generators alone: 0.024
   end)
 end)
