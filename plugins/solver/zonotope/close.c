@@ -3,12 +3,13 @@
 ** x(h) = Y(xi) + Y_eps eps + sum_j xi_j Y_j eps + z(h). Old generators move with Y_eps / E; what the mixed terms do to
 ** them is bounded column by column and put into a box, with rounding. What z(h) adds is in distance.c. Then generators
 ** are reduced [Girard 2005]: in units of the states' sizes, the columns that are nearest to an axis, or shortest,
-** become a box, or go into the ellipsoid.
+** become a box.
 */
-#include "ellipsoid.h"
+#include "modes.h"
+#include "proof.h"
 #include "quartic.h"
 
-#define KEPT 0.001 /* of all scores: a column that is kept beside the ellipsoid */
+#define FEW 4 /* columns for each state, beside discs */
 
 /* -- the polynomials */
 
@@ -38,83 +39,24 @@ static void find_end(zono *z) {
 
 /* -- old generators */
 
-/* p->turned := G, state by state, in units of E */
-static void turn(zono *z) {
-  proof *p = z->proof;
-  uint32_t n = z->ngen;
-  for (uint32_t i = 0; i < z->nx; i++) {
-    double scale = z->E[i] > 0 ? 1 / z->E[i] : 0, *to = p->turned + (size_t)i * n;
-    for (uint32_t c = 0; c < n; c++) to[c] = z->G[(size_t)c * z->nx + i] * scale;
-  }
-}
-
-/* to := y G / E, column by column */
-static void through(const zono *z, const double *y, double *to) {
-  const proof *p = z->proof;
-  uint32_t n = z->ngen;
-  memset(to, 0, n * sizeof *to);
-  for (uint32_t k = 0; k < z->nx; k++) {
-    const double *from = p->turned + (size_t)k * n;
-    if (y[k] == 0) continue;
-    for (uint32_t c = 0; c < n; c++) to[c] += y[k] * from[c];
-  }
-}
-
-double close_through(const zono *z, const double *y) {
-  double *to = z->proof->turned + (size_t)z->nx * z->ngen, sum = 0;
-  through(z, y, to);
-  for (uint32_t c = 0; c < z->ngen; c++) sum += fabs(to[c]);
-  for (uint32_t k = 0; k < z->nx; k++)
-    if (z->E[k] > 0) sum += fabs(y[k]) * quartic_size(z, k) / z->E[k];
-  return sum + ellipsoid_through(z, y);
-}
-
-/* What datum j makes of generators goes into the ellipsoid, direction by direction. */
-static void move_by(zono *z, uint32_t j) {
-  proof *p = z->proof;
-  const shape *s = &z->shape;
-  uint32_t nx = z->nx, n = z->ngen;
-  double *to = p->ellipsoid->mixed, *v = p->grow, any = 0;
-  size_t at = s->mix + (size_t)j * nx;
-  for (uint32_t i = 0; i < nx; i++)
-    for (uint32_t k = 0; k < nx; k++) any += fabs(p->end[(size_t)i * s->stride + at + k]);
-  if (any == 0) return;
-  for (uint32_t i = 0; i < nx; i++) through(z, p->end + (size_t)i * s->stride + at, to + (size_t)i * n);
-  for (uint32_t c = 0; c < n; c++) {
-    for (uint32_t i = 0; i < nx; i++) v[i] = to[(size_t)i * n + c];
-    ellipsoid_add(z, v, FROM_MIXED);
-  }
-}
-
-/* a bound of what the data make of old errors of state i, y its row */
-static double mixed_size(const zono *z, const double *y) {
-  double mixed = 0;
-  for (uint32_t j = 0; j < z->shape.mixed; j++) mixed += close_through(z, y + z->shape.mix + (size_t)j * z->nx);
-  return mixed * ABOVE;
-}
-
-/* columns [ngen] at p->columns; box or ellipsoid += mixed terms; box += rounding */
-static void move_generators(zono *z) {
+/* columns [ngen] at p->columns, and those of mixed terms; box += what these leave, and rounding. Their number. */
+static uint32_t move_generators(zono *z) {
   proof *p = z->proof;
   const shape *s = &z->shape;
   double *moved = p->turned + (size_t)z->nx * z->ngen;
-  turn(z);
-  ellipsoid_begin(z, p->end);
-  int is_used = p->ellipsoid->is_used;
-  for (uint32_t j = 0; j < s->mixed && is_used; j++) move_by(z, j);
-  ellipsoid_move(z, p->end);
+  mixed_prepare(z);
   memcpy(p->origin, p->from, z->ngen);
   for (uint32_t i = 0; i < z->nx; i++) {
     const double *y = p->end + (size_t)i * s->stride;
-    if (!is_used) *box(z, FROM_MIXED, i) += mixed_size(z, y);
     for (uint32_t k = 0; k < z->nx; k++) p->grow[k] = z->E[k] > 0 ? y[s->eps + k] / z->E[k] : 0;
     quartic_move(z, i, p->grow);
-    through(z, y + s->eps, moved);
+    mixed_through(z, y + s->eps, moved);
     for (uint32_t c = 0; c < z->ngen; c++) p->columns[(size_t)c * z->nx + i] = moved[c];
     /* E is rounded up, so sums of |G| / E, with those of terms of degree 4, are at most 1 */
     double rounded = 2 * (z->nx + 4) * UNIT * (row_r(s, y) + row_x(s, y));
     *box(z, FROM_START, i) += rounded;
   }
+  return mixed_add(z, z->ngen);
 }
 
 /* -- reduction */
@@ -153,7 +95,7 @@ static void find_scores(const zono *z, uint32_t n) {
       double u = fabs(g[i]) / p->spread[i];
       sum += u, most = fmax(most, u);
     }
-    p->score[c] = p->ellipsoid->is_used ? sum : sum - most; /* nothing is gained by being near an axis */
+    p->score[c] = sum - most;
   }
 }
 
@@ -189,34 +131,30 @@ static uint32_t put_box(zono *z, uint32_t kept) {
   return kept;
 }
 
-/* the score from which on a column is kept beside the ellipsoid, which holds many small ones as well */
-static double matters(const zono *z, uint32_t n) {
-  double sum = 0;
-  for (uint32_t c = 0; c < n; c++) sum += z->proof->score[c];
-  return KEPT * sum;
-}
-
-/* G := the columns that count most, and the box with all others */
+/* G := the columns that count most; all others and the box go into discs, or into the box. Discs need few columns. */
 static void reduce(zono *z, uint32_t n) {
   proof *p = z->proof;
-  uint32_t nx = z->nx, room = z->ngen_max - nx, kept = 0;
+  uint32_t nx = z->nx, room = z->ngen_max - nx, kept = 0, left = 0;
+  if (z->modes->now.any && FEW * nx < room) room = FEW * nx;
   double least = -1;
   find_spread(z, n);
-  if (n > room || p->ellipsoid->is_used) find_scores(z, n);
   if (n > room) {
+    find_scores(z, n);
     memcpy(p->sorted, p->score, n * sizeof(double));
     least = ranked(p->sorted, n, room - 1);
   }
-  if (p->ellipsoid->is_used) least = fmax(least, matters(z, n));
   for (uint32_t c = 0; c < n; c++) {
     const double *g = p->columns + (size_t)c * nx;
     if (kept < room && (least < 0 || p->score[c] >= least)) {
       p->from[kept] = p->origin[c];
       memcpy(z->G + (size_t)kept++ * nx, g, nx * sizeof *g);
-    } else
-      ellipsoid_add(z, g, p->origin[c]);
+    } else {
+      memmove(p->columns + (size_t)left * nx, g, nx * sizeof *g);
+      p->origin[left++] = p->origin[c];
+    }
   }
-  ellipsoid_finish(z);
+  for (uint32_t c = 0; c < left; c++) discs_put(z, p->columns + (size_t)c * nx, p->origin[c]);
+  discs_finish(z);
   z->ngen = put_box(z, kept);
 }
 
@@ -224,7 +162,7 @@ static void find_sizes(zono *z) {
   for (uint32_t i = 0; i < z->nx; i++) {
     double sum = 0;
     for (uint32_t c = 0; c < z->ngen; c++) sum += fabs(z->G[(size_t)c * z->nx + i]);
-    z->E[i] = (sum + quartic_size(z, i) + ellipsoid_size(z, i)) * ABOVE;
+    z->E[i] = (sum + quartic_size(z, i) + discs_width(z, i)) * ABOVE;
   }
 }
 
@@ -233,8 +171,9 @@ void zono_finish(zono *z) {
   const shape *s = &z->shape;
   memset(p->boxes, 0, ORIGINS * (size_t)z->nx * sizeof(double));
   find_end(z);
-  move_generators(z);
-  uint32_t n = distance_add(z, z->ngen);
+  discs_move(z);
+  uint32_t n = move_generators(z);
+  n = distance_add(z, n);
   quartic_finish(z);
   reduce(z, n);
   for (uint32_t i = 0; i < z->nx; i++) {

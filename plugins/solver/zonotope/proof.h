@@ -26,6 +26,13 @@ typedef struct sweeps {
   double *scratch; /* [(na + 4)] forms */
 } sweeps;
 
+/* axes for columns, which are columns among them: column c = sum_k part_ck axis_k + rest */
+typedef struct frame {
+  uint32_t rank, *axis;        /* [rank] numbers of columns */
+  double *part;                /* [n x nx], rank of each nx */
+  double *deflated, *q, *unit; /* [n x nx] [nx] [nx] */
+} frame;
+
 /* what a generator, or what went into a box, comes from */
 enum origin {
   FROM_START,    /* rounding of the initial values and of the polynomials */
@@ -64,27 +71,32 @@ typedef struct proof {
   double *mean, *tilt, *reach, *wobble;                        /* [nx x nx] of K(s) = e^(J (h - s)), see kernel.c */
   double *power, *power_new, *size, *size_new, *jacobian_size; /* [nx x nx] */
   double *grow, *grow_path;                                    /* [nx] per state: sums for bounds */
-  double *columns;                                             /* [(ngen_max + 2 (nslot + nout) + nx) x nx] */
-  double *turned;              /* [nx x (ngen_max + 4)] old generators, state by state */
-  double *score, *sorted;      /* one of each column */
-  double *end;                 /* [nx x stride] rows at the end of the step */
-  double *spread;              /* [nx] sizes of states' sets, for weights */
-  double *largest;             /* [nx] of these, of the whole run */
-  double *budget;              /* [nx] rates at which each state may be widened: pace.c */
-  double *worth, usual;        /* parts.c: [3 nx]; length of steps */
-  double *unit;                /* [nx] of the states, for norms */
-  double *work;                /* [4 nx + na] */
-  double paced;                /* what pace.c chose for the last step */
-  uint32_t time_order;         /* in time, where there are no data */
-  double rho_before;           /* of a longer step that was tried; 0: none */
-  uint32_t patience;           /* steps that are not halved for it */
-  int prepared;                /* total and drop are those of the rows */
-  double *boxes;               /* [ORIGINS x nx] what goes into the box */
-  uint8_t *origin, *from;      /* of columns, of z->G */
-  struct quartic *quartic;     /* quartic.c */
-  struct ellipsoid *ellipsoid; /* ellipsoid.c */
-  double *late;                /* [nslot] what of z->r is FROM_TIME */
-  double *range;               /* [2 m] */
+  double *columns;                                             /* [(ngen_max + 2 (nslot + nout) + nx + 2 m) x nx] */
+  double *turned; /* [nx x (ngen_max + 4)] old generators, state by state */
+  double *moves;  /* [nx x (nx + 3)] mixed.c */
+  frame frame;
+  double *score, *sorted;  /* one of each column */
+  double *end;             /* [nx x stride] rows at the end of the step */
+  double *spread;          /* [nx] sizes of states' sets, for weights */
+  double *largest;         /* [nx] of these, of the whole run */
+  double *budget;          /* [nx] rates at which each state may be widened: pace.c */
+  double *worth, usual;    /* parts.c: [3 nx]; length of steps */
+  double *unit;            /* [nx] of the states, for norms */
+  double *work;            /* [4 nx + na] */
+  double paced;            /* what pace.c chose for the last step */
+  uint32_t time_order;     /* in time, where there are no data */
+  double rho_before;       /* of a longer step that was tried; 0: none */
+  uint32_t patience;       /* steps that are not halved for it */
+  int prepared;            /* total and drop are those of the rows */
+  double *boxes;           /* [ORIGINS x nx] what goes into the box */
+  uint8_t *origin, *from;  /* of columns, of z->G */
+  struct quartic *quartic; /* quartic.c */
+  double *late;            /* [nslot] what of z->r is FROM_TIME */
+  double *lumped;          /* [(nslot + nout) x nx] coefficients of lumps, by their weights: distance.c */
+  struct lump *lump_size;  /* [nslot + nout]; and weights */
+  double *lump_weight;
+  uint8_t *lump_from; /* [nslot + nout] */
+  double *range;      /* [2 m] */
   /* records */
   double *dense_mid, *dense_rad, *dense_column;
   ambit_set set;
@@ -112,8 +124,18 @@ void parts_choose(zono *z);
 /* set.c, dense.c; 0: no memory */
 int set_open(zono *z);
 int dense_open(zono *z);
-/* close.c: a bound of sum_k y_k eps_k, column by column; after old generators were moved */
-double close_through(const zono *z, const double *y);
+/* mixed.c: prepares what follows, from G and E; */
+void mixed_prepare(zono *z);
+/* to [ngen] := sum_k y_k eps_k, column by column; */
+void mixed_through(const zono *z, const double *y, double *to);
+/* a bound of it, with terms of degree 4 and discs; */
+double mixed_size(const zono *z, const double *y);
+/* what the mixed terms do: columns from number `at` on, and the box of what they leave; returns the number of
+** columns */
+uint32_t mixed_add(zono *z, uint32_t at);
+/* frame.c: axes for n columns of nx; rest [nx] := a bound of what is left of column c */
+void frame_find(frame *f, uint32_t nx, uint32_t n, const double *columns);
+void frame_rest(const frame *f, uint32_t nx, uint32_t c, const double *columns, double *rest);
 /* distance.c: columns from number `at` on, and the box of what they do not hold; returns the number of columns */
 uint32_t distance_add(zono *z, uint32_t at);
 /* kernel.c: mean, reach, wobble from J and |h|; 0: too long */

@@ -4,8 +4,8 @@
 ** length (defect.c), how far solutions can be from the rows (zono_prove), and the set at the end (zono_finish). Where
 ** the proof fails the step is made shorter with the same rows.
 */
-#include "ellipsoid.h"
 #include "kink.h"
+#include "proof.h"
 #include <ambit/code.h>
 #include <stdio.h>
 
@@ -113,7 +113,6 @@ static void work(zono *z) {
   uint32_t slow = 0;
   double most = 0;
   zono_start(z);
-  ellipsoid_start(z);
   zono_hull(z);
   for (uint32_t i = 0; i < z->nx; i++)
     z->limit[i] = z->options.width_max * fmax(1, fmax(fabs(z->lo[i]), fabs(z->hi[i])));

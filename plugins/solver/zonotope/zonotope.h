@@ -1,8 +1,8 @@
 /* zonotope.h -- what the files of the zonotope solver share.
 **
-** The set at time t is { P(xi) + P_4(xi) + G rho + e : xi in [-1, 1]^m, rho in [-1, 1]^ngen, e in an ellipsoid }: P a
-** polynomial of degree 3 in the data, P_4 terms of degree 4 (quartic.c), G generators; ellipsoid.c has the ellipsoid.
-** For one step (P_4 + G rho + e)_i is written E_i eps_i, |eps_i| <= 1.
+** The set at time t is { P(xi) + P_4(xi) + G rho + e : xi in [-1, 1]^m, rho in [-1, 1]^ngen, e in discs of this xi }: P
+** a polynomial of degree 3 in the data, P_4 terms of degree 4 (quartic.c), G generators; discs.c has the discs. For one
+** step (P_4 + G rho + e)_i is written E_i eps_i, |eps_i| <= 1.
 **
 ** Phase 1 (series.c, implicit.c, functions.c) finds rows V_jk, k <= K, for every slot j of the tape, such that
 ** V_j(s) = sum_k V_jk s^k nearly satisfies the equations. It is plain arithmetic in doubles and proves nothing. Phase 2
@@ -85,6 +85,7 @@ typedef struct zono {
   double *inverse;       /* [ninverse x stride] */
   uint32_t *has_inverse; /* [ninstr] number of the inverse + 1, 0: none */
   struct kinks *kinks;   /* kink.c */
+  struct modes *modes;   /* modes.c */
   /* -- the set */
   uint32_t *unknown;             /* [m] which of the problem's unknowns datum j is; AMBIT_NO_SLOT: the solver's own */
   double *about, *scale;         /* [m] datum j is about_j + scale_j xi_j; 0 and 1 of the solver's own */

@@ -18,7 +18,6 @@ local chosen = tolerances[what]
 if chosen then for name, value in pairs(own) do chosen[name] = value end end
 local arm = ambit.load {
   (arg[0]:match ".*/" or "./") .. "../../robots/ur5.urdf", gravity = { 0, 0, "-9.81" }, tolerances = chosen,
-  physical = what ~= "components", -- one by one, moments of inertia of the last link leave what a body can have
   physical = what ~= "components", -- independent moments of the thin last link break the triangle inequality
 }
 

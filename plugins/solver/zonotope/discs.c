@@ -1,0 +1,174 @@
+/* discs.c -- errors in discs along modes, from the start of a step to its end.
+**
+** The set has { Re((V + sum_j xi_j U_j) w) : |w_k| <= b_k } besides. map.c has what a step makes of it. What the step
+** adds goes in by W, about the inverse of V, and what V W leaves of it into the box. Since discs lie along V + sum_j
+** xi_j U_j, U_j = V T_j, it is enlarged for that: V w = (V + sum_j xi_j U_j) u for some u if b_k >= |w_k| + sum_l
+** tilt_kl b_l.
+*/
+#include "modes.h"
+#include "proof.h"
+
+#define WAIT 16 /* steps until discs are tried again */
+
+/* -- what goes into discs besides */
+
+/* m->in += |W x| by, m->box += |x - V W x| by; x [nx] */
+static void put(zono *z, const number *x, double by) {
+  modes *m = z->modes;
+  uint32_t n = z->nx;
+  number *c = (number *)(void *)m->work;
+  for (uint32_t k = 0; k < n; k++) {
+    c[k] = 0;
+    for (uint32_t i = 0; i < n; i++) c[k] += m->now.W[k * n + i] * x[i];
+    m->in[k] += cabs(c[k]) * by * ABOVE;
+  }
+  for (uint32_t i = 0; i < n; i++) {
+    number left = x[i];
+    double size = cabs(x[i]);
+    for (uint32_t k = 0; k < n; k++) {
+      number part = m->now.V[i * n + k] * c[k];
+      left -= part, size += cabs(part);
+    }
+    m->box[i] += by * (cabs(left) + 8 * (n + 4) * UNIT * size) * ABOVE;
+  }
+}
+
+void discs_put(zono *z, const double *x, enum origin from) {
+  modes *m = z->modes;
+  number *copy = m->A;
+  for (uint32_t i = 0; i < z->nx; i++) {
+    copy[i] = x[i];
+    if (!m->now.any) *box(z, from, i) += fabs(x[i]);
+  }
+  if (m->now.any) put(z, copy, 1);
+}
+
+/* -- the movement */
+
+/* the discs of the start into the box, as the step moves them */
+static void dissolve(zono *z) {
+  modes *m = z->modes;
+  uint32_t n = z->nx;
+  double *y = m->work;
+  for (uint32_t i = 0; i < n; i++) {
+    const double *end = z->proof->end + (size_t)i * z->shape.stride;
+    memcpy(y, end + z->shape.eps, n * sizeof *y);
+    m->box[i] += discs_size(z, y);
+    for (uint32_t j = 0; j < z->shape.mixed; j++) m->box[i] += discs_size(z, end + z->shape.mix + (size_t)j * n);
+  }
+}
+
+static void copy_axes(const zono *z, const discs *from, discs *to) {
+  size_t square = (size_t)z->nx * z->nx, mixed = z->shape.mixed * square;
+  memcpy(to->V, from->V, square * sizeof(number)), memcpy(to->W, from->W, square * sizeof(number));
+  memcpy(to->U, from->U, mixed * sizeof(number)), memcpy(to->T, from->T, mixed * sizeof(number));
+  memcpy(to->S, from->S, square * sizeof(double)), memcpy(to->tilt, from->tilt, square * sizeof(double));
+}
+
+/* discs that are empty, as the step would move them: are they of use? */
+static int are_of_use(zono *z) {
+  modes *m = z->modes;
+  if (!worth_enclosing(z)) return 0;
+  copy_axes(z, &m->now, &m->old);
+  memset(m->old.b, 0, z->nx * sizeof *m->old.b);
+  map_discs(z);
+  return worth_keeping(z);
+}
+
+void discs_move(zono *z) {
+  modes *m = z->modes;
+  uint32_t n = z->nx;
+  discs last = m->old;
+  m->old = m->now, m->now = last;
+  memset(m->in, 0, n * sizeof *m->in), memset(m->box, 0, n * sizeof *m->box);
+  memset(m->now.b, 0, n * sizeof *m->now.b);
+  m->now.any = 0;
+  if (m->old.any) {
+    m->now.any = !m->is_bad && modes_find(z);
+    if (!m->now.any) {
+      dissolve(z), m->wait = WAIT;
+      return;
+    }
+    map_discs(z);
+    m->is_bad = !worth_keeping(z);
+  } else if (m->wait > 0)
+    m->wait--;
+  else if (z->m > 0) {
+    m->now.any = worth_trying(z) && modes_find(z) && are_of_use(z);
+    m->is_bad = 0, m->wait = WAIT;
+  }
+}
+
+/* -- sizes */
+
+double discs_size(const zono *z, const double *y) {
+  const discs *d = &z->modes->old;
+  uint32_t n = z->nx;
+  double all = 0;
+  for (uint32_t k = 0; k < n && d->any; k++) {
+    number sum = 0;
+    double size = 0, turned = 0;
+    if (d->b[k] == 0) continue;
+    for (uint32_t l = 0; l < n; l++) {
+      double by = z->E[l] > 0 ? y[l] / z->E[l] : 0;
+      number part = by * d->V[l * n + k];
+      sum += part, size += cabs(part), turned += fabs(by) * d->S[l * n + k];
+    }
+    all += (cabs(sum) + 8 * (n + 4) * UNIT * size + turned) * d->b[k];
+  }
+  return all * ABOVE;
+}
+
+double discs_width(const zono *z, uint32_t i) {
+  const discs *d = &z->modes->now;
+  double sum = 0;
+  for (uint32_t k = 0; k < z->nx && d->any; k++) {
+    size_t e = (size_t)i * z->nx + k;
+    sum += (cabs(d->V[e]) + d->S[e]) * d->b[k];
+  }
+  return sum * ABOVE;
+}
+
+/* in := u >= in + tilt u; 0: none found */
+static int close_turns(zono *z) {
+  modes *m = z->modes;
+  uint32_t n = z->nx;
+  double *u = m->work, *next = u + n;
+  memcpy(u, m->in, n * sizeof *u);
+  for (int turn = 0; turn < 60; turn++) {
+    int is_closed = 1;
+    for (uint32_t k = 0; k < n; k++) {
+      next[k] = m->in[k];
+      for (uint32_t l = 0; l < n; l++) next[k] += m->now.tilt[(size_t)k * n + l] * u[l];
+      next[k] *= ABOVE;
+      if (!(next[k] <= u[k])) is_closed = 0;
+    }
+    if (is_closed) {
+      memcpy(m->in, u, n * sizeof *u);
+      return 1;
+    }
+    for (uint32_t k = 0; k < n; k++) u[k] = next[k] * (1 + 1e-3);
+  }
+  return 0;
+}
+
+void discs_finish(zono *z) {
+  modes *m = z->modes;
+  uint32_t n = z->nx;
+  for (uint32_t i = 0; i < n && m->now.any; i++) {
+    number *x = m->A;
+    double sum = 0;
+    for (uint32_t o = 0; o < ORIGINS; o++) sum += *box(z, o, i), *box(z, o, i) = 0;
+    if (sum == 0) continue;
+    memset(x, 0, n * sizeof *x), x[i] = 1;
+    put(z, x, sum * ABOVE);
+  }
+  if (m->now.any && close_turns(z))
+    for (uint32_t k = 0; k < n; k++) m->now.b[k] += m->in[k] * ABOVE;
+  for (uint32_t i = 0; i < n; i++) {
+    double rounding = LEAST; /* U_j is V T_j but for it */
+    for (uint32_t l = 0; l < n && m->now.any; l++)
+      for (uint32_t k = 0; k < n; k++) rounding += cabs(m->now.V[i * n + l]) * m->now.tilt[l * n + k] * m->now.b[k];
+    *box(z, FROM_MIXED, i) += (m->box[i] + 8 * (n + 4) * UNIT * rounding) * ABOVE;
+  }
+}

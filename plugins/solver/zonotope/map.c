@@ -1,0 +1,164 @@
+/* map.c -- what a step makes of discs.
+**
+** With Y + sum_j xi_j M_j the map of the step, V and U_j = V T_j at its start, V', W', T'_j at its end and any matrices
+** C, D_j, S_ij,
+**   (Y + sum xi_j M_j) (V + sum xi_j U_j) = V' (I + sum xi_j T'_j) (C + sum xi_j D_j + sum xi_i xi_j S_ij) + R(xi),
+** and |(C + sum xi_j D_j + sum xi_i xi_j S_ij) w| bounds the new discs. R is bounded from what multiplying out leaves:
+** R_0 = Y V - V' C, R_j = M_j V + Y U_j - V' (T'_j C + D_j), R_ij = M_i U_j - V' (T'_i D_j + S_ij), and products of
+** three data by size. C, D_j and S_ij are W' times what these would be without them, so they are rounding. Where only
+** frequencies depend on the data, |C_kk + sum xi_j D_j,kk + ...| is |C_kk| but for squares, and discs do not grow.
+*/
+#include "modes.h"
+#include "proof.h"
+
+#define TINY 1e-100 /* nothing is divided by less */
+
+typedef struct sizes {
+  double *terms;          /* of one sum, for its rounding */
+  double *along, *across; /* what is added to C: its real and its imaginary share by C */
+  double *G, *D, *S;      /* sum_j |G_j|, sum_j |D_j|, sum_ij |S_ij|; all sizes [nx x nx] */
+  double *slack, *work;   /* what D and S are off by */
+} sizes;
+
+/* to := Y x (j: NULL) or M_j x, x [nx x nx]; size += sizes of the terms */
+static void through(const zono *z, const uint32_t *j, const number *x, number *to, double *size) {
+  uint32_t n = z->nx;
+  for (uint32_t i = 0; i < n; i++)
+    for (uint32_t l = 0; l < n; l++) {
+      double y = j ? modes_mixed(z, *j, i, l) : modes_flow(z, i, l);
+      for (uint32_t k = 0; k < n && y != 0; k++) {
+        number part = y * x[l * n + k];
+        to[i * n + k] += part, size[i * n + k] += cabs(part);
+      }
+    }
+}
+
+/* P - V' c, its size with rounding, times b: into the box; or into `rest` */
+static void leave(zono *z, const number *P, const number *c, const double *size, double *rest) {
+  modes *m = z->modes;
+  uint32_t n = z->nx;
+  for (uint32_t i = 0; i < n; i++)
+    for (uint32_t k = 0; k < n; k++) {
+      number left = P[i * n + k];
+      double all = 2 * size[i * n + k]; /* twice: T_j is V^-1 U_j but for rounding */
+      for (uint32_t l = 0; l < n; l++) {
+        number part = m->now.V[i * n + l] * c[l * n + k];
+        left -= part, all += cabs(part);
+      }
+      double bound = (cabs(left) + 16 * (n + 4) * UNIT * all) * ABOVE;
+      if (rest)
+        rest[i * n + k] += bound;
+      else
+        m->box[i] += bound * m->old.b[k];
+    }
+}
+
+/* to [nx x nx] += a b by, for matrices of bounds */
+static void bound_product(uint32_t n, const double *a, const double *b, double by, double *to) {
+  for (uint32_t i = 0; i < n; i++)
+    for (uint32_t k = 0; k < n; k++)
+      for (uint32_t j = 0; j < n; j++) to[i * n + j] += a[i * n + k] * b[k * n + j] * by;
+}
+
+/* to [nx] += a b */
+static void add_bound(uint32_t n, const double *a, const double *b, double *to) {
+  for (uint32_t i = 0; i < n; i++) {
+    double sum = 0;
+    for (uint32_t k = 0; k < n; k++) sum += a[i * n + k] * b[k];
+    to[i] += sum * ABOVE;
+  }
+}
+
+/* x, times a symbol, beside C_e */
+static void beside(const modes *m, const sizes *s, size_t e, number x) {
+  double c = cabs(m->C[e]);
+  number by = c > TINY ? x * conj(m->C[e]) / c : cabs(x);
+  s->along[e] += fabs(creal(by)), s->across[e] += fabs(cimag(by));
+}
+
+/* C, and what it leaves */
+static void map_mean(zono *z, const sizes *s) {
+  modes *m = z->modes;
+  size_t n = z->nx, square = n * n;
+  memset(m->A, 0, square * sizeof *m->A), memset(s->terms, 0, square * sizeof *s->terms);
+  through(z, NULL, m->old.V, m->A, s->terms);
+  modes_product(n, m->now.W, m->A, m->C);
+  leave(z, m->A, m->C, s->terms, NULL);
+}
+
+/* D_j and G_j = W' M_j V, and what they leave */
+static void map_datum(zono *z, const sizes *s, uint32_t j, double *rest) {
+  modes *m = z->modes;
+  size_t n = z->nx, square = n * n;
+  number *D = m->D + j * square, *G = m->G + j * square;
+  memset(m->A, 0, square * sizeof *m->A), memset(s->terms, 0, square * sizeof *s->terms);
+  through(z, &j, m->old.V, m->A, s->terms);
+  modes_product(n, m->now.W, m->A, G);
+  leave(z, m->A, G, s->terms, rest);
+  through(z, NULL, m->old.U + j * square, m->A, s->terms);
+  modes_product(n, m->now.W, m->A, D); /* T' C + D, as one */
+  leave(z, m->A, D, s->terms, NULL);
+  modes_product(n, m->now.T + j * square, m->C, m->B);
+  for (size_t e = 0; e < square; e++) {
+    D[e] -= m->B[e];
+    beside(m, s, e, D[e]), s->D[e] += cabs(D[e]), s->G[e] += cabs(G[e]);
+  }
+}
+
+/* m->A += a b, sign 1 or -1; entries of b that are 0 cost nothing */
+static void add_product(zono *z, double sign, const number *a, const number *b) {
+  size_t n = z->nx;
+  for (size_t k = 0; k < n; k++)
+    for (size_t l = 0; l < n; l++) {
+      number x = sign * b[k * n + l];
+      for (size_t i = 0; i < n && x != 0; i++) z->modes->A[i * n + l] += a[i * n + k] * x;
+    }
+}
+
+/* S_ij, with S_ji */
+static void map_pair(zono *z, const sizes *s, uint32_t i, uint32_t j) {
+  modes *m = z->modes;
+  size_t square = (size_t)z->nx * z->nx;
+  const number *T = m->old.T, *T_new = m->now.T;
+  memset(m->A, 0, square * sizeof *m->A);
+  add_product(z, 1, m->G + i * square, T + j * square), add_product(z, -1, T_new + i * square, m->D + j * square);
+  if (i != j) add_product(z, 1, m->G + j * square, T + i * square);
+  if (i != j) add_product(z, -1, T_new + j * square, m->D + i * square);
+  for (size_t e = 0; e < square; e++) beside(m, s, e, m->A[e]), s->S[e] += cabs(m->A[e]);
+}
+
+/* along += what D and S are off by: sums are, by 16 (nx + 4) UNIT of the sum of their terms' sizes. S += its own
+** part. */
+static void add_slack(zono *z, const sizes *s) {
+  modes *m = z->modes;
+  uint32_t n = z->nx;
+  size_t square = (size_t)n * n;
+  double *of_D = s->slack, *of_S = s->terms, by = 16.0 * (n + 4) * UNIT;
+  for (size_t e = 0; e < square; e++) s->work[e] = cabs(m->C[e]), of_D[e] = by * s->D[e], of_S[e] = by * s->S[e];
+  bound_product(n, m->now.tilt, s->work, by, of_D);
+  bound_product(n, s->G, m->old.tilt, by, of_S), bound_product(n, m->now.tilt, of_D, 2, of_S);
+  for (size_t e = 0; e < square; e++) s->along[e] += of_D[e] + of_S[e], s->S[e] += of_S[e];
+}
+
+void map_discs(zono *z) {
+  modes *m = z->modes;
+  uint32_t n = z->nx, mixed = z->shape.mixed;
+  size_t square = (size_t)n * n;
+  double *work = m->work, *rest = m->rest;
+  sizes s = { work, work + square, work + 2 * square, work + 3 * square, work + 4 * square, work + 5 * square,
+    work + 6 * square, work + 7 * square };
+  memset(work, 0, 8 * square * sizeof *work), memset(rest, 0, square * sizeof *rest);
+  map_mean(z, &s);
+  for (uint32_t j = 0; j < mixed; j++) map_datum(z, &s, j, rest);
+  for (uint32_t i = 0; i < mixed; i++)
+    for (uint32_t j = i; j < mixed; j++) map_pair(z, &s, i, j);
+  add_slack(z, &s);
+  for (size_t e = 0; e < square; e++) m->growth[e] = hypot(cabs(m->C[e]) + s.along[e], s.across[e]) * ABOVE;
+  add_bound(n, m->growth, m->old.b, m->now.b);
+  double *beyond = s.work; /* (M_j V - V' G_j) T_i, and V' T'_l S_ij, of three data: along V' alone, discs_finish() */
+  memset(beyond, 0, square * sizeof *beyond);
+  bound_product(n, rest, m->old.tilt, 1, beyond), add_bound(n, beyond, m->old.b, m->box);
+  memset(beyond, 0, square * sizeof *beyond);
+  bound_product(n, m->now.tilt, s.S, 1, beyond), add_bound(n, beyond, m->old.b, m->in);
+  for (size_t e = 0; e < square; e++) m->growth[e] += beyond[e];
+}

@@ -1,0 +1,117 @@
+/* mixed.c -- how the movement of old generators depends on the data.
+**
+** The mixed terms move the states by sum_j xi_j Y_j eps. What one datum does goes few ways for the most part: a
+** stiffness acts on all states along one vector. So Y_j = sum_r u_r w_r' + R_j, crosses through the largest entries of
+** what is left, and u_r xi_j (w_r' eps) is one generator, of size |w_r' eps|. Boxed, it would move the states
+** independently of each other, and slow ones by what shakes stiff ones. What R_j makes goes into the box.
+*/
+#include "modes.h"
+#include "proof.h"
+#include "quartic.h"
+
+#define RANK 2 /* crosses of a datum */
+
+void mixed_prepare(zono *z) {
+  proof *p = z->proof;
+  uint32_t n = z->ngen;
+  for (uint32_t i = 0; i < z->nx; i++) {
+    double scale = z->E[i] > 0 ? 1 / z->E[i] : 0, *to = p->turned + (size_t)i * n;
+    for (uint32_t c = 0; c < n; c++) to[c] = z->G[(size_t)c * z->nx + i] * scale;
+  }
+}
+
+void mixed_through(const zono *z, const double *y, double *to) {
+  const proof *p = z->proof;
+  uint32_t n = z->ngen;
+  memset(to, 0, n * sizeof *to);
+  for (uint32_t k = 0; k < z->nx; k++) {
+    const double *from = p->turned + (size_t)k * n;
+    if (y[k] == 0) continue;
+    for (uint32_t c = 0; c < n; c++) to[c] += y[k] * from[c];
+  }
+}
+
+/* a bound of sum_k y_k (G rho)_k / E_k */
+static double of_generators(const zono *z, const double *y) {
+  double *to = z->proof->turned + (size_t)z->nx * z->ngen, sum = 0;
+  mixed_through(z, y, to);
+  for (uint32_t c = 0; c < z->ngen; c++) sum += fabs(to[c]);
+  return sum;
+}
+
+/* of sum_k y_k P_4,k / E_k: by the sizes of terms of each state, */
+static double of_quartic(const zono *z, const double *y) {
+  double sum = 0;
+  for (uint32_t k = 0; k < z->nx; k++)
+    if (z->E[k] > 0) sum += fabs(y[k]) * quartic_size(z, k) / z->E[k];
+  return sum;
+}
+
+/* term by term */
+static double of_quartic_terms(zono *z, const double *y) {
+  double *by = z->proof->moves;
+  for (uint32_t k = 0; k < z->nx; k++) by[k] = z->E[k] > 0 ? y[k] / z->E[k] : 0;
+  return quartic_through(z, by);
+}
+
+double mixed_size(const zono *z, const double *y) { return of_generators(z, y) + of_quartic(z, y) + discs_size(z, y); }
+
+/* -- crosses */
+
+/* B [nx x nx] := Y_j; is it anything? */
+static int take_moves(const zono *z, uint32_t j, double *B) {
+  uint32_t nx = z->nx;
+  int any = 0;
+  for (uint32_t i = 0; i < nx; i++) {
+    const double *y = z->proof->end + (size_t)i * z->shape.stride + z->shape.mix + (size_t)j * nx;
+    for (uint32_t k = 0; k < nx; k++) B[(size_t)i * nx + k] = y[k], any |= y[k] != 0;
+  }
+  return any;
+}
+
+/* the largest entry of B by the size of its state; 0: there is none */
+static int find_pivot(const zono *z, const double *B, uint32_t *row, uint32_t *column) {
+  double most = 0;
+  for (uint32_t i = 0; i < z->nx; i++)
+    for (uint32_t k = 0; k < z->nx; k++) {
+      double size = fabs(B[(size_t)i * z->nx + k]) / (z->E[i] > 0 ? z->E[i] : LEAST);
+      if (size > most) most = size, *row = i, *column = k;
+    }
+  return most > 0;
+}
+
+/* B -= u w', u its column k and w its row i over the pivot; box += rounding, of sums along w and rows of B as well */
+static void split(zono *z, double *B, uint32_t i, uint32_t k, double *u, double *w) {
+  uint32_t nx = z->nx;
+  double pivot = B[(size_t)i * nx + k];
+  for (uint32_t l = 0; l < nx; l++) u[l] = B[(size_t)l * nx + k], w[l] = B[(size_t)i * nx + l] / pivot;
+  for (uint32_t a = 0; a < nx; a++) {
+    double rounded = 0;
+    for (uint32_t b = 0; b < nx; b++) {
+      double part = u[a] * w[b], *at = B + (size_t)a * nx + b;
+      rounded += fabs(*at) + fabs(part);
+      *at -= part;
+    }
+    *box(z, FROM_START, a) += 2 * (nx + 8) * UNIT * rounded;
+  }
+}
+
+uint32_t mixed_add(zono *z, uint32_t at) {
+  proof *p = z->proof;
+  uint32_t nx = z->nx, i = 0, k = 0;
+  double *B = p->moves + nx, *u = B + (size_t)nx * nx, *w = u + nx;
+  for (uint32_t j = 0; j < z->shape.mixed; j++) {
+    if (!take_moves(z, j, B)) continue;
+    for (int r = 0; r < RANK && find_pivot(z, B, &i, &k); r++) {
+      split(z, B, i, k, u, w);
+      double *column = p->columns + (size_t)at * nx, size = (of_generators(z, w) + of_quartic_terms(z, w)) * ABOVE;
+      for (uint32_t a = 0; a < nx; a++) column[a] = u[a] * size, *box(z, FROM_START, a) += UNIT * fabs(column[a]);
+      p->origin[at++] = FROM_MIXED;
+    }
+    for (uint32_t a = 0; a < nx; a++) {
+      const double *y = B + (size_t)a * nx;
+      *box(z, FROM_MIXED, a) += (of_generators(z, y) + of_quartic(z, y)) * ABOVE;
+    }
+  }
+  return at;
+}

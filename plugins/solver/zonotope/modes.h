@@ -1,0 +1,54 @@
+/* modes.h -- errors that are not followed one by one, in discs along the modes of the movement: modes.c, discs.c. */
+#ifndef ZONOTOPE_MODES_H
+#define ZONOTOPE_MODES_H
+#include "proof.h"
+#include <complex.h>
+
+typedef double complex number;
+
+/* { Re((V + sum_j xi_j U_j) w) : |w_k| <= b_k }, U_j = V T_j but for rounding. Matrices [nx x nx] by rows. */
+typedef struct discs {
+  int any;
+  number *V, *W; /* W: inverse of V, about */
+  number *U, *T; /* [mixed x nx x nx] */
+  double *S;     /* bound of sum_j |U_j| */
+  double *tilt;  /* bound of sum_j |T_j| */
+  double *b;     /* [nx] */
+} discs;
+
+typedef struct modes {
+  discs now, old;      /* at the end of the step, at its start */
+  double *growth;      /* [nx x nx] what the step makes of one disc in another, at most */
+  int is_bad;          /* they would grow too much */
+  uint32_t wait;       /* steps until they are tried again */
+  double *in, *box;    /* [nx] what goes into the discs besides, by |W x|; what is left of it */
+  number *A, *B, *C;   /* [nx x nx] */
+  number *D, *G;       /* [mixed x nx x nx] */
+  double *rest, *work; /* [nx x nx] [8 nx nx + 7 nx] */
+} modes;
+
+int modes_open(zono *z);   /* 0: no memory */
+void modes_start(zono *z); /* no discs */
+/* to := a b; what the step makes of eps_k in state i, by E_k, and of xi_j eps_k */
+void modes_product(size_t n, const number *a, const number *b, number *to);
+double modes_flow(const zono *z, uint32_t i, uint32_t k);
+double modes_mixed(const zono *z, uint32_t j, uint32_t i, uint32_t k);
+/* modes.c: m->now for the end of the step, without b; 0: none were found */
+int modes_find(zono *z);
+/* map.c: m->now.b, m->in, m->box and m->growth from m->old, along m->now.V */
+void map_discs(zono *z);
+/* worth.c: may discs be of use? Of those that modes_find() found: are they not much wider than what they hold, do they
+** not grow too much? The last after map_discs(). */
+int worth_trying(const zono *z);
+int worth_enclosing(zono *z);
+int worth_keeping(const zono *z);
+/* discs.c: the discs as the step moves them, along its modes if there are any, else into m->box */
+void discs_move(zono *z);
+/* discs += x [nx], real, once for all symbols; or the box += |x_i| where there are no discs */
+void discs_put(zono *z, const double *x, enum origin from);
+/* a bound of sum_k y_k eps_k over the discs at the start of the step */
+double discs_size(const zono *z, const double *y);
+/* all of the box goes into the discs, and what they leave into the box */
+void discs_finish(zono *z);
+double discs_width(const zono *z, uint32_t i); /* half width of state i */
+#endif

@@ -1,0 +1,291 @@
+/* Old errors: discs along modes (discs.c, map.c), what data make of generators (mixed.c), columns by a few (frame.c).
+** For given data and a direction l the farthest of a disc is known, sum_k |l'V_k| b_k, of what a map makes of it,
+** too. */
+#include "zonotope_case.h"
+#include "solver/zonotope/modes.h"
+#include "solver/zonotope/quartic.h"
+#include <complex.h>
+
+#define MOST 6
+#define ADDED 3
+
+typedef long double complex wide;
+
+/* -- sets */
+
+/* p->J like a mechanism's: pairs of states that oscillate, and what couples them; of states whose sizes differ */
+static void fill_jacobian(zono *z, double *unit) {
+  uint32_t n = z->nx;
+  double coupling = pick(3) ? draw(0, 1) : 0;
+  for (uint32_t i = 0; i < n; i++) unit[i] = exp(draw(-6, 6));
+  for (uint32_t i = 0; i < n; i++)
+    for (uint32_t k = 0; k < n; k++) {
+      double entry = coupling * draw(-1, 1) - (i == k ? draw(0, 2) : 0);
+      if ((i ^ 1u) == k) entry += i < k ? draw(2, 20) : -draw(2, 20);
+      z->proof->J[i * n + k] = entry * unit[i] / unit[k];
+    }
+  for (uint32_t i = 0; i < n; i++) z->E[i] = unit[i] * draw(1, 2), z->proof->spread[i] = 10 * unit[i];
+}
+
+/* rows of the states at the end of a step: about I + J h for old errors, and `share` of it for each datum */
+static void fill_maps(zono *z, const double *unit, double share) {
+  const shape *s = &z->shape;
+  uint32_t n = z->nx;
+  for (uint32_t i = 0; i < n; i++) {
+    double *y = z->proof->end + i * s->stride;
+    memset(y, 0, s->stride * sizeof *y);
+    for (uint32_t k = 0; k < n; k++) {
+      double square = 0, by = z->E[k], noise = draw(-1e-6, 1e-6) * unit[i] / unit[k];
+      for (uint32_t l = 0; l < n; l++) square += z->proof->J[i * n + l] * z->proof->J[l * n + k];
+      y[s->eps + k] = ((i == k) + z->h * z->proof->J[i * n + k] + z->h * z->h / 2 * square + noise) * by;
+      for (uint32_t j = 0; j < s->mixed; j++)
+        y[s->mix + j * n + k] = share * z->h * (z->proof->J[i * n + k] * draw(-1, 1) + 1e6 * noise * draw(-1, 1)) * by;
+    }
+  }
+}
+
+/* l' (V + sum_j xi_j U_j), or with the map of the step before it */
+static void across(const zono *z, const discs *d, const long double *l, const double *xi, wide *to) {
+  uint32_t n = z->nx;
+  for (uint32_t k = 0; k < n; k++) {
+    to[k] = 0;
+    for (uint32_t i = 0; i < n; i++) {
+      wide v = d->V[i * n + k];
+      for (uint32_t j = 0; j < z->shape.mixed; j++) v += (wide)d->U[(j * n + i) * n + k] * xi[j];
+      to[k] += l[i] * v;
+    }
+  }
+}
+
+static void before(const zono *z, const long double *l, const double *xi, long double *to) {
+  const shape *s = &z->shape;
+  for (uint32_t k = 0; k < z->nx; k++) {
+    to[k] = 0;
+    for (uint32_t i = 0; i < z->nx; i++) {
+      const double *y = z->proof->end + i * s->stride;
+      long double t = y[s->eps + k];
+      for (uint32_t j = 0; j < s->mixed; j++) t += (long double)xi[j] * y[s->mix + j * z->nx + k];
+      to[k] += l[i] * t / z->E[k];
+    }
+  }
+}
+
+static long double farthest(const zono *z, const discs *d, const long double *l, const double *xi) {
+  wide to[MOST];
+  long double sum = 0;
+  across(z, d, l, xi, to);
+  for (uint32_t k = 0; k < z->nx; k++) sum += cabsl(to[k]) * d->b[k];
+  return sum;
+}
+
+static long double boxes(const zono *z, const long double *l) {
+  long double sum = 0;
+  for (uint32_t i = 0; i < z->nx; i++)
+    for (int o = 0; o < ORIGINS; o++) sum += fabsl(l[i]) * *box(z, (enum origin)o, i);
+  return sum;
+}
+
+static void draw_data(const zono *z, double *xi) {
+  for (uint32_t j = 0; j < z->m; j++) xi[j] = pick(4) ? (pick(2) ? 1 : -1) : draw(-1, 1);
+}
+
+/* the most that any data and direction reach, as a share of the bound */
+static long double most_reached(const zono *z, double added[ADDED][MOST], const double *unit) {
+  const modes *m = z->modes;
+  long double most = 0;
+  for (int turn = 0; turn < 200; turn++) {
+    long double l[MOST], turned[MOST];
+    double xi[MOST];
+    for (uint32_t i = 0; i < z->nx; i++) l[i] = pick(3) ? draw(-1, 1) / unit[i] : 0;
+    draw_data(z, xi), before(z, l, xi, turned);
+    long double truth = farthest(z, &m->old, turned, xi), bound = boxes(z, l);
+    if (m->now.any) bound += farthest(z, &m->now, l, xi);
+    for (int a = 0; a < ADDED; a++) {
+      long double sum = 0;
+      for (uint32_t i = 0; i < z->nx; i++) sum += l[i] * added[a][i];
+      truth += fabsl(sum);
+    }
+    if (bound == 0) continue;
+    if (!(truth <= bound * (1 + 1e-15L))) fail_msg("%.17Lg times the bound is reached", truth / bound);
+    most = fmaxl(most, truth / bound);
+  }
+  return most;
+}
+
+/* half widths, and bounds of products with rows */
+static void check_sizes(zono *z, const double *unit) {
+  discs *now = &z->modes->now, *old = &z->modes->old, keep = *old;
+  *old = *now; /* discs_size() is of the start of a step */
+  for (int turn = 0; turn < 20; turn++) {
+    long double l[MOST];
+    double xi[MOST], y[MOST];
+    uint32_t i = pick(z->nx);
+    for (uint32_t k = 0; k < z->nx; k++) y[k] = draw(-1, 1) * z->E[k] / unit[k], l[k] = (long double)y[k] / z->E[k];
+    draw_data(z, xi);
+    if (!(farthest(z, old, l, xi) <= discs_size(z, y))) fail_msg("a product is larger than its bound");
+    for (uint32_t k = 0; k < z->nx; k++) l[k] = k == i;
+    if (!(farthest(z, now, l, xi) <= discs_width(z, i))) fail_msg("a state is wider than its bound");
+  }
+  *old = keep;
+}
+
+/* One step of discs that there are, in random axes of another map; bad: as if they grew too much. */
+static long double try_step(uint32_t nx, double share, double size, int bad) {
+  static const double time[2] = { 0, 1 };
+  static zono z;
+  static maker k;
+  double unit[MOST], added[ADDED][MOST] = { { 0 } };
+  long double most = 0;
+  open_case(&z, &k, nx, 0, 0);
+  z.problem.time = time, z.problem.ntime = 2, z.h = 0.02;
+  assert_true(zono_open_proof(&z));
+  fill_jacobian(&z, unit), fill_maps(&z, unit, share);
+  modes *m = z.modes;
+  if (modes_find(&z)) {
+    m->now.any = 1, m->is_bad = bad;
+    for (uint32_t i = 0; i < nx; i++) m->now.b[i] = pick(4) ? draw(0, 1) : 0;
+    if (pick(2)) fill_jacobian(&z, unit);
+    fill_maps(&z, unit, share);
+    discs_move(&z);
+    for (int a = 0; a < ADDED && size > 0; a++) {
+      for (uint32_t i = 0; i < nx; i++) added[a][i] = size * unit[i] * draw(-1, 1);
+      if (a)
+        discs_put(&z, added[a], FROM_SQUARE);
+      else /* a box is for every sign: the corner that was drawn is one of its points */
+        for (uint32_t i = 0; i < nx; i++) *box(&z, FROM_TIME, i) += fabs(added[a][i]);
+    }
+    discs_finish(&z);
+    most = most_reached(&z, added, unit);
+    if (m->now.any) check_sizes(&z, unit);
+  }
+  give_back();
+  return most;
+}
+
+static void steps_lie_in_discs(void **unused) {
+  (void)unused;
+  for (uint32_t n = 0; n < 1500; n++)
+    try_step(1 + n % MOST, n % 3 ? draw(0, 1) : draw(0, 1e-3), n % 2 ? exp(draw(-30, 0)) : 0, n % 7 == 0);
+}
+
+/* Along its modes a step without data enlarges nothing. */
+static void they_are_no_larger_than_need_be(void **unused) {
+  (void)unused;
+  int good = 0;
+  for (uint32_t n = 0; n < 60; n++) good += try_step(1 + n % MOST, 0, 0, 0) > 1 - 1e-3;
+  assert_true(good > 20);
+}
+
+/* -- a frequency that is not known */
+
+/* A step turns a state by w h, with w = 10 + xi. Discs must not grow but by squares of h: |1 + i xi h| - 1. */
+static void frequencies_cost_nothing(void **unused) {
+  (void)unused;
+  static const double time[2] = { 0, 1 };
+  static zono z;
+  static maker k;
+  open_case(&z, &k, 2, 0, 0);
+  z.problem.time = time, z.problem.ntime = 2, z.h = 1e-3;
+  assert_true(zono_open_proof(&z));
+  const shape *s = &z.shape;
+  double angle = 10 * z.h, J[] = { 0, 10, -10, 0 }, Y[] = { cos(angle), sin(angle), -sin(angle), cos(angle) };
+  memcpy(z.proof->J, J, sizeof J);
+  for (uint32_t i = 0; i < 2; i++) {
+    double *y = z.proof->end + i * s->stride;
+    memset(y, 0, s->stride * sizeof *y), z.E[i] = 1, z.proof->spread[i] = 1;
+    for (uint32_t l = 0; l < 2; l++) y[s->eps + l] = Y[2 * i + l];
+    y[s->mix + 0] = i == 0 ? -z.h * sin(angle) : -z.h * cos(angle); /* of datum 0: the derivative by w */
+    y[s->mix + 1] = i == 0 ? z.h * cos(angle) : -z.h * sin(angle);
+  }
+  assert_true(s->mixed > 0 && modes_find(&z));
+  z.modes->now.any = 1, z.modes->now.b[0] = z.modes->now.b[1] = 1;
+  for (int step = 0; step < 1000; step++) {
+    discs_move(&z), memset(z.proof->boxes, 0, ORIGINS * 2 * sizeof(double)), discs_finish(&z);
+    assert_true(z.modes->now.any);
+  }
+  assert_true(z.modes->now.b[0] < 1.01 && z.modes->now.b[0] > 1); /* by sizes it would be e */
+  give_back();
+}
+
+/* -- what data make of generators */
+
+static void data_move_generators(void **unused) {
+  (void)unused;
+  static zono z;
+  static maker k;
+  for (uint32_t n = 0; n < 300; n++) {
+    uint32_t nx = 1 + n % MOST, columns = pick(7);
+    double unit[MOST];
+    open_case(&z, &k, nx, 0, 0);
+    z.h = 0.02, z.ngen_max = columns, z.G = lend(&host, 8 * MOST * MOST * sizeof *z.G);
+    assert_true(zono_open_proof(&z));
+    fill_jacobian(&z, unit), fill_maps(&z, unit, n % 5 ? draw(0, 1) : 0);
+    memset(z.E, 0, nx * sizeof *z.E), z.ngen = columns;
+    for (uint32_t c = 0; c < columns * nx; c++) z.G[c] = pick(4) ? unit[c % nx] * draw(-1, 1) : 0;
+    for (uint32_t c = 0; c < columns * nx; c++) z.E[c % nx] += fabs(z.G[c]) * (1 + 1e-12);
+    mixed_prepare(&z);
+    uint32_t found = mixed_add(&z, 0);
+    for (int turn = 0; turn < 100; turn++) {
+      long double l[MOST], moved[MOST] = { 0 }, truth = 0, bound = 0;
+      double xi[MOST];
+      for (uint32_t i = 0; i < nx; i++) l[i] = draw(-1, 1) / unit[i];
+      draw_data(&z, xi);
+      for (uint32_t i = 0; i < nx; i++)
+        for (uint32_t j = 0; j < z.shape.mixed; j++)
+          for (uint32_t a = 0; a < nx; a++)
+            moved[a] += l[i] * xi[j] * z.proof->end[i * z.shape.stride + z.shape.mix + j * nx + a];
+      for (uint32_t c = 0; c < columns; c++) {
+        long double sum = 0;
+        for (uint32_t a = 0; a < nx; a++) sum += z.E[a] > 0 ? moved[a] / z.E[a] * z.G[c * nx + a] : 0;
+        truth += fabsl(sum);
+      }
+      for (uint32_t c = 0; c < found; c++) {
+        long double sum = 0;
+        for (uint32_t a = 0; a < nx; a++) sum += l[a] * z.proof->columns[c * nx + a];
+        bound += fabsl(sum);
+      }
+      bound += boxes(&z, l);
+      if (!(truth <= bound * (1 + 1e-15L))) fail_msg("%.17Lg times the bound is reached", truth / bound);
+    }
+    give_back();
+  }
+}
+
+/* -- columns by a few of them */
+
+static void columns_are_sums_of_axes(void **unused) {
+  (void)unused;
+  for (uint32_t n = 0; n < 500; n++) {
+    double columns[40 * MOST], part[40 * MOST], deflated[40 * MOST], q[MOST], unit[MOST], rest[MOST];
+    uint32_t axis[MOST], nx = 1 + pick(MOST), count = pick(40), kinds = 1 + pick(3);
+    frame f = { 0, axis, part, deflated, q, unit };
+    for (uint32_t c = 0; c < count; c++)
+      for (uint32_t i = 0; i < nx; i++) {
+        double scale = exp(kinds > 1 ? draw(-40, 40) : 0);
+        columns[c * nx + i] = kinds == 3 && c >= 2 ? columns[i] * (c + 1) + columns[nx + i] : scale * draw(-1, 1);
+        if (pick(9) == 0) columns[c * nx + i] = 0;
+      }
+    frame_find(&f, nx, count, columns);
+    assert_true(f.rank <= nx);
+    for (uint32_t c = 0; c < count; c++) {
+      frame_rest(&f, nx, c, columns, rest);
+      for (uint32_t i = 0; i < nx; i++) {
+        long double left = columns[c * nx + i];
+        for (uint32_t k = 0; k < f.rank; k++) left -= (long double)part[c * nx + k] * columns[axis[k] * nx + i];
+        if (!(fabsl(left) <= rest[i])) fail_msg("%Lg is left, not %g", left, rest[i]);
+        if (kinds == 1 && f.rank == nx) assert_true(rest[i] < 1e-9);
+      }
+    }
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(steps_lie_in_discs),
+    cmocka_unit_test(they_are_no_larger_than_need_be),
+    cmocka_unit_test(frequencies_cost_nothing),
+    cmocka_unit_test(data_move_generators),
+    cmocka_unit_test(columns_are_sums_of_axes),
+  };
+  return cmocka_run_group_tests_name("zonotope: old errors", tests, NULL, NULL);
+}
