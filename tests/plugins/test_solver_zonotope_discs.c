@@ -251,41 +251,12 @@ static void data_move_generators(void **unused) {
   }
 }
 
-/* -- columns by a few of them */
-
-static void columns_are_sums_of_axes(void **unused) {
-  (void)unused;
-  for (uint32_t n = 0; n < 500; n++) {
-    double columns[40 * MOST], part[40 * MOST], deflated[40 * MOST], q[MOST], unit[MOST], rest[MOST];
-    uint32_t axis[MOST], nx = 1 + pick(MOST), count = pick(40), kinds = 1 + pick(3);
-    frame f = { 0, axis, part, deflated, q, unit };
-    for (uint32_t c = 0; c < count; c++)
-      for (uint32_t i = 0; i < nx; i++) {
-        double scale = exp(kinds > 1 ? draw(-40, 40) : 0);
-        columns[c * nx + i] = kinds == 3 && c >= 2 ? columns[i] * (c + 1) + columns[nx + i] : scale * draw(-1, 1);
-        if (pick(9) == 0) columns[c * nx + i] = 0;
-      }
-    frame_find(&f, nx, count, columns);
-    assert_true(f.rank <= nx);
-    for (uint32_t c = 0; c < count; c++) {
-      frame_rest(&f, nx, c, columns, rest);
-      for (uint32_t i = 0; i < nx; i++) {
-        long double left = columns[c * nx + i];
-        for (uint32_t k = 0; k < f.rank; k++) left -= (long double)part[c * nx + k] * columns[axis[k] * nx + i];
-        if (!(fabsl(left) <= rest[i])) fail_msg("%Lg is left, not %g", left, rest[i]);
-        if (kinds == 1 && f.rank == nx) assert_true(rest[i] < 1e-9);
-      }
-    }
-  }
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(steps_lie_in_discs),
     cmocka_unit_test(they_are_no_larger_than_need_be),
     cmocka_unit_test(frequencies_cost_nothing),
     cmocka_unit_test(data_move_generators),
-    cmocka_unit_test(columns_are_sums_of_axes),
   };
   return cmocka_run_group_tests_name("zonotope: old errors", tests, NULL, NULL);
 }

@@ -1,9 +1,8 @@
 /* close.c -- the set at the end of the step.
 **
 ** x(h) = Y(xi) + Y_eps eps + sum_j xi_j Y_j eps + z(h). Old generators move with Y_eps / E; what the mixed terms do to
-** them is bounded column by column and put into a box, with rounding. What z(h) adds is in distance.c. Then generators
-** are reduced [Girard 2005]: in units of the states' sizes, the columns that are nearest to an axis, or shortest,
-** become a box.
+** them is in mixed.c, what z(h) adds in distance.c. Then generators are reduced [Girard 2005]: in units of the states'
+** sizes, the columns that are nearest to an axis, or shortest, go into a box, or into discs where there are any.
 */
 #include "modes.h"
 #include "proof.h"

@@ -90,41 +90,9 @@ static double equations_size(const zono *z, uint32_t i) {
   return (all + 2 * (z->na + 2) * UNIT * rounded) * ABOVE;
 }
 
-/* notes a lump with its coefficients c [nx], in units of its weight */
-static void note_lump(zono *z, uint32_t *n, lump size, const double *c, enum origin from) {
-  proof *p = z->proof;
-  double any = 0, weight = size.rest + size.path + size.mean + size.moment, *to = p->lumped + (size_t)*n * z->nx;
-  for (uint32_t i = 0; i < z->nx; i++) to[i] = c[i] * weight, any += fabs(to[i]);
-  if (any == 0) return;
-  p->lump_weight[*n] = weight, p->lump_size[*n] = size, p->lump_from[(*n)++] = (uint8_t)from;
-}
-
-/* The lumps that were noted, along a few axes: sum_j c_j theta_j = sum_k axis_k (sum_j w_jk theta_j) + rest */
-static uint32_t add_noted(zono *z, uint32_t at, uint32_t n, const sums *sum) {
-  proof *p = z->proof;
-  const frame *f = &p->frame;
-  uint32_t nx = z->nx;
-  frame_find(&p->frame, nx, n, p->lumped);
-  for (uint32_t k = 0; k < f->rank; k++) {
-    lump all = { 0, 0, 0, 0, 0 };
-    for (uint32_t j = 0; j < n; j++) {
-      const lump *s = p->lump_size + j;
-      double by = fabs(f->part[(size_t)j * nx + k]) / p->lump_weight[j] * ABOVE;
-      all.most += by * s->most, all.rest += by * s->rest, all.path += by * s->path, all.mean += by * s->mean;
-      all.moment += by * s->moment;
-    }
-    at = add_lump(z, at, all, p->lumped + (size_t)f->axis[k] * nx, sum, (enum origin)p->lump_from[f->axis[k]]);
-  }
-  for (uint32_t j = 0; j < n; j++) {
-    frame_rest(f, nx, j, p->lumped, p->grow);
-    for (uint32_t i = 0; i < nx; i++) sum->width[i] += p->grow[i] * (p->lump_size[j].most / p->lump_weight[j]) * ABOVE;
-  }
-  return at;
-}
-
 static uint32_t add_lumps(zono *z, uint32_t at, const sums *sum) {
   proof *p = z->proof;
-  uint32_t nx = z->nx, n = 0;
+  uint32_t nx = z->nx;
   double *c = p->grow;
   int known = quartic_begin(z);
   for (uint32_t j = 0; j < z->nslot; j++) {
@@ -132,17 +100,16 @@ static uint32_t add_lumps(zono *z, uint32_t at, const sums *sum) {
     lump size = quartic_lump(z, j);
     if (size.most == 0) continue;
     for (uint32_t i = 0; i < nx; i++) c[i] = weight_of(z, i, j), sum->width[i] += half_width(z, i, j) * size.most;
-    note_lump(z, &n, size, c, origin_of(z, j));
+    at = add_lump(z, at, size, c, sum, origin_of(z, j));
   }
   for (uint32_t l = 0; l < nx; l++) {
     double left = equations_size(z, l);
     for (uint32_t i = 0; i < nx; i++) c[i] = i == l;
-    note_lump(z, &n, quartic_none(z->rr_out[l] + left), c, left > z->rr_out[l] ? FROM_START : FROM_TIME);
+    at = add_lump(z, at, quartic_none(z->rr_out[l] + left), c, sum, left > z->rr_out[l] ? FROM_START : FROM_TIME);
     if (p->link[l] == LINK_STATE) continue;
     const double *dL = raw(z, p->dL, p->dL_new) + (size_t)p->link_to[l] * z->na;
     for (uint32_t q = 0; q < z->na; q++) sum->width[l] += dL[q] * z->rr_out[nx + q];
   }
-  at = add_noted(z, at, n, sum);
   return known ? add_known(z, at, sum) : at;
 }
 

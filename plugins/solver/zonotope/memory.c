@@ -88,16 +88,6 @@ static int open_targets(zono *z) {
          sweep_open(z, &p->forms, z->shape.m + z->shape.nx + 1) && sweep_open(z, &p->points, 0);
 }
 
-static int open_lumps(zono *z) {
-  proof *p = z->proof;
-  const ambit_host *h = z->host;
-  size_t nx = z->nx, n = (size_t)z->nslot + z->nout;
-  p->lump_size = h->alloc(h, n * sizeof *p->lump_size), p->lump_from = h->alloc(h, n);
-  return p->lump_size && p->lump_from && doubles(h, n, &p->lump_weight) && doubles(h, n * nx, &p->lumped) &&
-         doubles(h, n * nx, &p->frame.deflated) && doubles(h, n * nx, &p->frame.part) && doubles(h, nx, &p->frame.q) &&
-         doubles(h, nx, &p->frame.unit) && numbers(h, nx, &p->frame.axis);
-}
-
 static int open_states(zono *z) {
   proof *p = z->proof;
   const ambit_host *h = z->host;
@@ -111,7 +101,7 @@ static int open_states(zono *z) {
          doubles(h, z->na, &p->alpha_new) && doubles(h, nx, &p->grow) && doubles(h, nx, &p->grow_path) &&
          doubles(h, ORIGINS * nx, &p->boxes) && doubles(h, nx, &p->spread) && doubles(h, nx, &p->largest) &&
          doubles(h, nx, &p->budget) && doubles(h, 3 * nx, &p->worth) && doubles(h, nx, &p->unit) &&
-         doubles(h, 4 * (nx + z->na), &p->work) && doubles(h, columns * nx, &p->columns) && open_lumps(z) &&
+         doubles(h, 4 * (nx + z->na), &p->work) && doubles(h, columns * nx, &p->columns) &&
          doubles(h, (z->ngen_max + nx) * (nx + 1), &p->turned) && doubles(h, nx * (nx + 3), &p->moves) &&
          doubles(h, columns, &p->score) && (p->origin = h->alloc(h, columns + 1)) != NULL &&
          (p->from = h->alloc(h, z->ngen_max + nx + 1)) != NULL && doubles(h, 2 * z->shape.m, &p->range) &&

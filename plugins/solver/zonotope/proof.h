@@ -26,13 +26,6 @@ typedef struct sweeps {
   double *scratch; /* [(na + 4)] forms */
 } sweeps;
 
-/* axes for columns, which are columns among them: column c = sum_k part_ck axis_k + rest */
-typedef struct frame {
-  uint32_t rank, *axis;        /* [rank] numbers of columns */
-  double *part;                /* [n x nx], rank of each nx */
-  double *deflated, *q, *unit; /* [n x nx] [nx] [nx] */
-} frame;
-
 /* what a generator, or what went into a box, comes from */
 enum origin {
   FROM_START,    /* rounding of the initial values and of the polynomials */
@@ -72,9 +65,8 @@ typedef struct proof {
   double *power, *power_new, *size, *size_new, *jacobian_size; /* [nx x nx] */
   double *grow, *grow_path;                                    /* [nx] per state: sums for bounds */
   double *columns;                                             /* [(ngen_max + 2 (nslot + nout) + nx + 2 m) x nx] */
-  double *turned; /* [nx x (ngen_max + 4)] old generators, state by state */
-  double *moves;  /* [nx x (nx + 3)] mixed.c */
-  frame frame;
+  double *turned;          /* [nx x (ngen_max + 4)] old generators, state by state */
+  double *moves;           /* [nx x (nx + 3)] mixed.c */
   double *score, *sorted;  /* one of each column */
   double *end;             /* [nx x stride] rows at the end of the step */
   double *spread;          /* [nx] sizes of states' sets, for weights */
@@ -92,11 +84,7 @@ typedef struct proof {
   uint8_t *origin, *from;  /* of columns, of z->G */
   struct quartic *quartic; /* quartic.c */
   double *late;            /* [nslot] what of z->r is FROM_TIME */
-  double *lumped;          /* [(nslot + nout) x nx] coefficients of lumps, by their weights: distance.c */
-  struct lump *lump_size;  /* [nslot + nout]; and weights */
-  double *lump_weight;
-  uint8_t *lump_from; /* [nslot + nout] */
-  double *range;      /* [2 m] */
+  double *range;           /* [2 m] */
   /* records */
   double *dense_mid, *dense_rad, *dense_column;
   ambit_set set;
@@ -133,9 +121,6 @@ double mixed_size(const zono *z, const double *y);
 /* what the mixed terms do: columns from number `at` on, and the box of what they leave; returns the number of
 ** columns */
 uint32_t mixed_add(zono *z, uint32_t at);
-/* frame.c: axes for n columns of nx; rest [nx] := a bound of what is left of column c */
-void frame_find(frame *f, uint32_t nx, uint32_t n, const double *columns);
-void frame_rest(const frame *f, uint32_t nx, uint32_t c, const double *columns, double *rest);
 /* distance.c: columns from number `at` on, and the box of what they do not hold; returns the number of columns */
 uint32_t distance_add(zono *z, uint32_t at);
 /* kernel.c: mean, reach, wobble from J and |h|; 0: too long */
