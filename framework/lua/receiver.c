@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#define FASTER 4    /* times what was covered in half as long before: not judged yet, as a run from rest gets faster */
+#define FASTER 3    /* times what was covered in half as long before: not judged yet, as a run from rest gets faster */
 #define HOPELESS 20 /* times what a run has taken until now, that the rest of it would take */
 #define STEADY 0.5  /* of what was covered in the time before: a run that covers less is getting stuck */
 

@@ -3,7 +3,8 @@
 local MANY = 5      -- data ...
 local LARGE = 12    -- ... or states from which on polynomials without generators are too large, and linear maps
 local BENT = 1e-7   -- with so much bend, or width where the bend was not seen, lose what the data share
-local LOOPS = 0.015 -- width of data up to which closed loops are as good without their constraints at each step
+local LOOPS = 0.015 -- width of data up to which closed loops are as good without their constraints at each step, unless
+                    -- the mechanism is twice as large
 local CLEAR = 1e-5  -- bend from which on linear maps are wider, also of few data,
 local WIDE = 0.02   -- and up to which few generators hold what polynomials of higher degree would;
 local WIDEST = 0.2  -- of more than FEW data, in which such polynomials are slow
@@ -19,7 +20,7 @@ return function(f)
   end
   local bent = f.bend > BENT or f.seen < SEEN and f.width > BENT
   local many = f.unknowns >= MANY or f.unknowns > 0 and f.states >= LARGE
-  if bent and many and (f.invariants == 0 or f.width <= LOOPS) then
+  if bent and many and (f.invariants == 0 or f.width <= LOOPS or f.states >= 2 * LARGE) then
     return 0.9, ("%d uncertain data and %d states: what they have in common is kept"):format(f.unknowns, f.states)
   end
   if f.invariants == 0 and f.unknowns > 0 and f.bend > CLEAR and f.bend < (f.unknowns > FEW and WIDEST or WIDE) then

@@ -11,6 +11,7 @@
 #define MOSTLY 0.5  /* of the errors, that must come from how older ones depend on the data */
 #define EXCESS 4.5  /* most that discs are wider by: 2 to 3.4 where they help, 5.7 and more where they harm */
 #define GROWTH 10.0 /* logarithm: most by which discs may grow to the end of the run */
+#define DOUBLINGS 24
 
 static double time_left(const zono *z) { return fabs(z->problem.time[z->problem.ntime - 1] - z->t); }
 
@@ -77,23 +78,25 @@ int worth_enclosing(zono *z) {
   return width < EXCESS * reach;
 }
 
-/* how fast discs grow at most, per second: by the largest eigenvalue of m->growth */
+/* how fast discs grow at most, per second: by the largest eigenvalue of m->growth, from its powers */
 static double rate_of(const zono *z) {
-  modes *m = z->modes;
+  const modes *m = z->modes;
   uint32_t n = z->nx;
-  double *x = m->work, *y = x + n, most = 1;
-  for (uint32_t k = 0; k < n; k++) x[k] = 1;
-  for (int turn = 0; turn < 40; turn++) {
-    double largest = 0;
-    most = 0;
-    for (uint32_t k = 0; k < n; k++) {
-      y[k] = 0;
-      for (uint32_t l = 0; l < n; l++) y[k] += m->growth[k * n + l] * x[l];
-      most = fmax(most, y[k] / x[k]), largest = fmax(largest, y[k]);
-    }
-    for (uint32_t k = 0; k < n; k++) x[k] = fmax(y[k] / largest, 1e-12);
+  size_t square = (size_t)n * n;
+  double *power = m->work, *next = power + square, size = 0; /* the power is e^size of this */
+  memcpy(power, m->growth, square * sizeof *power);
+  for (int k = 0; k < DOUBLINGS; k++) {
+    double most = 0;
+    for (size_t e = 0; e < square; e++) most = fmax(most, power[e]);
+    for (size_t e = 0; e < square; e++) power[e] /= most;
+    size = 2 * (size + log(most));
+    memset(next, 0, square * sizeof *next);
+    for (uint32_t i = 0; i < n; i++)
+      for (uint32_t l = 0; l < n; l++)
+        for (uint32_t c = 0; c < n; c++) next[i * n + c] += power[i * n + l] * power[l * n + c];
+    memcpy(power, next, square * sizeof *power);
   }
-  return log(most) / fabs(z->h);
+  return ldexp(size, -DOUBLINGS) / fabs(z->h);
 }
 
 int worth_keeping(const zono *z) { return rate_of(z) * time_left(z) < GROWTH; }
