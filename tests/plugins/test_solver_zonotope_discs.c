@@ -129,6 +129,13 @@ static void check_sizes(zono *z, const double *unit) {
   *old = keep;
 }
 
+/* leaves axes where discs_move() finds those of the last step but one */
+static void leave_old_axes(zono *z) {
+  modes *m = z->modes;
+  discs now = m->now;
+  m->now = m->old, modes_find(z), m->old = m->now, m->now = now;
+}
+
 /* discs_move() with a W that is no inverse of V: any will do */
 static void move_crudely(zono *z) {
   modes *m = z->modes;
@@ -157,6 +164,7 @@ static long double try_step(uint32_t nx, double share, double size, enum manner 
   fill_jacobian(&z, unit), fill_maps(&z, unit, share);
   modes *m = z.modes;
   if (modes_find(&z)) {
+    leave_old_axes(&z);
     m->now.any = 1, m->is_bad = manner == GROWN_TOO_MUCH;
     for (uint32_t i = 0; i < nx; i++) m->now.b[i] = pick(4) ? draw(0, 1) : 0;
     if (pick(2)) fill_jacobian(&z, unit);

@@ -129,27 +129,24 @@ double discs_width(const zono *z, uint32_t i) {
   return sum * ABOVE;
 }
 
-/* in := u >= in + tilt u; 0: none found */
-static int close_turns(zono *z) {
+/* in := u >= in + tilt u; infinite if none is found, as where something is no number */
+static void close_turns(zono *z) {
   modes *m = z->modes;
   uint32_t n = z->nx;
   double *u = m->work, *next = u + n;
+  int is_closed = 0;
   memcpy(u, m->in, n * sizeof *u);
-  for (int turn = 0; turn < 60; turn++) {
-    int is_closed = 1;
+  for (int turn = 0; turn < 60 && !is_closed; turn++) {
+    is_closed = 1;
     for (uint32_t k = 0; k < n; k++) {
       next[k] = m->in[k];
       for (uint32_t l = 0; l < n; l++) next[k] += m->now.tilt[(size_t)k * n + l] * u[l];
       next[k] *= ABOVE;
       if (!(next[k] <= u[k])) is_closed = 0;
     }
-    if (is_closed) {
-      memcpy(m->in, u, n * sizeof *u);
-      return 1;
-    }
-    for (uint32_t k = 0; k < n; k++) u[k] = next[k] * (1 + 1e-3);
+    for (uint32_t k = 0; k < n && !is_closed; k++) u[k] = next[k] * (1 + 1e-3);
   }
-  return 0;
+  for (uint32_t k = 0; k < n; k++) m->in[k] = is_closed ? u[k] : INFINITY;
 }
 
 void discs_finish(zono *z) {
@@ -163,8 +160,8 @@ void discs_finish(zono *z) {
     memset(x, 0, n * sizeof *x), x[i] = 1;
     put(z, x, sum * ABOVE);
   }
-  if (m->now.any && close_turns(z))
-    for (uint32_t k = 0; k < n; k++) m->now.b[k] += m->in[k] * ABOVE;
+  if (m->now.any) close_turns(z);
+  for (uint32_t k = 0; k < n && m->now.any; k++) m->now.b[k] += m->in[k] * ABOVE;
   for (uint32_t i = 0; i < n; i++) {
     double rounding = LEAST; /* U_j is V T_j but for it */
     for (uint32_t l = 0; l < n && m->now.any; l++)
