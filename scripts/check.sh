@@ -8,6 +8,7 @@ clang-format --dry-run -Werror "${sources[@]}"
 echo "format: ${#sources[@]} files"
 git ls-files '*.md' '*.lua' '*.c' | xargs lua5.4 scripts/wrap.lua --check # headers: a few comments are still longer
 echo "lines: at most 120 columns"
+reuse --no-multiprocessing lint | tail -n 1 # the licence of each file: .reuse/dep5
 cmake --preset clang -DAMBIT_TESTS=OFF >/dev/null
 mapfile -t units < <(git ls-files 'framework/*.c' 'plugins/*.c')
 printf '%s\n' "${units[@]}" | xargs -P "$(nproc)" -n 4 clang-tidy -p build/clang --quiet 2>/dev/null

@@ -1,6 +1,6 @@
 /* joe_kuo.c -- the direction numbers of Joe and Kuo (2008), "new-joe-kuo-6", of the dimensions 2 to 256.
 **
-** Copyright (c) 2008, Frances Y. Kuo and Stephen Joe; their licence (BSD, three clauses) is in LICENSE.joe_kuo.
+** Copyright (c) 2008, Frances Y. Kuo and Stephen Joe; their licence is in LICENSES/BSD-3-Clause.txt.
 */
 #include "sequences.h"
 
