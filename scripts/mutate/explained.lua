@@ -10,6 +10,15 @@ return {
   ["plugins/solver/zonotope/close.c | relation 1 | if (!(p->spread[i] > 0)) p->spread[i] = 1;"] =
     "which generators are kept is free: all others go to the box",
   ["plugins/solver/zonotope/discs.c | guard 1 | if (d->b[k] == 0) continue;"] = "adds 0: a run slower",
+  ["plugins/solver/zonotope/discs.c | guard 1 | if (sum == 0) continue;"] = "adds 0: a run slower",
+  ["plugins/solver/zonotope/map.c | guard 1 | if (rest)"] = "what is left goes into the box: wider",
+  ["plugins/solver/zonotope/map.c | term 1 | for (size_t e = 0; e < square; e++) m->growth[e] += beyond[e];"] =
+    "when discs are used is free",
+  ["plugins/solver/zonotope/mixed.c | guard 1 | if (y[k] == 0) continue;"] = "adds 0: a run slower",
+  ["plugins/solver/zonotope/mixed.c | guard 1 | if (size > most) most = size, *row = i, *column = k;"] =
+    "any entry that is not 0 is a pivot",
+  ["plugins/solver/zonotope/mixed.c | relation 1 | if (size > most) most = size, *row = i, *column = k;"] =
+    "any entry that is not 0 is a pivot",
   ["plugins/solver/zonotope/discs.c | guard 1 | if (!worth_enclosing(z)) return 0;"] = "when discs are used is free",
   ["plugins/solver/zonotope/discs.c | relation 1 | } else if (m->wait > 0)"] = "when discs are used is free",
   ["plugins/solver/zonotope/error.c | extremum 1 | case AMBIT_OP_COS: return (move) { fmin(1, high[t->aux[i]] + r) * da, 0.5 * da * da };"] =

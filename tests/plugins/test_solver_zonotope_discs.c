@@ -166,12 +166,17 @@ static long double try_step(uint32_t nx, double share, double size, enum manner 
   if (modes_find(&z)) {
     leave_old_axes(&z);
     m->now.any = 1, m->is_bad = manner == GROWN_TOO_MUCH;
-    for (uint32_t i = 0; i < nx; i++) m->now.b[i] = pick(4) ? draw(0, 1) : 0;
+    int is_empty = manner == AS_IT_IS && pick(3) == 0;
+    for (uint32_t i = 0; i < nx; i++) m->now.b[i] = !is_empty && pick(4) ? draw(0, 1) : 0;
     if (pick(2)) fill_jacobian(&z, unit);
     fill_maps(&z, unit, share);
     manner == CRUDE ? move_crudely(&z) : discs_move(&z);
     for (int a = 0; a < ADDED && size > 0 && (m->now.any || manner != CRUDE); a++) {
-      for (uint32_t i = 0; i < nx; i++) added[a][i] = size * unit[i] * draw(-1, 1);
+      int mode = (int)pick(2 * nx); /* one alone: others do not hide what turns cost */
+      for (uint32_t i = 0; i < nx; i++)
+        added[a][i] =
+            size * (m->now.any && mode < (int)nx ? creal(m->now.V[i * nx + (uint32_t)mode]) : unit[i] * draw(-1, 1));
+      if (is_empty && a != 1) memset(added[a], 0, sizeof added[a]);
       if (a)
         discs_put(&z, added[a], FROM_SQUARE);
       else /* a box is for every sign: the corner that was drawn is one of its points */
@@ -231,6 +236,69 @@ static void frequencies_cost_nothing(void **unused) {
   give_back();
 }
 
+/* -- two data that do nothing alone */
+
+/* Datum 0 makes mode 2 from mode 1, datum 1 mode 1 from mode 2: both together slow the decay, to second order. */
+static void pairs_of_data_are_not_left_out(void **unused) {
+  (void)unused;
+  static const double time[2] = { 0, 1 };
+  static zono z;
+  static maker k;
+  for (uint32_t turn = 0; turn < 4; turn++) {
+    int sign = turn < 2 ? -1 : 1;
+    open_case(&z, &k, 2, 0, 0);
+    z.problem.time = time, z.problem.ntime = 2, z.h = 1e-2;
+    assert_true(zono_open_proof(&z));
+    const shape *s = &z.shape;
+    double J[] = { -1, 0, 0, -9 }, y1 = exp(-z.h), y2 = exp(-9 * z.h), c = 0.02 * (y1 - y2);
+    memcpy(z.proof->J, J, sizeof J);
+    for (uint32_t i = 0; i < 2; i++) {
+      double *y = z.proof->end + i * s->stride;
+      memset(y, 0, s->stride * sizeof *y), z.E[i] = 1, z.proof->spread[i] = 1;
+      y[s->eps + i] = i ? y2 : y1;
+      y[s->mix + (i == turn % 2 ? 0u : 2u) + 1 - i] = i ? sign * c : c;
+    }
+    assert_true(s->mixed > 1 && modes_find(&z));
+    z.modes->now.any = 1, z.modes->now.b[0] = z.modes->now.b[1] = 1;
+    discs_move(&z);
+    const double *g = z.modes->growth;
+    double truth = y1 + y2 + sqrt((y1 - y2) * (y1 - y2) + 4 * c * c), mean = g[0] + g[3],
+           found = mean + sqrt((g[0] - g[3]) * (g[0] - g[3]) + 4 * g[1] * g[2]);
+    assert_true(found >= truth); /* twice the largest eigenvalue, for xi = (1, sign) */
+    assert_true(found < truth + 0.2 * (truth - 2 * y1));
+    give_back();
+  }
+}
+
+/* V = I, Y = 0; M_0 makes state 0 of state 1, T_1 turns mode 0 into mode 1: together they make state 0 of mode 0, which
+** goes into the box where the end has no axes. With V' = I it goes along, and T'_2 turns what it made into mode 1. */
+static void what_several_data_leave_is_bounded(void **unused) {
+  (void)unused;
+  static zono z;
+  static maker k;
+  for (int has_axes = 0; has_axes < 2; has_axes++) {
+    open_case(&z, &k, 2, 0, 0);
+    z.h = 1e-2;
+    assert_true(zono_open_proof(&z));
+    const shape *s = &z.shape;
+    modes *m = z.modes;
+    for (uint32_t i = 0; i < 2; i++)
+      memset(z.proof->end + i * s->stride, 0, s->stride * sizeof(double)), z.E[i] = 1, m->old.V[3 * i] = 1;
+    z.proof->end[s->mix + 1] = 0.5;
+    assert_true(s->mixed > 2);
+    m->old.T[4 + 2] = m->old.U[4 + 2] = m->old.S[2] = m->old.tilt[2] = 0.25;
+    m->old.any = 1, m->old.b[0] = 1;
+    for (uint32_t i = 0; i < 2 && has_axes; i++) m->now.V[3 * i] = m->now.W[3 * i] = 1;
+    if (has_axes) m->now.T[8 + 2] = m->now.U[8 + 2] = m->now.S[2] = m->now.tilt[2] = 0.125;
+    map_discs(&z);
+    if (has_axes)
+      assert_true(m->now.b[0] >= 0.5 * 0.25 && m->in[1] >= 0.5 * 0.25 * 0.125);
+    else
+      assert_true(m->box[0] >= 0.5 * 0.25);
+    give_back();
+  }
+}
+
 /* -- what data make of generators */
 
 static void data_move_generators(void **unused) {
@@ -247,6 +315,12 @@ static void data_move_generators(void **unused) {
     memset(z.E, 0, nx * sizeof *z.E), z.ngen = columns;
     for (uint32_t c = 0; c < columns * nx; c++) z.G[c] = pick(4) ? unit[c % nx] * draw(-1, 1) : 0;
     for (uint32_t c = 0; c < columns * nx; c++) z.E[c % nx] += fabs(z.G[c]) * (1 + 1e-12);
+    quartic *q = z.proof->quartic;
+    q->n = q->length = n % 3 != 0; /* one term of degree 4, which is 1 or -1 */
+    for (uint32_t i = 0; i < nx && q->n; i++) {
+      q->term[i] = 3 * unit[i] * draw(-1, 1), q->size[i] = fabs(q->term[i]) * (1 + 1e-12);
+      z.E[i] += q->size[i];
+    }
     mixed_prepare(&z);
     uint32_t found = mixed_add(&z, 0);
     for (int turn = 0; turn < 100; turn++) {
@@ -263,6 +337,9 @@ static void data_move_generators(void **unused) {
         for (uint32_t a = 0; a < nx; a++) sum += z.E[a] > 0 ? moved[a] / z.E[a] * z.G[c * nx + a] : 0;
         truth += fabsl(sum);
       }
+      long double known = 0;
+      for (uint32_t a = 0; a < nx && q->n; a++) known += z.E[a] > 0 ? moved[a] / z.E[a] * q->term[a] : 0;
+      truth += fabsl(known);
       for (uint32_t c = 0; c < found; c++) {
         long double sum = 0;
         for (uint32_t a = 0; a < nx; a++) sum += l[a] * z.proof->columns[c * nx + a];
@@ -280,6 +357,8 @@ int main(void) {
     cmocka_unit_test(steps_lie_in_discs),
     cmocka_unit_test(they_are_no_larger_than_need_be),
     cmocka_unit_test(frequencies_cost_nothing),
+    cmocka_unit_test(pairs_of_data_are_not_left_out),
+    cmocka_unit_test(what_several_data_leave_is_bounded),
     cmocka_unit_test(data_move_generators),
   };
   return cmocka_run_group_tests_name("zonotope: old errors", tests, NULL, NULL);
