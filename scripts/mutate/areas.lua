@@ -27,7 +27,7 @@ return {
   solver("taylor_model", 35, "cell|dense|functions|kink|pieces|polynomial|proof|range|restrict|rules|series|set|step|tube|zonotope", { "solver" }),
   solver("stiff", 40, "bound|collocation|dd|dense|evaluate|frame|improve|invariant|linear|metzler|metzler_stiff|nodes|poly|prove|refine|series|splitting|spread|step|terms", { "solver" }),
   solver("valencia", 30, "faces|frame|point|series|slope|terms|verify", { "solver" }),
-  solver("zonotope", 50, "close|defect|dense|discs|error|form|functions|implicit|inverse|kernel|map|mixed|range|products|quartic|distance|multiply|row|run|series|set|slope|start|sum|sweep", { "zonotope" }),
+  solver("zonotope", 50, "basis|close|defect|dense|discs|error|form|functions|implicit|inverse|kernel|map|mixed|range|products|quartic|distance|multiply|row|run|series|set|slope|start|sum|sweep", { "zonotope" }),
   solver("krawczyk", 25, "bound|box|branch|cover|evaluate|hull|inverse|newton|prove|solution",
     { "roots", "roots_parameters", "stability", "inverse_kinematics" }),
   { name = "certify", share = 20, files = { "^scripts/prelude/certify/(bound|bounds|couple|curve|proof|values)%.lua$" },

@@ -1,7 +1,8 @@
-/* Old errors: discs along modes (discs.c, map.c), what data make of generators (mixed.c), columns by a few (frame.c).
+/* Old errors: discs along modes (discs.c, map.c), what data make of generators (mixed.c), what eps stand for (basis.c).
 ** For given data and a direction l the farthest of a disc is known, sum_k |l'V_k| b_k, of what a map makes of it,
 ** too. */
 #include "zonotope_case.h"
+#include "solver/zonotope/basis.h"
 #include "solver/zonotope/modes.h"
 #include "solver/zonotope/quartic.h"
 #include <complex.h>
@@ -27,7 +28,7 @@ static void fill_jacobian(zono *z, double *unit) {
   for (uint32_t i = 0; i < n; i++) z->E[i] = unit[i] * draw(1, 2), z->proof->spread[i] = 10 * unit[i];
 }
 
-/* rows of the states at the end of a step: about I + J h for old errors, and `share` of it for each datum */
+/* what a step makes of errors (close.c): about I + J h, and `share` of it for each datum */
 static void fill_maps(zono *z, const double *unit, double share) {
   const shape *s = &z->shape;
   uint32_t n = z->nx;
@@ -35,11 +36,11 @@ static void fill_maps(zono *z, const double *unit, double share) {
     double *y = z->proof->end + i * s->stride;
     memset(y, 0, s->stride * sizeof *y);
     for (uint32_t k = 0; k < n; k++) {
-      double square = 0, by = z->E[k], noise = draw(-1e-6, 1e-6) * unit[i] / unit[k];
+      double square = 0, noise = draw(-1e-6, 1e-6) * unit[i] / unit[k];
       for (uint32_t l = 0; l < n; l++) square += z->proof->J[i * n + l] * z->proof->J[l * n + k];
-      y[s->eps + k] = ((i == k) + z->h * z->proof->J[i * n + k] + z->h * z->h / 2 * square + noise) * by;
+      y[s->eps + k] = (i == k) + z->h * z->proof->J[i * n + k] + z->h * z->h / 2 * square + noise;
       for (uint32_t j = 0; j < s->mixed; j++)
-        y[s->mix + j * n + k] = share * z->h * (z->proof->J[i * n + k] * draw(-1, 1) + 1e6 * noise * draw(-1, 1)) * by;
+        y[s->mix + j * n + k] = share * z->h * (z->proof->J[i * n + k] * draw(-1, 1) + 1e6 * noise * draw(-1, 1));
     }
   }
 }
@@ -65,7 +66,7 @@ static void before(const zono *z, const long double *l, const double *xi, long d
       const double *y = z->proof->end + i * s->stride;
       long double t = y[s->eps + k];
       for (uint32_t j = 0; j < s->mixed; j++) t += (long double)xi[j] * y[s->mix + j * z->nx + k];
-      to[k] += l[i] * t / z->E[k];
+      to[k] += l[i] * t;
     }
   }
 }
@@ -120,7 +121,7 @@ static void check_sizes(zono *z, const double *unit) {
     long double l[MOST];
     double xi[MOST], y[MOST];
     uint32_t i = pick(z->nx);
-    for (uint32_t k = 0; k < z->nx; k++) y[k] = draw(-1, 1) * z->E[k] / unit[k], l[k] = (long double)y[k] / z->E[k];
+    for (uint32_t k = 0; k < z->nx; k++) l[k] = y[k] = draw(-1, 1) / unit[k];
     draw_data(z, xi);
     if (!(farthest(z, old, l, xi) <= discs_size(z, y))) fail_msg("a product is larger than its bound");
     for (uint32_t k = 0; k < z->nx; k++) l[k] = k == i;
@@ -334,11 +335,11 @@ static void data_move_generators(void **unused) {
             moved[a] += l[i] * xi[j] * z.proof->end[i * z.shape.stride + z.shape.mix + j * nx + a];
       for (uint32_t c = 0; c < columns; c++) {
         long double sum = 0;
-        for (uint32_t a = 0; a < nx; a++) sum += z.E[a] > 0 ? moved[a] / z.E[a] * z.G[c * nx + a] : 0;
+        for (uint32_t a = 0; a < nx; a++) sum += moved[a] * z.G[c * nx + a];
         truth += fabsl(sum);
       }
       long double known = 0;
-      for (uint32_t a = 0; a < nx && q->n; a++) known += z.E[a] > 0 ? moved[a] / z.E[a] * q->term[a] : 0;
+      for (uint32_t a = 0; a < nx && q->n; a++) known += moved[a] * q->term[a];
       truth += fabsl(known);
       for (uint32_t c = 0; c < found; c++) {
         long double sum = 0;
@@ -352,6 +353,112 @@ static void data_move_generators(void **unused) {
   }
 }
 
+/* -- what eps stand for */
+
+/* Errors that are small along some modes, on which forces are strong: G along them, one term of degree 4, discs. */
+static void fill_errors(zono *z) {
+  modes *m = z->modes;
+  discs *d = &m->now;
+  quartic *q = z->proof->quartic;
+  uint32_t n = z->nx;
+  double strength[MOST];
+  for (uint32_t k = 0; k < n; k++) strength[k] = k % 2 ? strength[k - 1] : exp(draw(0, 12)), d->b[k] = 1 / strength[k];
+  memset(z->E, 0, n * sizeof *z->E);
+  for (uint32_t c = 0; c < z->ngen; c++)
+    for (uint32_t i = 0; i < n; i++)
+      z->G[c * n + i] = creal(d->V[i * n + c % n]) * draw(-1, 1) / strength[c % n], z->E[i] += fabs(z->G[c * n + i]);
+  q->n = q->length = pick(2);
+  for (uint32_t i = 0; i < n; i++) {
+    q->term[i] = cimag(d->V[i * n]) / strength[0], q->size[i] = fabs(q->term[i]) * (1 + 1e-12);
+    z->E[i] = (z->E[i] + discs_width(z, i) + q->size[i]) * (1 + 1e-12), z->proof->spread[i] = z->E[i];
+    for (uint32_t l = 0; l < n; l++) {
+      complex double sum = 0;
+      for (uint32_t k = 0; k < n; k++) sum += d->V[i * n + k] * strength[k] * d->W[k * n + l];
+      z->proof->J[i * n + l] = creal(sum);
+    }
+  }
+}
+
+/* some errors, ends of their ranges mostly */
+static void draw_errors(const zono *z, const double *xi, long double *e) {
+  const discs *d = &z->modes->now;
+  const quartic *q = z->proof->quartic;
+  uint32_t n = z->nx;
+  double by = pick(2) ? 1 : -1;
+  for (uint32_t i = 0; i < n; i++) e[i] = q->n ? by * q->term[i] : 0;
+  for (uint32_t c = 0; c < z->ngen; c++) {
+    double rho = pick(2) ? 1 : -1;
+    for (uint32_t i = 0; i < n; i++) e[i] += rho * (long double)z->G[c * n + i];
+  }
+  for (uint32_t k = 0; k < n; k++) {
+    wide w = d->b[k] * cexp(draw(-4, 4) * I);
+    for (uint32_t i = 0; i < n; i++) {
+      wide v = d->V[i * n + k];
+      for (uint32_t j = 0; j < z->shape.mixed; j++) v += (wide)d->U[(j * n + i) * n + k] * xi[j];
+      e[i] += creall(v * w);
+    }
+  }
+}
+
+/* columns eps = e, by Gauss with pivots */
+static void solve_for_eps(const zono *z, const long double *e, long double *eps) {
+  uint32_t n = z->nx;
+  long double m[MOST][MOST + 1];
+  for (uint32_t i = 0; i < n; i++) {
+    for (uint32_t k = 0; k < n; k++) m[i][k] = z->basis->columns[i * n + k];
+    m[i][n] = e[i];
+  }
+  for (uint32_t k = 0; k < n; k++) {
+    uint32_t pivot = k;
+    for (uint32_t i = k; i < n; i++)
+      if (fabsl(m[i][k]) > fabsl(m[pivot][k])) pivot = i;
+    for (uint32_t c = 0; c <= n; c++) {
+      long double old = m[k][c];
+      m[k][c] = m[pivot][c], m[pivot][c] = old;
+    }
+    for (uint32_t i = 0; i < n; i++) {
+      long double f = m[i][k] / m[k][k];
+      for (uint32_t c = k; c <= n && i != k; c++) m[i][c] -= f * m[k][c];
+    }
+  }
+  for (uint32_t k = 0; k < n; k++) eps[k] = m[k][n] / m[k][k];
+}
+
+static void errors_lie_in_the_basis(void **unused) {
+  (void)unused;
+  static zono z;
+  static maker k;
+  uint32_t turned = 0;
+  long double most = 0;
+  for (uint32_t n = 0; n < 300; n++) {
+    uint32_t nx = 1 + n % MOST;
+    double unit[MOST];
+    open_case(&z, &k, nx, 0, 0);
+    z.h = 0.02, z.ngen = z.ngen_max = pick(10), z.G = lend(&host, 10 * MOST * sizeof *z.G);
+    assert_true(zono_open_proof(&z));
+    fill_jacobian(&z, unit), fill_maps(&z, unit, draw(0, 1));
+    if (modes_find(&z)) {
+      z.modes->now.any = 1;
+      fill_errors(&z), basis_choose(&z);
+    }
+    turned += (uint32_t)z.basis->is_turned;
+    for (int turn = 0; turn < 40 && z.basis->is_turned; turn++) {
+      long double e[MOST], eps[MOST], by_eps = 0, by_errors = 0, size = 0;
+      double xi[MOST], y[MOST];
+      draw_data(&z, xi), draw_errors(&z, xi, e), solve_for_eps(&z, e, eps);
+      for (uint32_t i = 0; i < nx; i++) {
+        if (!(fabsl(eps[i]) <= 1)) fail_msg("eps is %.17Lg", eps[i]);
+        most = fmaxl(most, fabsl(eps[i])), y[i] = draw(-1, 1), by_eps += y[i] * eps[i];
+      }
+      double bound = basis_resolve(&z, y);
+      for (uint32_t i = 0; i < nx; i++) by_errors += y[i] * e[i], size += fabsl(y[i] * e[i]);
+      if (!(fabsl(by_eps - by_errors) <= bound + 1e-17L * size)) fail_msg("off by %Lg", by_eps - by_errors);
+    }
+    give_back();
+  }
+  assert_true(turned > 50 && most > 0.9);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(steps_lie_in_discs),
@@ -360,6 +467,7 @@ int main(void) {
     cmocka_unit_test(pairs_of_data_are_not_left_out),
     cmocka_unit_test(what_several_data_leave_is_bounded),
     cmocka_unit_test(data_move_generators),
+    cmocka_unit_test(errors_lie_in_the_basis),
   };
   return cmocka_run_group_tests_name("zonotope: old errors", tests, NULL, NULL);
 }

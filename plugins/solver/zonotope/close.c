@@ -4,6 +4,7 @@
 ** them is in mixed.c, what z(h) adds in distance.c. Then generators are reduced [Girard 2005]: in units of the states'
 ** sizes, the columns that are nearest to an axis, or shortest, go into a box, or into discs where there are any.
 */
+#include "basis.h"
 #include "modes.h"
 #include "proof.h"
 #include "quartic.h"
@@ -38,6 +39,23 @@ static void find_end(zono *z) {
 
 /* -- old generators */
 
+/* what the step makes of errors, of eps until here */
+static void resolve_end(zono *z) {
+  const shape *s = &z->shape;
+  for (uint32_t i = 0; i < z->nx; i++) {
+    double *y = z->proof->end + (size_t)i * s->stride;
+    *box(z, FROM_START, i) += basis_resolve(z, y + s->eps);
+    for (uint32_t j = 0; j < s->mixed && row_x(s, y) > 0; j++)
+      *box(z, FROM_START, i) += basis_resolve(z, y + s->mix + (size_t)j * z->nx);
+  }
+}
+
+static double size_by_errors(const zono *z, const double *y) {
+  double sum = 0;
+  for (uint32_t k = 0; k < z->nx; k++) sum += fabs(y[k]) * z->E[k];
+  return sum;
+}
+
 /* columns [ngen] at p->columns, and those of mixed terms; box += what these leave, and rounding. Their number. */
 static uint32_t move_generators(zono *z) {
   proof *p = z->proof;
@@ -47,13 +65,13 @@ static uint32_t move_generators(zono *z) {
   memcpy(p->origin, p->from, z->ngen);
   for (uint32_t i = 0; i < z->nx; i++) {
     const double *y = p->end + (size_t)i * s->stride;
-    for (uint32_t k = 0; k < z->nx; k++) p->grow[k] = z->E[k] > 0 ? y[s->eps + k] / z->E[k] : 0;
-    quartic_move(z, i, p->grow);
+    quartic_move(z, i, y + s->eps);
     mixed_through(z, y + s->eps, moved);
     for (uint32_t c = 0; c < z->ngen; c++) p->columns[(size_t)c * z->nx + i] = moved[c];
-    /* E is rounded up, so sums of |G| / E, with those of terms of degree 4, are at most 1 */
-    double rounded = 2 * (z->nx + 4) * UNIT * (row_r(s, y) + row_x(s, y));
-    *box(z, FROM_START, i) += rounded;
+    double size = size_by_errors(z, y + s->eps); /* E is at least sums of |G|, with those of terms of degree 4 */
+    for (uint32_t j = 0; j < s->mixed && row_x(s, y) > 0; j++)
+      size += size_by_errors(z, y + s->mix + (size_t)j * z->nx);
+    *box(z, FROM_START, i) += 2 * (z->nx + 4) * UNIT * size * ABOVE;
   }
   return mixed_add(z, z->ngen);
 }
@@ -170,6 +188,7 @@ void zono_finish(zono *z) {
   const shape *s = &z->shape;
   memset(p->boxes, 0, ORIGINS * (size_t)z->nx * sizeof(double));
   find_end(z);
+  resolve_end(z);
   discs_move(z);
   uint32_t n = move_generators(z);
   n = distance_add(z, n);
@@ -183,4 +202,5 @@ void zono_finish(zono *z) {
     row_norms_all(s, to);
   }
   find_sizes(z);
+  basis_choose(z);
 }

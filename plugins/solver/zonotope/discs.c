@@ -101,23 +101,33 @@ void discs_move(zono *z) {
 
 /* -- sizes */
 
-double discs_size(const zono *z, const double *y) {
-  const discs *d = &z->modes->old;
+/* y (V + sum_j xi_j U_j) w: what U_j = V T_j has of it by sizes of U_j, or of y V and T_j */
+double discs_along(const zono *z, const discs *d, const double *y) {
   uint32_t n = z->nx;
-  double all = 0;
-  for (uint32_t k = 0; k < n && d->any; k++) {
+  double all = 0, *along = z->modes->along, *rounded = along + n;
+  if (!d->any) return 0;
+  for (uint32_t k = 0; k < n; k++) {
     number sum = 0;
-    double size = 0, turned = 0;
+    double size = 0;
+    for (uint32_t l = 0; l < n; l++) {
+      number part = y[l] * d->V[l * n + k];
+      sum += part, size += cabs(part);
+    }
+    along[k] = cabs(sum), rounded[k] = 8 * (n + 4) * UNIT * size;
+  }
+  for (uint32_t k = 0; k < n; k++) {
+    double turned = 0, by_turns = 0;
     if (d->b[k] == 0) continue;
     for (uint32_t l = 0; l < n; l++) {
-      double by = z->E[l] > 0 ? y[l] / z->E[l] : 0;
-      number part = by * d->V[l * n + k];
-      sum += part, size += cabs(part), turned += fabs(by) * d->S[l * n + k];
+      turned += fabs(y[l]) * d->S[l * n + k];
+      by_turns += (along[l] + 2 * rounded[l]) * d->tilt[l * n + k];
     }
-    all += (cabs(sum) + 8 * (n + 4) * UNIT * size + turned) * d->b[k];
+    all += (along[k] + rounded[k] + fmin(turned, by_turns)) * d->b[k];
   }
   return all * ABOVE;
 }
+
+double discs_size(const zono *z, const double *y) { return discs_along(z, &z->modes->old, y); }
 
 double discs_width(const zono *z, uint32_t i) {
   const discs *d = &z->modes->now;

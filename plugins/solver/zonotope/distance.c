@@ -3,7 +3,7 @@
 ** Each lump is two new generators (kernel.c): one symbol for all states. What is known of lumps is a polynomial
 ** (quartic.c). What K and C vary by besides, and what slopes vary by, goes into the box.
 */
-#include "proof.h"
+#include "basis.h"
 #include "quartic.h"
 
 /* -- columns */
@@ -61,7 +61,10 @@ static uint32_t add_known(zono *z, uint32_t at, const sums *sum) {
   for (uint32_t l = 0; l < z->nx; l++) {
     double size = 0, known = quartic_sum(z, l);
     if (p->link[l] == LINK_STATE) continue;
-    for (uint32_t n = 0; n < p->quartic->pairs; n++) size += mixed_size(z, quartic_near(z, l, n));
+    for (uint32_t n = 0; n < p->quartic->pairs; n++) {
+      double *near = quartic_near(z, l, n);
+      size += basis_resolve(z, near), size += mixed_size(z, near);
+    }
     size *= ABOVE;
     for (uint32_t i = 0; i < z->nx; i++) c[i] = i == l;
     sum->centre[l] += known, sum->path[l] += known;

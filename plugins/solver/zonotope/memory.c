@@ -1,5 +1,6 @@
 /* memory.c -- what phase 2 needs, all at once, and how each x' is found. */
 #include "proof.h"
+#include "basis.h"
 #include "modes.h"
 #include "quartic.h"
 
@@ -111,7 +112,7 @@ static int open_states(zono *z) {
 int zono_open_proof(zono *z) {
   proof *p = z->proof = z->host->alloc(z->host, sizeof *p);
   if (!p || !open_slots(z) || !open_targets(z) || !open_states(z)) return 0;
-  if (!quartic_open(z) || !modes_open(z)) return 0;
+  if (!quartic_open(z) || !modes_open(z) || !basis_open(z)) return 0;
   slope_open(p->gap);
   if ((z->problem.wish & AMBIT_WISH_DENSE) && z->nx && !dense_open(z)) return 0;
   return !(z->problem.wish & AMBIT_WISH_SET) || !z->nx || set_open(z);

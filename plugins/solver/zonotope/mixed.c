@@ -15,8 +15,8 @@ void mixed_prepare(zono *z) {
   proof *p = z->proof;
   uint32_t n = z->ngen;
   for (uint32_t i = 0; i < z->nx; i++) {
-    double scale = z->E[i] > 0 ? 1 / z->E[i] : 0, *to = p->turned + (size_t)i * n;
-    for (uint32_t c = 0; c < n; c++) to[c] = z->G[(size_t)c * z->nx + i] * scale;
+    double *to = p->turned + (size_t)i * n;
+    for (uint32_t c = 0; c < n; c++) to[c] = z->G[(size_t)c * z->nx + i];
   }
 }
 
@@ -31,7 +31,7 @@ void mixed_through(const zono *z, const double *y, double *to) {
   }
 }
 
-/* a bound of sum_k y_k (G rho)_k / E_k */
+/* a bound of sum_k y_k (G rho)_k */
 static double of_generators(const zono *z, const double *y) {
   double *to = z->proof->turned + (size_t)z->nx * z->ngen, sum = 0;
   mixed_through(z, y, to);
@@ -39,19 +39,11 @@ static double of_generators(const zono *z, const double *y) {
   return sum;
 }
 
-/* of sum_k y_k P_4,k / E_k: by the sizes of terms of each state, */
+/* of sum_k y_k P_4,k: by the sizes of terms of each state */
 static double of_quartic(const zono *z, const double *y) {
   double sum = 0;
-  for (uint32_t k = 0; k < z->nx; k++)
-    if (z->E[k] > 0) sum += fabs(y[k]) * quartic_size(z, k) / z->E[k];
+  for (uint32_t k = 0; k < z->nx; k++) sum += fabs(y[k]) * quartic_size(z, k);
   return sum;
-}
-
-/* term by term */
-static double of_quartic_terms(zono *z, const double *y) {
-  double *by = z->proof->moves;
-  for (uint32_t k = 0; k < z->nx; k++) by[k] = z->E[k] > 0 ? y[k] / z->E[k] : 0;
-  return quartic_through(z, by);
 }
 
 double mixed_size(const zono *z, const double *y) { return of_generators(z, y) + of_quartic(z, y) + discs_size(z, y); }
@@ -74,7 +66,7 @@ static int find_pivot(const zono *z, const double *B, uint32_t *row, uint32_t *c
   double most = 0;
   for (uint32_t i = 0; i < z->nx; i++)
     for (uint32_t k = 0; k < z->nx; k++) {
-      double size = fabs(B[(size_t)i * z->nx + k]) / (z->E[i] > 0 ? z->E[i] : LEAST);
+      double size = fabs(B[(size_t)i * z->nx + k]) * z->E[k] / (z->E[i] > 0 ? z->E[i] : LEAST);
       if (size > most) most = size, *row = i, *column = k;
     }
   return most > 0;
@@ -89,7 +81,7 @@ static void split(zono *z, double *B, uint32_t i, uint32_t k, double *u, double 
     double rounded = 0;
     for (uint32_t b = 0; b < nx; b++) {
       double part = u[a] * w[b], *at = B + (size_t)a * nx + b;
-      rounded += fabs(*at) + fabs(part);
+      rounded += (fabs(*at) + fabs(part)) * z->E[b];
       *at -= part;
     }
     *box(z, FROM_START, a) += 2 * (nx + 8) * UNIT * rounded;
@@ -99,12 +91,12 @@ static void split(zono *z, double *B, uint32_t i, uint32_t k, double *u, double 
 uint32_t mixed_add(zono *z, uint32_t at) {
   proof *p = z->proof;
   uint32_t nx = z->nx, i = 0, k = 0;
-  double *B = p->moves + nx, *u = B + (size_t)nx * nx, *w = u + nx;
+  double *B = p->moves, *u = B + (size_t)nx * nx, *w = u + nx;
   for (uint32_t j = 0; j < z->shape.mixed; j++) {
     if (!take_moves(z, j, B)) continue;
     for (int r = 0; r < RANK && find_pivot(z, B, &i, &k); r++) {
       split(z, B, i, k, u, w);
-      double *column = p->columns + (size_t)at * nx, size = (of_generators(z, w) + of_quartic_terms(z, w)) * ABOVE;
+      double *column = p->columns + (size_t)at * nx, size = (of_generators(z, w) + quartic_through(z, w)) * ABOVE;
       for (uint32_t a = 0; a < nx; a++) column[a] = u[a] * size, *box(z, FROM_START, a) += UNIT * fabs(column[a]);
       p->origin[at++] = FROM_MIXED;
     }

@@ -33,7 +33,7 @@ int modes_open(zono *z) {
          numbers_of(h, square, &m->A) && numbers_of(h, square, &m->B) && numbers_of(h, square, &m->C) &&
          numbers_of(h, z->shape.m * square, &m->D) && numbers_of(h, z->shape.m * square, &m->G) &&
          doubles_of(h, square, &m->rest) && doubles_of(h, square, &m->growth) &&
-         doubles_of(h, 8 * square + 7 * nx, &m->work);
+         doubles_of(h, 8 * square + 7 * nx, &m->work) && doubles_of(h, 2 * nx, &m->along);
 }
 
 void modes_start(zono *z) { z->modes->now.any = z->modes->old.any = 0, z->modes->wait = 0; }
@@ -92,12 +92,12 @@ void modes_product(size_t n, const number *a, const number *b, number *to) {
 }
 
 double modes_flow(const zono *z, uint32_t i, uint32_t k) {
-  return z->E[k] > 0 ? z->proof->end[(size_t)i * z->shape.stride + z->shape.eps + k] / z->E[k] : 0;
+  return z->proof->end[(size_t)i * z->shape.stride + z->shape.eps + k];
 }
 
 double modes_mixed(const zono *z, uint32_t j, uint32_t i, uint32_t k) {
   size_t at = (size_t)i * z->shape.stride + z->shape.mix + (size_t)j * z->nx + k;
-  return z->E[k] > 0 ? z->proof->end[at] / z->E[k] : 0;
+  return z->proof->end[at];
 }
 
 /* Turn T_j,ik of W M_j V by the difference of the multipliers of modes i and k: (I + sum_j xi_j T_j) makes the modes of

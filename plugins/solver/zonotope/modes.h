@@ -25,11 +25,12 @@ typedef struct modes {
   number *A, *B, *C;   /* [nx x nx] */
   number *D, *G;       /* [mixed x nx x nx] */
   double *rest, *work; /* [nx x nx] [8 nx nx + 7 nx] */
+  double *along;       /* [2 nx] */
 } modes;
 
 int modes_open(zono *z);   /* 0: no memory */
 void modes_start(zono *z); /* no discs */
-/* to := a b; what the step makes of eps_k in state i, by E_k, and of xi_j eps_k */
+/* to := a b; what the step makes of e_k in state i, and of xi_j e_k */
 void modes_product(size_t n, const number *a, const number *b, number *to);
 double modes_flow(const zono *z, uint32_t i, uint32_t k);
 double modes_mixed(const zono *z, uint32_t j, uint32_t i, uint32_t k);
@@ -46,7 +47,8 @@ int worth_keeping(const zono *z);
 void discs_move(zono *z);
 /* discs += x [nx], real, once for all symbols; or the box += |x_i| where there are no discs */
 void discs_put(zono *z, const double *x, enum origin from);
-/* a bound of sum_k y_k eps_k over the discs at the start of the step */
+/* a bound of sum_i y_i e_i over discs; over those at the start of the step */
+double discs_along(const zono *z, const discs *d, const double *y);
 double discs_size(const zono *z, const double *y);
 /* all of the box goes into the discs, and what they leave into the box */
 void discs_finish(zono *z);

@@ -114,7 +114,7 @@ int set_open(zono *z);
 int dense_open(zono *z);
 /* mixed.c: prepares what follows, from G and E; */
 void mixed_prepare(zono *z);
-/* to [ngen] := sum_k y_k eps_k, column by column; */
+/* to [ngen] := sum_k y_k e_k, column by column; */
 void mixed_through(const zono *z, const double *y, double *to);
 /* a bound of it, with terms of degree 4 and discs; */
 double mixed_size(const zono *z, const double *y);

@@ -86,8 +86,8 @@ static void multiply_near(quartic *q) {
     }
 }
 
-const double *quartic_near(const zono *z, uint32_t i, uint32_t n) {
-  const quartic *q = z->proof->quartic;
+double *quartic_near(zono *z, uint32_t i, uint32_t n) {
+  quartic *q = z->proof->quartic;
   return q->near_sum + ((size_t)i * q->pairs + n) * z->nx;
 }
 

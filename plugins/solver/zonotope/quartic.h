@@ -54,7 +54,7 @@ int quartic_begin(zono *z);
 ** from then on; what is known of them is added to the sums */
 lump quartic_lump(zono *z, uint32_t j);
 /* of x'_i and pair n: [nx] what one of each eps makes; rounding: of all pairs of x'_i */
-const double *quartic_near(const zono *z, uint32_t i, uint32_t n);
+double *quartic_near(zono *z, uint32_t i, uint32_t n);
 /* bound of the sum of this step for x'_i */
 double quartic_sum(const zono *z, uint32_t i);
 /* sum of sizes of terms of state i */

@@ -4,6 +4,7 @@
 ** with a_k = 0, solved for a_k, and everything that depends on it is made again: of a product, only the part that is
 ** new.
 */
+#include "basis.h"
 #include "implicit.h"
 #include "kink.h"
 
@@ -80,6 +81,18 @@ static int evaluate(zono *z, uint32_t i, uint32_t k) {
 
 /* -- inputs */
 
+static void put_errors(const zono *z, uint32_t i, double *x) {
+  const shape *s = &z->shape;
+  const basis *b = z->basis;
+  x[s->eps + i] = x[s->norms + NORM_R] = z->E[i];
+  if (!b || !b->is_turned) return;
+  x[s->norms + NORM_R] = 0;
+  for (uint32_t k = 0; k < z->nx; k++) {
+    double c = b->columns[(size_t)i * z->nx + k];
+    x[s->eps + k] = c, x[s->norms + NORM_R] += fabs(c);
+  }
+}
+
 static void put_inputs(zono *z) {
   const ambit_tape *t = z->program.tape;
   const shape *s = &z->shape;
@@ -87,7 +100,7 @@ static void put_inputs(zono *z) {
   for (uint32_t i = 0; i < z->nx; i++) {
     double *x = row_at(z, slot_x(z, i), 0);
     memcpy(x, z->P + (size_t)i * s->stride, s->stride * sizeof *x);
-    x[s->eps + i] = x[s->norms + NORM_R] = z->E[i];
+    put_errors(z, i, x);
   }
   for (uint32_t i = 0; i < z->np; i++)
     row_scale(s, row_at(z, slot_p(z, i), 0), 1, z->p_row + (size_t)i * s->stride, row_parts(s, 0));

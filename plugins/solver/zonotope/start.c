@@ -3,6 +3,7 @@
 ** The tape is run as a step of length 0 of a system without states: the rows of its slots, what its operations fail by,
 ** and how far that spreads. A state or parameter that is more than rounding away from its row gets a datum of its own.
 */
+#include "basis.h"
 #include "modes.h"
 #include "zonotope.h"
 #include <ambit/code.h>
@@ -133,7 +134,7 @@ ambit_status zono_start_open(zono *z, const double *weight) {
 
 void zono_start(zono *z) {
   shape_hold_all(&z->shape);
-  if (z->modes) modes_start(z);
+  if (z->modes) modes_start(z), z->basis->is_turned = 0;
   size_t bytes = z->shape.stride * sizeof(double);
   z->t = z->problem.time[0], z->next = 1, z->guess = 0, z->ngen = 0, z->why = WHY_NOTHING, z->detail = NULL;
   memcpy(z->P, z->start, z->nx * bytes);

@@ -7,10 +7,13 @@
 */
 #include "modes.h"
 #include "proof.h"
+#include "quartic.h"
 
-#define MOSTLY 0.5  /* of the errors, that must come from how older ones depend on the data */
-#define EXCESS 4.5  /* most that discs are wider by: 2 to 3.4 where they help, 5.7 and more where they harm */
-#define GROWTH 10.0 /* logarithm: most by which discs may grow to the end of the run */
+#define MOSTLY 0.5 /* of the errors, that must come from how older ones depend on the data */
+#define EXCESS 4.5 /* most that discs are wider by: 2 to 3.4 where they help, 5.7 and more where they harm */
+#define URGENT 0.5 /* of its set: from errors of a state so large on they will not stay in generators for long, and */
+#define BEARABLE 16.0 /* discs may be wider by so much */
+#define GROWTH 10.0   /* logarithm: most by which discs may grow to the end of the run */
 #define DOUBLINGS 24
 
 static double time_left(const zono *z) { return fabs(z->problem.time[z->problem.ntime - 1] - z->t); }
@@ -65,6 +68,12 @@ static void enclose(const zono *z, double *b) {
     }
 }
 
+static int is_urgent(const zono *z) {
+  for (uint32_t i = 0; i < z->nx; i++)
+    if (z->E[i] - quartic_size(z, i) > URGENT * z->proof->spread[i]) return 1;
+  return 0;
+}
+
 int worth_enclosing(zono *z) {
   const modes *m = z->modes;
   uint32_t n = z->nx;
@@ -75,7 +84,7 @@ int worth_enclosing(zono *z) {
     for (uint32_t k = 0; k < n; k++)
       width += (cabs(m->now.V[i * n + k]) + m->now.S[i * n + k]) * b[k] / z->proof->spread[i];
   }
-  return width < EXCESS * reach;
+  return width < (is_urgent(z) ? BEARABLE : EXCESS) * reach;
 }
 
 /* how fast discs grow at most, per second: by the largest eigenvalue of m->growth, from its powers */

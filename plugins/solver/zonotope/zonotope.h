@@ -86,6 +86,7 @@ typedef struct zono {
   uint32_t *has_inverse; /* [ninstr] number of the inverse + 1, 0: none */
   struct kinks *kinks;   /* kink.c */
   struct modes *modes;   /* modes.c */
+  struct basis *basis;   /* basis.c */
   /* -- the set */
   uint32_t *unknown;             /* [m] which of the problem's unknowns datum j is; AMBIT_NO_SLOT: the solver's own */
   double *about, *scale;         /* [m] datum j is about_j + scale_j xi_j; 0 and 1 of the solver's own */
