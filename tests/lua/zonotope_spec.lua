@@ -319,6 +319,16 @@ end } }
     assert.is_true(run.x.x:width() < 1.5 * (x(1.1) - x(0.9)), tostring(run.x.x))
   end)
 
+  it("takes no short steps for the least of two that are the same", function()
+    local p = between("0.45", "0.55")
+    local o = ambit.ode { states = { "x", "y" }, parameters = { p = p }, equations = function(s, q)
+      return { x = s.y, y = -ambit.min(s.x * (1 + q.p) * s.y, s.x * s.y + q.p * s.x * s.y) - s.x }
+    end }
+    local run = ambit.simulate { o, initial = { x = 1, y = between("0.09", "0.11") }, t = "0.001", solver = "zonotope" }
+    assert.equal("complete", run.status)
+    assert.is_true(run.step_count < 10, run.step_count)
+  end)
+
   it("takes a mechanism in implicit form, closed loops included", function()
     local m = ambit.mechanism { "pendulum", gravity = { 0, "-9.81", 0 } }
     local joint = m:revolute { from = m.world, axis = "z", name = "angle" }

@@ -32,19 +32,33 @@ static double centre_of(const zono *z, uint32_t i, double scale, double *moving)
   return z->kinks->row[0];
 }
 
-/* sum of the sizes of orders `first` and above of both operands */
-static double size_of(const zono *z, uint32_t i, uint32_t first, double length) {
+/* sum of the sizes of all orders of both operands */
+static double size_of(const zono *z, uint32_t i, double length) {
   const ambit_tape *t = z->program.tape;
   double sum = 0, power = 1;
   for (uint32_t k = 0; k <= z->K; k++, power *= length) {
-    if (k < first) continue;
     sum += row_total(&z->shape, coefficient(z, t->a[i], k)) * power;
     if (t->op[i] != AMBIT_OP_ABS) sum += row_total(&z->shape, coefficient(z, t->b[i], k)) * power;
   }
   return sum;
 }
 
+/* of d from order 2 on: its operands may be nearly the same */
+static double later_of(const zono *z, uint32_t i, double length) {
+  double sum = 0;
+  for (uint32_t k = z->K; k >= 2; k--) sum = (sum + z->kinks->of[i].total[k]) * length;
+  return sum * length;
+}
+
 /* -- phase 1 */
+
+static void note_total(zono *z, uint32_t i, uint32_t k) {
+  terms sum;
+  terms_clear(&sum);
+  add_operand(z, &sum, i, k, 1);
+  terms_sum(&z->shape, &sum, z->kinks->row, row_parts(&z->shape, k));
+  z->kinks->of[i].total[k] = row_total(&z->shape, z->kinks->row) * ABOVE;
+}
 
 static void choose_line(zono *z, uint32_t i) {
   kink *k = &z->kinks->of[i];
@@ -73,6 +87,7 @@ void kink_row(zono *z, uint32_t i, uint32_t k) {
   double share_a, share_b;
   terms sum;
   if (k == 0) choose_line(z, i);
+  note_total(z, i, k);
   kink_shares(z, i, &share_a, &share_b);
   terms_clear(&sum);
   if (has_twin(z, i)) {
@@ -100,8 +115,9 @@ static double miss(const kink *k, double lo, double hi) {
 static void find_range(zono *z, uint32_t i, double length) {
   kink *k = &z->kinks->of[i];
   double h = z->h < 0 ? -length : length, from, to = 0;
-  double first = centre_of(z, i, 0, &from), last = centre_of(z, i, h, &to), later = size_of(z, i, 2, length);
-  double more = later + 1e-9 * (larger(from, to) + later + fabs(last - first)) + 1e-14 * size_of(z, i, 0, length);
+  double first = centre_of(z, i, 0, &from), last = centre_of(z, i, h, &to), later = later_of(z, i, length);
+  k->size = size_of(z, i, length);
+  double more = later + 1e-9 * (larger(from, to) + later + fabs(last - first)) + 1e-14 * k->size;
   k->lo = smaller(first - from, last - to) - more, k->hi = larger(first + from, last + to) + more;
   k->moved = last - first;
 }
@@ -126,7 +142,8 @@ double kink_second(const zono *z, uint32_t i, double distance) {
 
 #define GROWTH 1.1
 #define BESIDE_WIDTH 0.01 /* of d; */
-#define BESIDE_STEP 1e-6  /* of what d moves in a step of the usual length: a kink between exact states */
+#define BESIDE_STEP 1e-6  /* of what d moves in a step of the usual length: a kink between exact states; */
+#define BESIDE_SIZE 1e-13 /* of what d is the difference of: the same to rounding */
 
 void kinks_start(zono *z, double longest) {
   if (z->kinks->usual == 0) z->kinks->usual = longest;
@@ -142,7 +159,7 @@ int kinks_fit(const zono *z, double length) {
     const kink *k = &z->kinks->of[i];
     if (!is_kinked(z->program.tape->op[i]) || has_twin(z, i)) continue;
     double least = length > 0 ? BESIDE_STEP * z->kinks->usual * fabs(k->moved) / length : 0;
-    if (miss(k, k->lo, k->hi) > GROWTH * k->missed + BESIDE_WIDTH * k->width + least) return 0;
+    if (miss(k, k->lo, k->hi) > GROWTH * k->missed + BESIDE_WIDTH * k->width + least + BESIDE_SIZE * k->size) return 0;
   }
   return 1;
 }
@@ -184,6 +201,8 @@ int kinks_open(zono *z) {
   k->row = h->alloc(h, z->shape.stride * sizeof(double));
   k->is_slot = h->alloc(h, t->nslot);
   if (!k->of || !k->may_cross || !k->row || !k->is_slot) return 0;
+  for (uint32_t i = 0; i < t->ninstr; i++)
+    if (is_kinked(t->op[i]) && !(k->of[i].total = h->alloc(h, (z->K_max + 1u) * sizeof(double)))) return 0;
   /* equations must be affine in the unknowns that they are solved for */
   for (uint32_t i = 0; i < t->ninstr; i++) k->may_cross[i] = !z->program.needed || !z->program.needed[t->dst[i]];
   find_twins(z);

@@ -7,6 +7,8 @@ typedef struct kink {
   double slope, offset; /* |d| is about slope d + offset */
   double lo, hi;        /* d over the step, along the polynomials */
   double moved, drift;  /* of d's constant in this step, in the last one */
+  double size;          /* of the operands over the step */
+  double *total;        /* [K_max + 1] of each order of d */
   double missed, width; /* at the start of the step: by how much the line differs, half width of d */
   uint32_t twin;        /* an earlier min or max of the same operands, of which this is a + b less; itself: none */
 } kink;
