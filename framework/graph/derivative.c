@@ -7,6 +7,7 @@
 */
 #include "graph/fold.h"
 #include "graph/kink.h"
+#include "graph/name.h"
 #include "graph/walk.h"
 #include <stdlib.h>
 
@@ -101,6 +102,23 @@ static ambit_expr chain(ambit_graph *g, const ambit_walk *walk, ambit_expr *d, a
   return last;
 }
 
+/* Where the time derivative would need that of a function of which only bounds are known. */
+static ambit_expr no_rate(const ambit_graph *g, ambit_expr varying, ambit_failure *f) {
+  char name[AMBIT_DATUM_NAME_MAX];
+  ambit_graph_leaf_name(g, varying, name);
+  ambit_fail(f, AMBIT_INVALID,
+      "`%s` varies in time in any way within its bounds: what is differentiated by time, such as a position, a length "
+      "or a given motion, may not depend on it; give it bounds of its rate, ambit.varying(lo, hi, { rate = ... })",
+      name);
+  return AMBIT_NO_EXPR;
+}
+
+static ambit_expr find_varying(const ambit_graph *g, const ambit_walk *walk) {
+  for (size_t i = 0; i < walk->count; i++)
+    if (ambit_at(g, walk->node[i])->op == AMBIT_LEAF_VARYING) return walk->node[i];
+  return AMBIT_NO_EXPR;
+}
+
 static ambit_expr differentiate(ambit_graph *g, ambit_expr e, size_t n, const ambit_expr *leaf, const ambit_expr *rate,
     ambit_expr time_rate, ambit_failure *f) {
   if (e >= g->count) {
@@ -116,7 +134,8 @@ static ambit_expr differentiate(ambit_graph *g, ambit_expr e, size_t n, const am
     for (size_t k = 0; k < n; k++)
       if ((at = ambit_walk_find(g, leaf[k])) != UINT32_MAX) d[at] = rate[k];
   }
-  ambit_expr r = d ? chain(g, &walk, d, f) : no_memory(f);
+  ambit_expr varying = time_rate == AMBIT_ZERO ? AMBIT_NO_EXPR : find_varying(g, &walk);
+  ambit_expr r = !d ? no_memory(f) : varying != AMBIT_NO_EXPR ? no_rate(g, varying, f) : chain(g, &walk, d, f);
   free(d);
   ambit_walk_close(&walk);
   return r;

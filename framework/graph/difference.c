@@ -150,7 +150,7 @@ static ambit_status check(const ambit_graph *g, size_t n, const ambit_expr *e, b
   for (size_t i = 0; i < n; i++) {
     if (e[i] >= g->count) return ambit_fail(f, AMBIT_INVALID, "a difference of or by something that is no expression");
     uint32_t op = ambit_at(g, e[i])->op;
-    if (leaves && op != AMBIT_LEAF_SYMBOL && op != AMBIT_LEAF_UNKNOWN && op != AMBIT_LEAF_TIME)
+    if (leaves && op != AMBIT_LEAF_SYMBOL && !ambit_leaf_is_uncertain(op) && op != AMBIT_LEAF_TIME)
       return ambit_fail(
           f, AMBIT_INVALID, "a difference by something that is neither a variable nor an uncertain datum");
   }

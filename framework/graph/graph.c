@@ -111,7 +111,7 @@ static ambit_expr append(ambit_graph *g, const ambit_stored *stored) {
 
 /* Names and units of symbols are the list's, those of time are no copies. */
 static bool owns_texts(uint32_t op) {
-  return op == AMBIT_LEAF_CONSTANT || op == AMBIT_LEAF_UNKNOWN || !ambit_op_is_leaf(op);
+  return op == AMBIT_LEAF_CONSTANT || ambit_leaf_is_uncertain(op) || !ambit_op_is_leaf(op);
 }
 
 void ambit_store_clear(ambit_stored *x) {
@@ -282,15 +282,25 @@ ambit_expr ambit_graph_decimal(ambit_graph *g, const char *text, ambit_failure *
   return negative && e != AMBIT_NO_EXPR ? ambit_graph_op(g, AMBIT_OP_NEG, e, e) : e;
 }
 
-ambit_expr ambit_graph_datum(
-    ambit_graph *g, const char *name, const char *place, ambit_interval outer, ambit_interval inner) {
+static ambit_expr uncertain_leaf(
+    ambit_graph *g, uint32_t op, const char *name, const char *place, ambit_interval outer, ambit_interval inner) {
   outer = ambit_interval_of(outer.lo, outer.hi);
   if (ambit_interval_is_empty(outer)) return AMBIT_NO_EXPR;
   inner = ambit_interval_intersect(ambit_interval_of(inner.lo, inner.hi), outer);
-  ambit_node node = { .op = AMBIT_LEAF_UNKNOWN, .value = outer, .inner = inner, .range = outer, .total = true };
+  ambit_node node = { .op = op, .value = outer, .inner = inner, .range = outer, .total = true };
   node.text = name;
   node.unit = place;
   return append_copy(g, &(ambit_stored) { .node = node });
+}
+
+ambit_expr ambit_graph_datum(
+    ambit_graph *g, const char *name, const char *place, ambit_interval outer, ambit_interval inner) {
+  return uncertain_leaf(g, AMBIT_LEAF_UNKNOWN, name, place, outer, inner);
+}
+
+ambit_expr ambit_graph_varying(
+    ambit_graph *g, const char *name, const char *place, ambit_interval outer, ambit_interval inner) {
+  return uncertain_leaf(g, AMBIT_LEAF_VARYING, name, place, outer, inner);
 }
 
 ambit_expr ambit_graph_unknown(ambit_graph *g, const char *name, ambit_interval range) {
@@ -305,7 +315,7 @@ void ambit_graph_mark_partial(ambit_graph *g, ambit_expr unknown) {
 
 bool ambit_graph_name(ambit_graph *g, ambit_expr unknown, const char *name) {
   ambit_node *node = &g->stored[unknown].node;
-  if (node->op != AMBIT_LEAF_UNKNOWN || node->text) return true;
+  if (!ambit_leaf_is_uncertain(node->op) || node->text) return true;
   node->plain = false;
   return (node->text = strdup(name)) != NULL;
 }

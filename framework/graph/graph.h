@@ -24,19 +24,26 @@ typedef struct ambit_graph ambit_graph;
 #define AMBIT_LEAF_UNKNOWN 0x101u  /* a fixed but unknown datum in `value`; the same node is the same unknown */
 #define AMBIT_LEAF_SYMBOL 0x102u   /* a named variable of a model (state, parameter, effort): any real number */
 #define AMBIT_LEAF_TIME 0x103u
+/* a function of time, measurable and in `value` at almost all times; the same node is the same function. None of it is
+** known but that: it has no derivative by time, and is constant for no solver that takes data for constants. */
+#define AMBIT_LEAF_VARYING 0x104u
 #define AMBIT_LEAF_NONE 0x1ffu /* the number of no node: it was freed */
+
+/* Is it a leaf with a range: a datum, or a function of time? */
+static inline bool ambit_leaf_is_uncertain(uint32_t op) { return op == AMBIT_LEAF_UNKNOWN || op == AMBIT_LEAF_VARYING; }
 
 typedef struct ambit_node {
   uint32_t op;          /* AMBIT_OP_* or AMBIT_LEAF_* */
   ambit_expr a, b;      /* operands; b == a when unary; POWN: b is the int32 exponent */
-  ambit_interval value; /* leaf CONSTANT, UNKNOWN: its set */
-  ambit_interval inner; /* UNKNOWN: values that it surely takes, inside `value`; empty: none is known */
-  ambit_interval range; /* bounds over all reals (UNKNOWN: over its set) */
+  ambit_interval value; /* leaf CONSTANT, UNKNOWN, VARYING: its set */
+  ambit_interval inner; /* UNKNOWN, VARYING: values that it surely takes, inside `value`; empty: none is known */
+  ambit_interval range; /* bounds over all reals (UNKNOWN, VARYING: over its set) */
   bool total;           /* defined for all real values of the leaves */
-  bool constant;        /* no UNKNOWN, SYMBOL or TIME below */
+  bool constant;        /* no UNKNOWN, VARYING, SYMBOL or TIME below */
   bool plain;           /* UNKNOWN: a plain interval that stands in a formula, until it is named as a datum */
-  const char *text;     /* CONSTANT: literal or "pi"; SYMBOL, UNKNOWN: name or NULL; ABS, MIN, MAX: writer or NULL */
-  const char *unit;     /* SYMBOL: SI unit; UNKNOWN: the line that made it, "scene.lua:12", or NULL */
+  const char
+      *text; /* CONSTANT: literal or "pi"; SYMBOL, UNKNOWN, VARYING: name or NULL; ABS, MIN, MAX: writer or NULL */
+  const char *unit; /* SYMBOL: SI unit; UNKNOWN, VARYING: the line that made it, "scene.lua:12", or NULL */
 } ambit_node;
 
 ambit_graph *ambit_graph_open(void); /* NULL: out of memory; node 0 is the constant 0 */
@@ -61,11 +68,14 @@ ambit_expr ambit_graph_unknown(ambit_graph *g, const char *name, ambit_interval 
 ** allowed (cut to `outer`; reversed or empty: none is known to be). place, name: or NULL. */
 ambit_expr ambit_graph_datum(
     ambit_graph *g, const char *name, const char *place, ambit_interval outer, ambit_interval inner);
+/* The same for a function of time within its range. */
+ambit_expr ambit_graph_varying(
+    ambit_graph *g, const char *name, const char *place, ambit_interval outer, ambit_interval inner);
 /* Marks an UNKNOWN as plain. */
 void ambit_graph_set_plain(ambit_graph *g, ambit_expr unknown);
 /* A fresh UNKNOWN stands for a quantity that has no value for a part of the data: nothing made of it is total. */
 void ambit_graph_mark_partial(ambit_graph *g, ambit_expr unknown);
-/* Calls an UNKNOWN that has no name so; false: out of memory. */
+/* Calls an UNKNOWN or VARYING that has no name so; false: out of memory. */
 bool ambit_graph_name(ambit_graph *g, ambit_expr unknown, const char *name);
 /* the same name is the same node */
 ambit_expr ambit_graph_symbol(ambit_graph *g, const char *name, const char *unit);
@@ -88,11 +98,11 @@ ambit_expr ambit_graph_pown(ambit_graph *g, ambit_expr a, int32_t n);
 ** MAX: AMBIT_NO_EXPR, and the failure names the opcode. */
 ambit_expr ambit_graph_derivative(ambit_graph *g, ambit_expr e, ambit_expr x, ambit_failure *f);
 /* Total time derivative: leaf k counts as a function of time with derivative rate[k] (leaves not listed are fixed; TIME
-** has 1). Valid where the derivative is. */
+** has 1). Valid where the derivative is. AMBIT_NO_EXPR where VARYING is below e. */
 ambit_expr ambit_graph_time_derivative(
     ambit_graph *g, ambit_expr e, size_t n, const ambit_expr *leaf, const ambit_expr *rate, ambit_failure *f);
-/* The same where ABS, MIN and MAX do not switch; where they do, it is undefined. There is none of them in it, so that it
-** has derivatives itself. */
+/* The same where ABS, MIN and MAX do not switch; where they do, it is undefined. There is none of them in it, so that
+** it has derivatives itself. */
 ambit_expr ambit_graph_rate_off_kinks(
     ambit_graph *g, ambit_expr e, size_t n, const ambit_expr *leaf, const ambit_expr *rate, ambit_failure *f);
 /* e[i] with leaf from[k] replaced by to[k], in place; shared work. */
@@ -106,8 +116,8 @@ size_t ambit_graph_terms(const ambit_graph *g, ambit_expr e, size_t room, ambit_
 ** needs fewer operations than e and never more than `limit` terms, otherwise e itself. An identity on the domain of
 ** e. */
 ambit_expr ambit_graph_simplify(ambit_graph *g, ambit_expr e, size_t limit);
-/* The leaves (UNKNOWN, SYMBOL, TIME) that e[0..ne) reach, in the order in which they were made; returns how many,
-** writes at most room. */
+/* The leaves (UNKNOWN, VARYING, SYMBOL, TIME) that e[0..ne) reach, in the order in which they were made; returns how
+** many, writes at most room. */
 size_t ambit_graph_leaves(const ambit_graph *g, size_t ne, const ambit_expr *e, size_t room, ambit_expr *leaf);
 size_t ambit_graph_size(const ambit_graph *g, size_t ne, const ambit_expr *e); /* distinct operations below */
 /* "0.5*sin(beta1) + x"; at most room bytes, always terminated; returns the full length. */

@@ -7,7 +7,7 @@
 
 #define DIGITS 3 /* of the width of a range in a name */
 
-static bool is_nameless(const ambit_node *node) { return node->op == AMBIT_LEAF_UNKNOWN && !node->text; }
+static bool is_nameless(const ambit_node *node) { return ambit_leaf_is_uncertain(node->op) && !node->text; }
 
 static bool name_leaves(ambit_graph *g, size_t n, const ambit_expr *leaf, const char *label) {
   unsigned number = 0;
@@ -39,7 +39,7 @@ bool ambit_graph_name_data(ambit_graph *g, ambit_expr e, const char *label) {
 }
 
 static const char *place_of(const ambit_node *node) {
-  return node->op == AMBIT_LEAF_UNKNOWN && node->unit ? node->unit : "";
+  return ambit_leaf_is_uncertain(node->op) && node->unit ? node->unit : "";
 }
 
 void ambit_graph_leaf_name(const ambit_graph *g, ambit_expr leaf, char out[AMBIT_DATUM_NAME_MAX]) {

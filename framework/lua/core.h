@@ -87,6 +87,8 @@ ambit_lua_expression *ambit_lua_push_expression(lua_State *L, ambit_expr e); /* 
 void ambit_lua_push_enclosure(lua_State *L, ambit_interval x, uint32_t flags);
 /* A fresh datum made by the running line of the script, NULL: no name yet; raises where there is no memory. */
 ambit_expr ambit_lua_datum(lua_State *L, const char *name, ambit_interval outer, ambit_interval inner);
+/* the same with its kind: AMBIT_LEAF_UNKNOWN or AMBIT_LEAF_VARYING */
+ambit_expr ambit_lua_leaf(lua_State *L, uint32_t leaf, const char *name, ambit_interval outer, ambit_interval inner);
 /* Pushes a new table {expression, ...}. */
 void ambit_lua_push_expressions(lua_State *L, size_t n, const ambit_expr *e);
 

@@ -5,7 +5,7 @@
 ** the inner range takes those that make it smaller, so every value inside is within the tolerance. What refutes, bounds
 ** from below or is sampled uses the inner range alone. For a general expression c the datum is c + |c| tol xi
 ** (absolute: c + tol xi) with a fresh xi in [-1, 1], which has the same image. between(lo, hi): one fresh unknown over
-** the hull of its ends.
+** the hull of its ends. varying(lo, hi): a function of time within that hull.
 */
 #include "lua/core.h"
 #include "model/tight.h"
@@ -126,28 +126,41 @@ static int tight(lua_State *L) {
   return 1;
 }
 
-/* between(lo, hi [, name]) */
-static int between(lua_State *L) {
-  ambit_lua_expression lo = ambit_lua_to_expression(L, 1, NULL, "between"),
-                       hi = ambit_lua_to_expression(L, 2, NULL, "between");
+/* The tight enclosure of an end, "varying: the lower end". */
+static ambit_interval end_of(lua_State *L, ambit_expr e, const char *verb, const char *which) {
   ambit_lua *core = AMBIT_LUA(L);
-  const char *name = name_of(L, 3, "between");
+  char what[64];
+  snprintf(what, sizeof what, "%s: the %s end", verb, which);
+  ambit_interval x = ambit_tight(core->graph, core->registry, e);
+  refuse_undefined(L, x, what);
+  return x;
+}
+
+/* A leaf over the hull of the ends at 1 and 2, of the name at 3; the same end twice is that number. */
+static int uncertain(lua_State *L, uint32_t leaf, const char *verb) {
+  ambit_lua_expression lo = ambit_lua_to_expression(L, 1, NULL, verb), hi = ambit_lua_to_expression(L, 2, NULL, verb);
+  const char *name = name_of(L, 3, verb);
   if (!ambit_lua_is_constant(L, &lo) || !ambit_lua_is_constant(L, &hi))
-    ambit_lua_error(L, "between: the ends must be known numbers, not uncertain themselves");
-  lo.dimension = ambit_lua_dimension_op(L, AMBIT_OP_ADD, lo.dimension, hi.dimension, "between");
-  ambit_interval a = ambit_tight(core->graph, core->registry, lo.e), b = ambit_tight(core->graph, core->registry, hi.e);
-  refuse_undefined(L, a, "between: the lower end");
-  refuse_undefined(L, b, "between: the upper end");
-  if (a.lo > b.hi) ambit_lua_error(L, "between: the interval is reversed: %g is greater than %g", a.lo, b.hi);
+    ambit_lua_error(L, "%s: the ends must be known numbers, not uncertain themselves", verb);
+  lo.dimension = ambit_lua_dimension_op(L, AMBIT_OP_ADD, lo.dimension, hi.dimension, verb);
+  ambit_interval a = end_of(L, lo.e, verb, "lower"), b = end_of(L, hi.e, verb, "upper");
+  if (a.lo > b.hi) ambit_lua_error(L, "%s: the interval is reversed: %g is greater than %g", verb, a.lo, b.hi);
   ambit_interval range = { a.lo, b.hi };
-  if (!ambit_interval_is_bounded(range)) ambit_lua_error(L, "between: the ends must be finite");
+  if (!ambit_interval_is_bounded(range)) ambit_lua_error(L, "%s: the ends must be finite", verb);
   ambit_interval inner = between_all(a, b);
   if (lo.e != hi.e && range.lo == range.hi && !(inner.lo <= inner.hi))
-    ambit_lua_error(L, "between: no number is known to lie between the ends, both are %g but for a rounding", range.lo);
-  if (lo.e != hi.e) lo.e = ambit_lua_datum(L, name, range, inner);
+    ambit_lua_error(
+        L, "%s: no number is known to lie between the ends, both are %g but for a rounding", verb, range.lo);
+  if (lo.e != hi.e) lo.e = ambit_lua_leaf(L, leaf, name, range, inner);
   *ambit_lua_push_expression(L, lo.e) = lo;
   return 1;
 }
+
+/* between(lo, hi [, name]) */
+static int between(lua_State *L) { return uncertain(L, AMBIT_LEAF_UNKNOWN, "between"); }
+
+/* varying(lo, hi [, name]): a function of time, always between the ends */
+static int varying(lua_State *L) { return uncertain(L, AMBIT_LEAF_VARYING, "varying"); }
 
 /* interval(lo, hi): numbers (infinite ones too), texts, enclosures; interval(x): a literal, a number, an enclosure */
 static int interval(lua_State *L) {
@@ -186,7 +199,7 @@ static int interval(lua_State *L) {
 }
 
 void ambit_lua_open_data(lua_State *L, ambit_lua *core) {
-  static const luaL_Reg functions[] = { { "around", around }, { "between", between }, { "interval", interval },
-    { "tight", tight }, { NULL, NULL } };
+  static const luaL_Reg functions[] = { { "around", around }, { "between", between }, { "varying", varying },
+    { "interval", interval }, { "tight", tight }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
 }

@@ -140,6 +140,15 @@ static int is_constant(lua_State *L) {
   return 1;
 }
 
+static const char *kind_of(uint32_t op) {
+  switch (op) {
+  case AMBIT_LEAF_UNKNOWN: return "unknown";
+  case AMBIT_LEAF_VARYING: return "varying";
+  case AMBIT_LEAF_TIME: return "time";
+  default: return "symbol";
+  }
+}
+
 /* leaves({e, ...}) -> {{expression, kind, name, unit, lo, hi, inner_lo, inner_hi, number}, ...}: what the expressions
 ** depend on. Data: inner_lo > inner_hi: no value is known to be allowed; unit: where it was made. */
 static int leaves(lua_State *L) {
@@ -152,8 +161,7 @@ static int leaves(lua_State *L) {
   lua_createtable(L, (int)count, 0);
   for (size_t i = 0; i < count; i++) {
     const ambit_node *node = ambit_graph_node(g, leaf[i]);
-    const char *kind = node->op == AMBIT_LEAF_UNKNOWN ? "unknown" : node->op == AMBIT_LEAF_TIME ? "time" : "symbol";
-    ambit_interval range = node->op == AMBIT_LEAF_UNKNOWN ? node->value : node->range;
+    ambit_interval range = ambit_leaf_is_uncertain(node->op) ? node->value : node->range;
     lua_createtable(L, 0, 9);
     lua_pushinteger(L, (lua_Integer)ambit_graph_birth(g, leaf[i]));
     lua_setfield(L, -2, "number");
@@ -161,7 +169,7 @@ static int leaves(lua_State *L) {
     lua_setfield(L, -2, "name");
     lua_pushstring(L, node->unit);
     lua_setfield(L, -2, "unit");
-    lua_pushstring(L, kind);
+    lua_pushstring(L, kind_of(node->op));
     lua_setfield(L, -2, "kind");
     lua_pushnumber(L, range.lo);
     lua_setfield(L, -2, "lo");
@@ -236,8 +244,7 @@ static int refuse_plain(lua_State *L) {
     ambit_decimal_interval(range, node->value, 3);
     ambit_lua_error(L,
         "%s: the plain interval %s%s%s%s does not say whether it is one unknown constant or varies along a run: write "
-        "ambit.between(lo, hi) for one unknown constant; for what varies within bounds there will be ambit.varying, "
-        "which does not exist yet",
+        "ambit.between(lo, hi) for one unknown constant, ambit.varying(lo, hi) for what varies within bounds",
         luaL_checkstring(L, 2), range, node->unit ? " (" : "", node->unit ? node->unit : "", node->unit ? ")" : "");
   }
   return 0;

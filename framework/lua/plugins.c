@@ -93,6 +93,8 @@ static int plugin(lua_State *L) {
                                                      : "simulate");
       lua_pushboolean(L, solver->needs_rigorous != 0);
       lua_setfield(L, -2, "rigorous");
+      lua_pushboolean(L, (solver->want & AMBIT_WANT_VARYING) != 0);
+      lua_setfield(L, -2, "varying");
     }
   } else if (strcmp(kind, "arithmetic") == 0) {
     const ambit_arithmetic *arithmetic;

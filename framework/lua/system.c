@@ -212,7 +212,7 @@ static void collect_inputs(lua_State *L, over *o) {
   }
   for (size_t i = 0; i < n; i++) {
     const ambit_node *node = ambit_graph_node(g, leaf[i]);
-    if (node->op != AMBIT_LEAF_UNKNOWN) continue;
+    if (!ambit_leaf_is_uncertain(node->op)) continue;
     o->input[o->nin] = leaf[i];
     o->in[o->nin++] = node->value;
   }

@@ -103,15 +103,21 @@ static bool text_is_set(const char *text, const char *rest) {
   return *text == '[' || (mark && mark < rest);
 }
 
-ambit_expr ambit_lua_datum(lua_State *L, const char *name, ambit_interval outer, ambit_interval inner) {
+ambit_expr ambit_lua_leaf(lua_State *L, uint32_t leaf, const char *name, ambit_interval outer, ambit_interval inner) {
   ambit_lua_where(L);
   size_t length;
   const char *where = lua_tolstring(L, -1, &length);
   const char *place = length > 2 ? lua_pushlstring(L, where, length - 2) : NULL; /* without ": " */
-  ambit_expr e = ambit_graph_datum(AMBIT_LUA(L)->graph, name, place, outer, inner);
+  ambit_graph *g = AMBIT_LUA(L)->graph;
+  ambit_expr e = leaf == AMBIT_LEAF_VARYING ? ambit_graph_varying(g, name, place, outer, inner)
+                                            : ambit_graph_datum(g, name, place, outer, inner);
   lua_pop(L, length > 2 ? 2 : 1);
   if (e == AMBIT_NO_EXPR) ambit_lua_error(L, "out of memory while building an expression");
   return e;
+}
+
+ambit_expr ambit_lua_datum(lua_State *L, const char *name, ambit_interval outer, ambit_interval inner) {
+  return ambit_lua_leaf(L, AMBIT_LEAF_UNKNOWN, name, outer, inner);
 }
 
 /* A datum if it is given as one; in equations it is refused, since nobody said whether it varies. */

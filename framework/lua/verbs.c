@@ -140,10 +140,11 @@ static int look(lua_State *L) {
     lua_pushstring(L, f.message);
     return 2;
   }
-  lua_createtable(L, 0, 14);
+  lua_createtable(L, 0, 15);
   ambit_lua_set_count(L, "states", facts.states);
   ambit_lua_set_count(L, "parameters", facts.parameters);
   ambit_lua_set_count(L, "unknowns", facts.unknowns);
+  ambit_lua_set_count(L, "varying", facts.varying);
   ambit_lua_set_count(L, "invariants", facts.invariants);
   ambit_lua_set_count(L, "kinks", facts.kinks);
   ambit_lua_set_number(L, "horizon", facts.horizon);

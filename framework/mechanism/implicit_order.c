@@ -20,7 +20,8 @@ static double value_of(const ambit_loops *loops, const ambit_graph *g, ambit_exp
   const ambit_constraints *c = &loops->constraints;
   for (size_t j = 0; j < c->nq; j++)
     if (c->coordinate[j].q == leaf) return loops->reference[j];
-  return ambit_graph_node(g, leaf)->op == AMBIT_LEAF_UNKNOWN ? ambit_interval_mid(ambit_graph_node(g, leaf)->range) : 0;
+  const ambit_node *node = ambit_graph_node(g, leaf);
+  return ambit_leaf_is_uncertain(node->op) ? ambit_interval_mid(node->range) : 0;
 }
 
 /* Column j of the matrix, as the values with unknown j at 1 less those with all at 0. */

@@ -37,7 +37,7 @@ static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOM
 
 static ambit_status range_of(const ambit_rank_request *q, const ambit_constraints *c, const ambit_node *node,
     ambit_expr leaf, ambit_interval *x, ambit_failure *f) {
-  if (node->op == AMBIT_LEAF_UNKNOWN) {
+  if (ambit_leaf_is_uncertain(node->op)) {
     *x = node->value;
     return AMBIT_OK;
   }
@@ -73,7 +73,7 @@ static ambit_status read_leaves(certificate *s, const ambit_rank_request *q) {
   for (int data = 0; data < 2; data++) /* coordinates and time first */
     for (size_t i = 0; i < s->nin; i++) {
       const ambit_node *node = ambit_graph_node(s->g, found[i]);
-      if ((node->op == AMBIT_LEAF_UNKNOWN) != (data == 1)) continue;
+      if (ambit_leaf_is_uncertain(node->op) != (data == 1)) continue;
       s->leaf[n] = found[i];
       ambit_status status = range_of(q, c, node, found[i], &s->whole[n++], s->f);
       if (status != AMBIT_OK) return status;

@@ -60,7 +60,7 @@ static ambit_status find_inputs(const ambit_equations *q, ambit_ready *r, ambit_
   }
   for (size_t i = 0; i < n; i++) {
     const ambit_node *node = ambit_graph_node(q->graph, leaf[i]);
-    if (node->op != AMBIT_LEAF_UNKNOWN) continue;
+    if (!ambit_leaf_is_uncertain(node->op)) continue;
     r->input[q->nx + r->np] = leaf[i];
     r->p[r->np] = node->value;
     r->np++;

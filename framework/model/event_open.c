@@ -47,7 +47,10 @@ static ambit_status differentiate(const build *b) {
     ambit_failure why = { 0 };
     b->all[2 * k] = e->g;
     b->all[2 * k + 1] = ambit_graph_rate_off_kinks(b->graph, e->g, s->nx, s->state, s->rate, &why);
-    if (b->all[2 * k + 1] == AMBIT_NO_EXPR) return no_memory(b);
+    if (b->all[2 * k + 1] == AMBIT_NO_EXPR)
+      return why.status == AMBIT_OK || why.status == AMBIT_NOMEM
+                 ? no_memory(b)
+                 : ambit_fail(b->f, why.status, "the event `%s`: %s", e->name, why.message);
   }
   memcpy(b->all + 2 * b->q->n, s->rate, s->nx * sizeof *b->all);
   return AMBIT_OK;
@@ -68,7 +71,7 @@ static ambit_status list_inputs(build *b) {
   size_t used = s->nx;
   for (size_t i = 0; i < n; i++) {
     const ambit_node *node = ambit_graph_node(b->graph, leaf[i]);
-    if (node->op != AMBIT_LEAF_UNKNOWN) continue;
+    if (!ambit_leaf_is_uncertain(node->op)) continue;
     w->in[used] = node->value;
     b->input[used++] = leaf[i];
   }

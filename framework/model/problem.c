@@ -141,6 +141,24 @@ static ambit_status check_leaves(const build *b, size_t n, const ambit_expr *e, 
   return AMBIT_OK;
 }
 
+/* None of e[i] may depend on what varies in time. */
+static ambit_status check_fixed(
+    const build *b, size_t n, const ambit_expr *e, const char *what, const char *const *whose, const char *hint) {
+  for (size_t i = 0; i < n; i++) {
+    size_t count;
+    ambit_expr *leaf;
+    ambit_status status = ambit_unknowns_leaves(b->graph, b->arena, 1, &e[i], &count, &leaf, b->f);
+    if (status != AMBIT_OK) return status;
+    for (size_t k = 0; k < count; k++) {
+      if (ambit_graph_node(b->graph, leaf[k])->op != AMBIT_LEAF_VARYING) continue;
+      char name[AMBIT_DATUM_NAME_MAX];
+      ambit_graph_leaf_name(b->graph, leaf[k], name);
+      return ambit_fail(b->f, AMBIT_INVALID, "the %s `%s` depends on `%s`%s", what, whose[i], name, hint);
+    }
+  }
+  return AMBIT_OK;
+}
+
 /* The implicit form may depend on its unknowns, too. */
 static ambit_status check_form(const build *b, ambit_expr *allowed, const char *hint) {
   const ambit_system *s = b->q->system;
@@ -168,13 +186,38 @@ static ambit_status check_reach(const build *b) {
     status = check_leaves(b, b->ninvariant, b->invariant, "invariant", s->invariant_name, s->nx + 1, allowed, hint);
   if (status == AMBIT_OK && b->form) status = check_form(b, allowed, hint);
   if (status != AMBIT_OK) return status;
-  return check_leaves(b, s->nx, b->start, "initial value of state", s->name, 0, NULL,
+  status = check_leaves(b, s->nx, b->start, "initial value of state", s->name, 0, NULL,
       ", but it may use numbers and uncertain data only");
+  if (status == AMBIT_OK)
+    status = check_fixed(b, s->nx, b->start, "initial value of state", s->name,
+        ", which varies in time: use ambit.between for one unknown value");
+  return status != AMBIT_OK ? status
+                            : check_fixed(b, b->ninvariant, b->invariant, "invariant", s->invariant_name,
+                                  ", which varies in time in any way");
 }
 
 /* -- parameters and unknowns */
 
-/* Inputs of all of them: states, then the unknowns they reach, then time if it is used. */
+static void add_parameters(build *b, size_t n, const ambit_expr *leaf, uint32_t wanted) {
+  for (size_t i = 0; i < n; i++) {
+    uint32_t op = ambit_graph_node(b->graph, leaf[i])->op;
+    if (op == AMBIT_LEAF_TIME) b->p->uses_time = 1;
+    if (op == wanted) b->input[b->p->nx + b->p->np++] = leaf[i];
+  }
+}
+
+/* What takes parameters for constants must not be given functions of time. */
+static ambit_status check_varying(const build *b) {
+  if (!b->p->nvarying || (b->q->want & AMBIT_WANT_VARYING)) return AMBIT_OK;
+  char name[AMBIT_DATUM_NAME_MAX];
+  ambit_graph_leaf_name(b->graph, b->input[b->p->nx + b->p->np - b->p->nvarying], name);
+  return ambit_fail_code(b->f, AMBIT_UNABLE, AMBIT_CODE_UNABLE_VARYING,
+      "`%s` varies in time, and this solver takes data for constants: leave out `solver`, or name one that takes what "
+      "varies",
+      name);
+}
+
+/* Inputs of all of them: states, then the unknowns they reach, then what varies, then time if it is used. */
 static ambit_status find_parameters(build *b) {
   const ambit_system *s = b->q->system;
   size_t n;
@@ -189,14 +232,12 @@ static ambit_status find_parameters(build *b) {
     name[i] = ambit_arena_text(b->arena, s->name[i]);
     if (!name[i]) return no_memory(b);
   }
-  for (size_t i = 0; i < n; i++) {
-    uint32_t op = ambit_graph_node(b->graph, leaf[i])->op;
-    if (op == AMBIT_LEAF_TIME) b->p->uses_time = 1;
-    if (op != AMBIT_LEAF_UNKNOWN) continue;
-    size_t k = s->nx + b->p->np;
-    b->input[k] = leaf[i];
-    b->p->np++;
-  }
+  add_parameters(b, n, leaf, AMBIT_LEAF_UNKNOWN);
+  size_t fixed = b->p->np;
+  add_parameters(b, n, leaf, AMBIT_LEAF_VARYING);
+  b->p->nvarying = (uint32_t)(b->p->np - fixed);
+  status = check_varying(b);
+  if (status != AMBIT_OK) return status;
   if (!ambit_graph_leaf_names(b->graph, b->arena, b->p->np, b->input + s->nx, name + s->nx)) return no_memory(b);
   if (b->p->uses_time) b->input[s->nx + b->p->np] = ambit_graph_time(b->graph);
   b->p->name = name;
@@ -210,6 +251,10 @@ static ambit_status seal_initial(build *b) {
   if (!out) return no_memory(b);
   memcpy(out, b->start, nx * sizeof *out);
   memcpy(out + nx, b->input + nx, np * sizeof *out);
+  for (size_t i = nx + np - b->p->nvarying; i < nx + np; i++) {
+    out[i] = ambit_graph_interval(b->graph, ambit_graph_node(b->graph, out[i])->value);
+    if (out[i] == AMBIT_NO_EXPR) return no_memory(b);
+  }
   ambit_status status = ambit_unknowns_leaves(b->graph, b->arena, nx + np, out, &nu, &b->unknown, b->f);
   if (status != AMBIT_OK) return status;
   const char **name = room(b, nu + 1, sizeof *name);

@@ -86,7 +86,7 @@ static ambit_status settle(const build *b, size_t n, ambit_expr *e, ambit_failur
   if (!to) return no_memory(f);
   for (size_t i = 0; i < nleaf; i++) {
     const ambit_node *node = ambit_graph_node(g, leaf[i]);
-    if (node->op != AMBIT_LEAF_UNKNOWN || is_given(b->q, leaf[i])) continue;
+    if (!ambit_leaf_is_uncertain(node->op) || is_given(b->q, leaf[i])) continue;
     if (!ambit_interval_is_bounded(node->value)) {
       char name[AMBIT_DATUM_NAME_MAX];
       ambit_graph_leaf_name(g, leaf[i], name);

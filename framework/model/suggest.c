@@ -96,6 +96,7 @@ static void look(looker *l, const ambit_system *system, ambit_suggest_facts *fac
   facts->states = p->nx;
   facts->parameters = p->np;
   facts->unknowns = p->nu;
+  facts->varying = p->nvarying;
   facts->invariants = (uint32_t)system->ninvariant;
   facts->kinks = ambit_probe_kinks(l->probe);
   facts->horizon = fabs(p->time[p->ntime - 1] - p->time[0]);
@@ -120,7 +121,7 @@ ambit_status ambit_suggest_look(const ambit_simulate_request *q, ambit_suggest_f
     .initial = q->initial,
     .ntime = q->ntime,
     .time = q->time,
-    .want = AMBIT_WANT_RHS | AMBIT_WANT_INITIAL,
+    .want = AMBIT_WANT_RHS | AMBIT_WANT_INITIAL | AMBIT_WANT_VARYING,
     .nnarrow = q->nnarrow,
     .narrow = q->narrow,
     .range = q->range };

@@ -8,6 +8,7 @@
 
 typedef struct ambit_suggest_facts {
   uint32_t states, parameters, unknowns, invariants, kinks; /* kinks: operations that are not smooth, crossed or not */
+  uint32_t varying;                                         /* parameters that are functions of time */
   double horizon;                                           /* s, of the whole run */
   double seen;                                              /* share of it that the ordinary run covered, 0..1 */
   double width;  /* of the data: the widest of the initial states in parts of the state's size along the run, and of the

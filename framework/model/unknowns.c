@@ -24,7 +24,7 @@ ambit_status ambit_unknowns_fold_points(
   if (!number) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
   for (size_t i = 0; i < n; i++) {
     const ambit_node *node = ambit_graph_node(g, leaf[i]);
-    if (node->op != AMBIT_LEAF_UNKNOWN || !ambit_interval_is_point(node->value)) continue;
+    if (!ambit_leaf_is_uncertain(node->op) || !ambit_interval_is_point(node->value)) continue;
     number[points] = ambit_graph_number(g, node->value.lo);
     if (number[points] == AMBIT_NO_EXPR) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
     leaf[points++] = leaf[i];
@@ -43,7 +43,7 @@ size_t ambit_unknowns_name_others(const ambit_graph *g, size_t n, const ambit_ex
   out[0] = '\0';
   for (size_t i = 0; i < n; i++) {
     const ambit_node *node = ambit_graph_node(g, leaf[i]);
-    bool fits = node->op == AMBIT_LEAF_UNKNOWN;
+    bool fits = ambit_leaf_is_uncertain(node->op);
     for (size_t k = 0; k < nallowed; k++) fits = fits || allowed[k] == leaf[i];
     if (fits) continue;
     if (others < NAMED_AT_MOST && used < room)

@@ -8,8 +8,8 @@ ambit_status ambit_unknowns_leaves(const ambit_graph *g, ambit_arena *arena, siz
     ambit_expr **leaf, ambit_failure *f);
 /* An unknown whose range is one number is that number: replaced in place, so that no arithmetic carries it. */
 ambit_status ambit_unknowns_fold_points(ambit_graph *g, ambit_arena *arena, size_t ne, ambit_expr *e, ambit_failure *f);
-/* "`beta1`, `beta2` and 3 more": the leaves of that list which are not UNKNOWN and not among `allowed`; returns how
-** many. */
+/* "`beta1`, `beta2` and 3 more": the leaves of that list which are not UNKNOWN or VARYING and not among `allowed`;
+** returns how many. */
 size_t ambit_unknowns_name_others(const ambit_graph *g, size_t n, const ambit_expr *leaf, size_t nallowed,
     const ambit_expr *allowed, char *out, size_t room);
 #endif

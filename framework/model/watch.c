@@ -293,7 +293,7 @@ static ambit_status collect_inputs(ambit_watch *w, ambit_arena *arena, ambit_exp
   w->nin = s->nx;
   for (size_t i = 0; i < n; i++) {
     const ambit_node *node = ambit_graph_node(s->graph, leaf[i]);
-    if (node->op != AMBIT_LEAF_UNKNOWN) continue;
+    if (!ambit_leaf_is_uncertain(node->op)) continue;
     (*input)[w->nin] = leaf[i];
     w->in[w->nin] = node->value;
     for (size_t k = 0; k < w->q->nnarrow; k++)

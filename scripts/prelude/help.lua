@@ -6,6 +6,9 @@ local topics = {
   around = [[
 around(c, tolerance [, name]): a datum within a tolerance, one fresh unknown: around(2, 0.1), around("35 mm", "1%").]],
   between = "between(lo, hi [, name]): a datum somewhere in [lo, hi], one fresh unknown.",
+  varying = [[
+varying(lo, hi [, name]): a function of time, never known but for its bounds: a disturbance, noise, a load. In
+equations, forces and laws; each use of the same one is the same function.]],
   number = 'number(x [, unit]): an expression: number "8/3", number("35 mm", "m").',
   interval = [[
 interval(lo, hi), interval "[0.1, 0.2]": an enclosure to calculate with. It has lo, hi, partial, width(), mid(), rad(),

@@ -41,7 +41,7 @@ local ambit = {
 
 -- data, and functions that work on numbers, texts, expressions and enclosures alike
 for _, name in ipairs {
-  "around", "between", "interval", "derivative", "simplify",
+  "around", "between", "varying", "interval", "derivative", "simplify",
   "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh",
   "exp", "log", "sqrt", "sqr", "pow", "abs", "min", "max",
 } do

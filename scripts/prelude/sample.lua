@@ -13,6 +13,7 @@ local partial = require "ambit.partial"
 local session = require "ambit.session"
 local shape = require "ambit.shape"
 local simulate = require "ambit.simulate"
+local wave = require "ambit.wave"
 
 local verb = {}
 
@@ -147,6 +148,7 @@ local function request_of(t)
 end
 
 local function solve(q, draws, seed, plan)
+  q = wave.instead(q) or q
   local values, facts, report = core.sample_system(q.system.system, q.solver or "", q.arithmetic, q.options or {},
     q.arithmetic_options, q.initial, q.times, draws, seed, plan)
   facts.values, facts.states, facts.t, facts.report = values, q.system.states, q.times, report

@@ -100,7 +100,8 @@ end
 local function ranked(facts, fitting)
   local list = {}
   for _, name in ipairs(fitting) do
-    local score, reason = fitting[name](facts)
+    local score, reason
+    if facts.varying == 0 or option.declaration("solver", name).varying then score, reason = fitting[name](facts) end
     if score ~= nil and not (math.type(score) and score >= 0 and score <= 1 and type(reason) == "string") then
       check.fail("solver `%s`: its rule gave %s, %s: expected a score from 0 to 1 and a reason, or nil", name,
         check.shown(score), check.shown(reason))

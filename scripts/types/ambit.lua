@@ -77,6 +77,13 @@ function ambit.around(c, tolerance, name) end
 ---@return ambit.expression
 function ambit.between(lo, hi, name) end
 
+---A function of time, never known but for its bounds.
+---@param lo ambit.value
+---@param hi ambit.value
+---@param name? string
+---@return ambit.expression
+function ambit.varying(lo, hi, name) end
+
 ---@param is_exact boolean true: arithmetic on texts is Ambit's, as in the command; false: Lua's, which rounds
 ---@return "ambit"|"lua"|"watched" # whose it was
 function ambit.text_arithmetic(is_exact) end

@@ -25,9 +25,12 @@
 /* x' and equations for further unknowns that enter linearly, instead of formulas that divide: ambit_implicit; no rhs
 ** without AMBIT_WANT_RHS, even with AMBIT_WANT_SERIES */
 #define AMBIT_WANT_IMPLICIT 256u
+/* Parameters may be functions of time (ambit_problem.nvarying): a solver that does not say so is never given any. */
+#define AMBIT_WANT_VARYING 512u
 
-/* What a solver solves. FLOW: x' = f from a start. ROOTS: f(x, p) = 0 with as many equations as unknowns x; rhs and jacobian are those of f, x0
-** is the box to be searched, there is no time; invariant: further equations that a root satisfies too, or absent. */
+/* What a solver solves. FLOW: x' = f from a start. ROOTS: f(x, p) = 0 with as many equations as unknowns x; rhs and
+** jacobian are those of f, x0 is the box to be searched, there is no time; invariant: further equations that a root
+** satisfies too, or absent. */
 #define AMBIT_SOLVES_FLOW 0u
 #define AMBIT_SOLVES_ROOTS 1u
 /* which parts of a model may be left out: everything is in `reduction`, in the problem's arithmetic (real); of the
@@ -55,8 +58,8 @@ typedef struct ambit_implicit {
   const ambit_tape *tape;
   /* [nstage] unknowns and equations of stage s: from stage_end[s - 1] (0 for the first) up to stage_end[s] - 1 */
   const uint32_t *stage_end;
-  /* [na] the order, stage by stage, in which unknowns are best eliminated, unknown pivot[k] by equation pivot[k]: joints
-  ** from the tips to the base, multipliers behind them */
+  /* [na] the order, stage by stage, in which unknowns are best eliminated, unknown pivot[k] by equation pivot[k]:
+  ** joints from the tips to the base, multipliers behind them */
   const uint32_t *pivot;
 } ambit_implicit;
 
@@ -84,11 +87,14 @@ typedef struct ambit_problem {
   const ambit_reduction *reduction; /* AMBIT_SOLVES_REDUCTION; else NULL */
   const ambit_implicit *implicit;   /* AMBIT_WANT_IMPLICIT; else NULL */
   const char *const *unknown_name;  /* [nu] names of the data, for messages */
+  /* The last nvarying of the np parameters are functions of time: measurable, within [p_lo, p_hi] at almost all times,
+  ** each the same wherever it occurs, nothing else is known of them. `initial` gives their ranges. */
+  uint32_t nvarying, pad_varying;
 } ambit_problem;
 
 /* A set of states that still knows what it depends on: for every u in the box of the unknowns, with
-** v_j = (u_j - about_j) / scale_j,  |x_i(u) - sum_t coefficient[i * nterm + t] prod_j v_j^exponent[t * nu + j]| <= rest_i.
-** A run can be continued from it without losing what the states have in common. */
+** v_j = (u_j - about_j) / scale_j, |x_i(u) - sum_t coefficient[i * nterm + t] prod_j v_j^exponent[t * nu + j]| <=
+** rest_i. A run can be continued from it without losing what the states have in common. */
 typedef struct ambit_set {
   uint32_t size, nu, nterm, pad;
   const double *about, *scale; /* [nu]; scale > 0 */
