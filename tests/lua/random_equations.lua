@@ -1,14 +1,15 @@
 -- random_equations.lua -- does any solution of random equations leave what was proved about it?
 --   ambit run tests/lua/random_equations.lua [--solver NAME] [--systems N] [--draws N] [--seed N] [--beyond X]
---     [--kinks] [--verbose]
+--     [--kinks] [--varying] [--verbose]
 --
 -- Systems of 1 to 8 states and 1 to 10 data of .01 to 10 %, of every operation that a tape may hold, forwards and
 -- backwards in time; solutions for drawn data and initial values, most of them corners, are integrated in extended
 -- precision (tests/oracle/equations_lua.c) and must lie inside, at ends of steps and between; and at the end of the run
 -- in the set for just these data (run:set()), which is much narrower. Needs the test module
 -- `equations` in LUA_CPATH. --beyond 2: data are drawn from twice their ranges, so that solutions must be found
--- outside. --kinks: with abs, min and max that solutions cross, forces with two slopes and dead zones among them.
--- Exit 1 if a solution is outside.
+-- outside. --varying: about half of the parameters are functions of time, drawn as steps between the ends of their
+-- ranges at random times. --kinks: with abs, min and max that solutions cross, forces with two slopes and dead zones
+-- among them. Exit 1 if a solution is outside.
 local ambit = require "ambit"
 local core = require "ambit.core"
 local session = require "ambit.session"
@@ -19,7 +20,7 @@ do
   local i = 1
   while arg[i] do
     local key = arg[i]:match "^%-%-(%a+)$"
-    if key == "verbose" or key == "kinks" then
+    if key == "verbose" or key == "kinks" or key == "varying" then
       o[key], i = true, i + 1
     elseif key and o[key] and arg[i + 1] then
       o[key], i = tonumber(arg[i + 1]) or arg[i + 1], i + 2
@@ -150,7 +151,11 @@ local function random_data(s)
   local function range(middle, tolerance) return { middle, middle == 0 and tolerance or math.abs(middle) * tolerance } end
   local tolerance = unit() < 0.5 and 0.02 + 0.08 * unit() or 10 ^ (-4 + 3 * unit())
   s.p, s.x = {}, {}
-  for i = 1, s.np do s.p[i] = range(2 * unit() - 1, tolerance) end
+  s.varies = {}
+  for i = 1, s.np do
+    s.p[i] = range(2 * unit() - 1, tolerance)
+    s.varies[i] = o.varying and (i == 1 or unit() < 0.5)
+  end
   for i = 1, s.nx do s.x[i] = range(unit() < 0.2 and 0 or 2 * unit() - 1, unit() < 0.3 and 0 or tolerance) end
   s.from = unit() < 0.3 and 2 * unit() - 1 or 0
   s.to = s.from + (unit() < 0.3 and -1 or 1) * (0.2 + unit())
@@ -166,7 +171,32 @@ local function draw(s)
   local point = { x = {}, p = {} }
   for i = 1, s.nx do point.x[i] = value(s.x[i]) end
   for i = 1, s.np do point.p[i] = value(s.p[i]) end
+  point.value = value
   return point
+end
+
+-- The solution at the times; what varies takes other values at random times.
+local function solve(s, point, times)
+  local at, x, p = { point.x }, point.x, point.p
+  local function on(list)
+    local values = equations.solve { x = x, p = p, code = s.code, out = s.out, times = list, tolerance = 1e-17 }
+    x = values and values[#values]
+    return values
+  end
+  if not o.varying then return on(times) end
+  local pieces = pick(12)
+  p = table.move(p, 1, s.np, 1, {})
+  for k = 2, #times do
+    local t = times[k - 1]
+    for n = 1, pieces do
+      local next_one = n == pieces and times[k] or t + (times[k] - t) * unit()
+      for i = 1, s.np do if s.varies[i] and unit() < 0.7 then p[i] = point.value(s.p[i]) end end
+      if next_one ~= t and not on { t, next_one } then return nil end
+      t = next_one
+    end
+    at[k] = x
+  end
+  return at
 end
 
 local function prove(s)
@@ -181,7 +211,10 @@ local function prove(s)
     states[i] = "x" .. i
     initial["x" .. i] = s.x[i][2] == 0 and s.x[i][1] or datum(s.x[i], i, true)
   end
-  for i = 1, s.np do parameters["p" .. i] = datum(s.p[i], i, false) end
+  for i = 1, s.np do
+    local r = s.p[i]
+    parameters["p" .. i] = s.varies[i] and ambit.varying(r[1] - r[2], r[1] + r[2]) or datum(r, i, false)
+  end
   local ode = ambit.ode { states = states, parameters = parameters,
     equations = function(x, p, t) return build(s, x, p, t) end }
   return ambit.simulate { ode, initial = initial, t = { s.from, s.to }, solver = o.solver, dense = true }
@@ -227,7 +260,7 @@ local function check(number)
     local set = run:set()
     for _ = 1, o.draws do
       local point = draw(s)
-      local solution = equations.solve { x = point.x, p = point.p, code = s.code, out = s.out, times = times, tolerance = 1e-17 }
+      local solution = solve(s, point, times)
       if solution then
         total.solutions = total.solutions + 1
         local narrow = set_at(s, set, point)

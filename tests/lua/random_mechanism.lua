@@ -148,7 +148,10 @@ local function candidates(plan)
   return list
 end
 
-local function choose_data(r, plan, most)
+-- What acts in a joint may vary in time.
+local ACTING = { torque = true, stiffness = true, rest = true, damping = true }
+
+local function choose_data(r, plan, most, varying)
   local list, data = candidates(plan), {}
   local n = math.min(#list, 4 + r.integer(math.max(1, most - 4)))
   for k = 1, n do
@@ -157,7 +160,8 @@ local function choose_data(r, plan, most)
     local where, key, is_start = list[k][1], list[k][2], list[k][3]
     local tolerance = 1e-4 * 500 ^ r.unit() -- .01 to 5 %
     local middle = where[key]
-    data[k] = { where = where, key = key, middle = middle, radius = tolerance * (is_start and 0.2 or math.abs(middle)) }
+    data[k] = { where = where, key = key, middle = middle, radius = tolerance * (is_start and 0.2 or math.abs(middle)),
+      varies = varying and ACTING[key] and r.chance(0.7) }
   end
   return data
 end
@@ -167,7 +171,8 @@ local function reader(data)
   local datum = {}
   for k, d in ipairs(data) do
     datum[d.where] = datum[d.where] or {}
-    datum[d.where][d.key] = ambit.around(d.middle, d.radius, "datum " .. k)
+    datum[d.where][d.key] = d.varies and ambit.varying(d.middle - d.radius, d.middle + d.radius, "datum " .. k)
+      or ambit.around(d.middle, d.radius, "datum " .. k)
   end
   return function(where, key)
     return datum[where] and datum[where][key] or ambit.number(where[key])
@@ -240,6 +245,20 @@ end
 
 -- -- the oracle
 
+-- Half of the torques that vary are waves of any frequency: { [body] = { torque, amplitude, rate } }. What else varies
+-- has the drawn value at all times.
+local function waves_of(data, draw)
+  local waves = {}
+  for k, d in ipairs(data) do
+    local drawn = 997 * (draw[k] or 0) + 331 * (draw[k + 1] or draw[1] or 0) + 57 * k
+    local part = drawn - math.floor(drawn)
+    if d.varies and d.key == "torque" and d.where.amplitude == 0 and next(draw) and k % 2 == 0 then
+      waves[d.where] = { torque = d.middle, amplitude = d.radius * (1 - 1e-9), rate = 100 ^ part }
+    end
+  end
+  return waves
+end
+
 -- A copy in which the data have drawn values; not quite the ends, which rounding may put beyond the tolerance.
 local function resolved(plan, data, draw)
   local kept = {}
@@ -248,11 +267,13 @@ local function resolved(plan, data, draw)
     d.where[d.key] = d.middle + d.radius * (1 - 1e-9) * (draw[k] or 0)
   end
   local t = { bodies = {}, loops = {}, gravity = plan.gravity, dependent = plan.dependent or {} }
+  local waves = waves_of(data, draw)
   for i, b in ipairs(plan.bodies) do
     local c = {}
     for key, x in pairs(b) do c[key] = x end
     c.axis, c.turn_axis, c.inertia = AXES[b.axis], AXES[b.turn_axis], {}
     for k = 1, 6 do c.inertia[k] = b.scale * b.entries[k] end
+    for key, x in pairs(waves[b] or {}) do c[key] = x end
     c.offset, c.centre = table.move(b.offset, 1, 3, 1, {}), table.move(b.centre, 1, 3, 1, {})
     t.bodies[i] = c
   end
@@ -270,11 +291,11 @@ local function plan_of(r, n)
 end
 
 -- A mechanism: its name, data, question() for simulate, motion(draw, times, tolerance) of the oracle: a list of the
--- states by name. o: joints, data: at most so many
+-- states by name. o: joints, data: at most so many; varying: some of what acts in joints varies in time
 function random_mechanism.new(r, o)
   local n = 2 + r.integer(math.max(1, o.joints - 2))
   local plan = plan_of(r, n)
-  local data = choose_data(r, plan, o.data)
+  local data = choose_data(r, plan, o.data, o.varying)
   return {
     name = ("%s, %d data"):format(plan.name, #data), data = data,
     question = function() return question(plan, data) end,

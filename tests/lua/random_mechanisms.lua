@@ -1,6 +1,6 @@
 -- random_mechanisms.lua -- does any motion of a random mechanism leave what was proved about it?
 --   ambit run tests/lua/random_mechanisms.lua [--solver NAME] [--mechanisms N] [--draws N] [--seed N] [--seconds S]
---     [--joints N] [--data N] [--time T] [--beyond X] [--verbose]
+--     [--joints N] [--data N] [--time T] [--beyond X] [--varying] [--verbose]
 --
 -- Trees, plane and spatial loops of 3 to 12 joints, ball joints as quaternions among them, with 5 to 40 data of .01 to
 -- 5 % are simulated; motions of drawn mechanisms, half of them corners of the data, are integrated in extended
@@ -8,7 +8,8 @@
 -- steps and between. Needs the test module `multibody` in LUA_CPATH. Full length: --mechanisms 200 --draws 500. Without
 -- --solver each mechanism is run by the solver that suits. --seconds: CPU time after which a run is stopped; what it
 -- proved until then is checked. --beyond 2: data are drawn from twice their tolerances, so that motions must be found
--- outside. Exit 1 if a motion is outside.
+-- outside. --varying: much of what acts in joints varies in time; half of the torques are drawn as waves. Exit 1 if a
+-- motion is outside.
 local ambit = require "ambit"
 local core = require "ambit.core"
 local session = require "ambit.session"
@@ -21,8 +22,8 @@ local function options()
   local i = 1
   while arg[i] do
     local key = arg[i]:match "^%-%-(%a+)$"
-    if key == "verbose" then
-      o.verbose, i = true, i + 1
+    if key == "verbose" or key == "varying" then
+      o[key], i = true, i + 1
     elseif key == "solver" then
       o.solver, i = arg[i + 1], i + 2
     elseif key and o[key] and tonumber(arg[i + 1]) then

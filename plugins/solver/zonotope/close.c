@@ -8,6 +8,7 @@
 #include "modes.h"
 #include "proof.h"
 #include "quartic.h"
+#include "vary.h"
 
 #define FEW 4 /* columns for each state, beside discs */
 
@@ -62,7 +63,7 @@ static uint32_t move_generators(zono *z) {
   const shape *s = &z->shape;
   double *moved = p->turned + (size_t)z->nx * z->ngen;
   mixed_prepare(z);
-  memcpy(p->origin, p->from, z->ngen);
+  memcpy(p->origin, p->from, z->ngen), memcpy(p->source, p->made_by, z->ngen * sizeof *p->source);
   for (uint32_t i = 0; i < z->nx; i++) {
     const double *y = p->end + (size_t)i * s->stride;
     quartic_move(z, i, y + s->eps);
@@ -112,7 +113,7 @@ static void find_scores(const zono *z, uint32_t n) {
       double u = fabs(g[i]) / p->spread[i];
       sum += u, most = fmax(most, u);
     }
-    p->score[c] = sum - most;
+    p->score[c] = p->source[c] ? INFINITY : sum - most;
   }
 }
 
@@ -143,7 +144,7 @@ static uint32_t put_box(zono *z, uint32_t kept) {
     if (sum == 0) continue;
     memset(g, 0, z->nx * sizeof *g);
     g[i] = sum * ABOVE;
-    kept++;
+    p->made_by[kept++] = 0;
   }
   return kept;
 }
@@ -155,6 +156,7 @@ static void reduce(zono *z, uint32_t n) {
   if (z->modes->now.any && FEW * nx < room) room = FEW * nx;
   double least = -1;
   find_spread(z, n);
+  n = vary_merge(z, n);
   if (n > room) {
     find_scores(z, n);
     memcpy(p->sorted, p->score, n * sizeof(double));
@@ -163,7 +165,7 @@ static void reduce(zono *z, uint32_t n) {
   for (uint32_t c = 0; c < n; c++) {
     const double *g = p->columns + (size_t)c * nx;
     if (kept < room && (least < 0 || p->score[c] >= least)) {
-      p->from[kept] = p->origin[c];
+      p->from[kept] = p->origin[c], p->made_by[kept] = p->source[c];
       memcpy(z->G + (size_t)kept++ * nx, g, nx * sizeof *g);
     } else {
       memmove(p->columns + (size_t)left * nx, g, nx * sizeof *g);

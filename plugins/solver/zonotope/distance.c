@@ -5,6 +5,8 @@
 */
 #include "basis.h"
 #include "quartic.h"
+#include "residual.h"
+#include "vary.h"
 
 /* -- columns */
 
@@ -44,7 +46,7 @@ static uint32_t add_lump(zono *z, uint32_t at, lump size, const double *c, const
     tilt[i] = z->h * size.moment * times(z, p->tilt, i, c);
     tilted += fabs(tilt[i]);
   }
-  p->origin[at] = p->origin[at + 1] = (uint8_t)from;
+  p->origin[at] = p->origin[at + 1] = (uint8_t)from, p->source[at] = p->source[at + 1] = 0;
   return at + 1 + (tilted > 0);
 }
 
@@ -59,7 +61,7 @@ static uint32_t add_known(zono *z, uint32_t at, const sums *sum) {
   proof *p = z->proof;
   double *c = p->grow;
   for (uint32_t l = 0; l < z->nx; l++) {
-    double size = 0, known = quartic_sum(z, l);
+    double size = quartic_square(z, l), known = quartic_sum(z, l);
     if (p->link[l] == LINK_STATE) continue;
     for (uint32_t n = 0; n < p->quartic->pairs; n++) {
       double *near = quartic_near(z, l, n);
@@ -93,23 +95,53 @@ static double equations_size(const zono *z, uint32_t i) {
   return (all + 2 * (z->na + 2) * UNIT * rounded) * ABOVE;
 }
 
+/* one column for what is left in each equation; widths are those of residual.c from then on, slopes' among them */
+static uint32_t add_equations(zono *z, uint32_t at, const sums *sum) {
+  proof *p = z->proof;
+  const residual *r = p->residual;
+  double *c = p->grow;
+  residual_close(z);
+  for (uint32_t q = 0; q < z->na; q++) {
+    for (uint32_t i = 0; i < z->nx; i++) c[i] = p->link[i] == LINK_UNKNOWN ? p->L[p->link_to[i] * z->na + q] : 0;
+    uint32_t end = add_lump(z, at, r->size[q], c, sum, FROM_SLOPE);
+    vary_mark(z, z->problem.nvarying + q, at, end);
+    at = end;
+  }
+  for (uint32_t i = 0; i < z->nx; i++) {
+    if (p->link[i] != LINK_UNKNOWN) continue;
+    sum->width[i] = r->miss[p->link_to[i]];
+    memset(p->dJ + (size_t)i * z->nx, 0, z->nx * sizeof(double));
+  }
+  return at;
+}
+
 static uint32_t add_lumps(zono *z, uint32_t at, const sums *sum) {
   proof *p = z->proof;
   uint32_t nx = z->nx;
   double *c = p->grow;
   int known = quartic_begin(z);
+  if (p->residual->used) residual_start(z);
   for (uint32_t j = 0; j < z->nslot; j++) {
     if (z->rr[j] == 0) continue;
     lump size = quartic_lump(z, j);
     if (size.most == 0) continue;
     for (uint32_t i = 0; i < nx; i++) c[i] = weight_of(z, i, j), sum->width[i] += half_width(z, i, j) * size.most;
-    at = add_lump(z, at, size, c, sum, origin_of(z, j));
+    if (p->residual->used) {
+      residual_add(z, j, size, is_varying(z, j));
+      for (uint32_t i = 0; i < nx && !is_varying(z, j); i++)
+        if (p->link[i] == LINK_UNKNOWN) c[i] = 0;
+    }
+    uint32_t end = add_lump(z, at, size, c, sum, is_varying(z, j) ? FROM_VARYING : origin_of(z, j));
+    if (is_varying(z, j)) vary_mark(z, j - vary_first(z), at, end);
+    at = end;
   }
+  if (p->residual->used) at = add_equations(z, at, sum);
   for (uint32_t l = 0; l < nx; l++) {
     double left = equations_size(z, l);
     for (uint32_t i = 0; i < nx; i++) c[i] = i == l;
     at = add_lump(z, at, quartic_none(z->rr_out[l] + left), c, sum, left > z->rr_out[l] ? FROM_START : FROM_TIME);
     if (p->link[l] == LINK_STATE) continue;
+    if (p->residual->used && p->link[l] == LINK_UNKNOWN) continue;
     const double *dL = raw(z, p->dL, p->dL_new) + (size_t)p->link_to[l] * z->na;
     for (uint32_t q = 0; q < z->na; q++) sum->width[l] += dL[q] * z->rr_out[nx + q];
   }
@@ -121,7 +153,7 @@ static uint32_t add_lumps(zono *z, uint32_t at, const sums *sum) {
 /* what unknown k is off by, by lumps, with the coefficients that sweeps gave */
 static double unknown_size(const zono *z, uint32_t k, const sums *sum) {
   const proof *p = z->proof;
-  for (uint32_t i = 0; i < z->nx; i++)
+  for (uint32_t i = 0; i < z->nx && !p->residual->used; i++)
     if (p->link[i] == LINK_UNKNOWN && p->link_to[i] == k) return sum->centre[i] + sum->width[i];
   const double *C = p->C + (size_t)k * z->nslot, *dC = p->dC + (size_t)k * z->nslot;
   const double *L = p->L + (size_t)k * z->na, *dL = p->dL + (size_t)k * z->na;
@@ -136,7 +168,7 @@ static void close_sums(zono *z, const sums *sum) {
   proof *p = z->proof;
   for (uint32_t k = 0; k < z->na; k++) p->alpha_new[k] = unknown_size(z, k, sum);
   for (uint32_t i = 0; i < z->nx; i++) {
-    if (p->link[i] == LINK_STATE) continue;
+    if (p->link[i] == LINK_STATE || (p->residual->used && p->link[i] == LINK_UNKNOWN)) continue;
     const double *by = p->close + (size_t)p->link_to[i] * z->na;
     for (uint32_t k = 0; k < z->na; k++) sum->width[i] += by[k] * p->alpha_new[k] * ABOVE;
   }

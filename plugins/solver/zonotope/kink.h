@@ -18,7 +18,7 @@ typedef struct kinks {
   uint8_t *may_cross; /* [ninstr] 0: an equation that is solved for unknowns depends on them through it */
   double *row;        /* [stride] */
   double usual;       /* length of steps away from kinks */
-  uint8_t *is_slot;   /* [nslot] of a kinked instruction */
+  uint8_t *is_slot;   /* [nslot] of a kinked instruction, or a parameter that varies: no step is too short for it */
 } kinks;
 
 static inline int is_kinked(uint32_t op) { return op == AMBIT_OP_ABS || op == AMBIT_OP_MIN || op == AMBIT_OP_MAX; }

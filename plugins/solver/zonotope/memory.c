@@ -3,6 +3,7 @@
 #include "basis.h"
 #include "modes.h"
 #include "quartic.h"
+#include "residual.h"
 
 static int doubles(const ambit_host *h, size_t n, double **to) {
   *to = h->alloc(h, (n ? n : 1) * sizeof(double));
@@ -93,7 +94,7 @@ static int open_states(zono *z) {
   proof *p = z->proof;
   const ambit_host *h = z->host;
   size_t nx = z->nx, square = nx * nx,
-         columns = z->ngen_max + 2 * ((size_t)z->nslot + z->nout + nx) + nx + 2 * (size_t)z->shape.m;
+         columns = z->ngen_max + 2 * ((size_t)z->nslot + z->nout + z->na + nx) + nx + 2 * (size_t)z->shape.m;
   double **matrix[] = { &p->J, &p->dJ, &p->mean, &p->tilt, &p->reach, &p->wobble, &p->power, &p->power_new, &p->size,
     &p->size_new, &p->jacobian_size };
   for (size_t n = 0; n < sizeof matrix / sizeof *matrix; n++)
@@ -105,14 +106,16 @@ static int open_states(zono *z) {
          doubles(h, 4 * (nx + z->na), &p->work) && doubles(h, columns * nx, &p->columns) &&
          doubles(h, (z->ngen_max + nx) * (nx + 1), &p->turned) && doubles(h, nx * (nx + 3), &p->moves) &&
          doubles(h, columns, &p->score) && (p->origin = h->alloc(h, columns + 1)) != NULL &&
-         (p->from = h->alloc(h, z->ngen_max + nx + 1)) != NULL && doubles(h, 2 * z->shape.m, &p->range) &&
-         doubles(h, columns, &p->sorted);
+         (p->from = h->alloc(h, z->ngen_max + nx + 1)) != NULL &&
+         (p->source = h->alloc(h, (columns + 1) * sizeof *p->source)) != NULL &&
+         (p->made_by = h->alloc(h, (z->ngen_max + nx + 1) * sizeof *p->made_by)) != NULL &&
+         doubles(h, 2 * z->shape.m, &p->range) && doubles(h, columns, &p->sorted);
 }
 
 int zono_open_proof(zono *z) {
   proof *p = z->proof = z->host->alloc(z->host, sizeof *p);
   if (!p || !open_slots(z) || !open_targets(z) || !open_states(z)) return 0;
-  if (!quartic_open(z) || !modes_open(z) || !basis_open(z)) return 0;
+  if (!quartic_open(z) || !residual_open(z) || !modes_open(z) || !basis_open(z)) return 0;
   slope_open(p->gap);
   if ((z->problem.wish & AMBIT_WISH_DENSE) && z->nx && !dense_open(z)) return 0;
   return !(z->problem.wish & AMBIT_WISH_SET) || !z->nx || set_open(z);

@@ -98,7 +98,7 @@ uint32_t mixed_add(zono *z, uint32_t at) {
       split(z, B, i, k, u, w);
       double *column = p->columns + (size_t)at * nx, size = (of_generators(z, w) + quartic_through(z, w)) * ABOVE;
       for (uint32_t a = 0; a < nx; a++) column[a] = u[a] * size, *box(z, FROM_START, a) += UNIT * fabs(column[a]);
-      p->origin[at++] = FROM_MIXED;
+      p->source[at] = 0, p->origin[at++] = FROM_MIXED;
     }
     for (uint32_t a = 0; a < nx; a++) {
       const double *y = B + (size_t)a * nx;

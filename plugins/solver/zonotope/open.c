@@ -1,4 +1,5 @@
 /* open.c -- memory, and which slots depend on which unknowns. */
+#include "vary.h"
 #include "implicit.h"
 #include "kink.h"
 #include <ambit/code.h>
@@ -7,8 +8,10 @@
 #define ORDER_MOST 40 /* that may be asked for */
 #define ORDER_HIGH 24 /* that is chosen */
 #define ORDER_LEAST 8
-#define SORTED 27  /* data: fewer are held all alike */
-#define HISTORY 60 /* generators kept for each state */
+#define SORTED 27   /* data: fewer are held all alike */
+#define HISTORY 60  /* generators kept for each state, */
+#define VARYING 600 /* and so many more for all that varies together, */
+#define EACH 32u    /* or for the mean and the moment of each */
 
 static void *room(const ambit_host *h, size_t count, size_t size) { return h->alloc(h, (count ? count : 1) * size); }
 static double *doubles(const ambit_host *h, size_t count) { return room(h, count, sizeof(double)); }
@@ -104,7 +107,9 @@ static uint32_t highest_order(const zono *z) {
 static int open_set(zono *z) {
   const ambit_host *h = z->host;
   size_t nx = z->nx;
-  z->ngen_max = z->options.history * z->nx;
+  uint32_t sources = vary_sources(z), each = VARYING / (sources ? sources : 1);
+  z->vary_room = sources * (each > EACH ? each : EACH);
+  z->ngen_max = (z->options.history ? z->options.history : HISTORY) * z->nx + z->vary_room;
   z->P = doubles(h, nx * z->shape.stride), z->E = doubles(h, nx), z->G = doubles(h, nx * (z->ngen_max + nx));
   z->lo = doubles(h, nx), z->hi = doubles(h, nx), z->tube_lo = doubles(h, nx), z->tube_hi = doubles(h, nx);
   z->limit = doubles(h, nx);
@@ -164,8 +169,7 @@ static ambit_status choose(const ambit_host *h, const double *option, options *o
   if (!(option[3] > 0)) return refuse(h, "step_max", "more than 0", option[3]);
   if (!(option[4] >= 0)) return refuse(h, "step_min", "0 or more", option[4]);
   if (!(option[5] >= 0)) return refuse(h, "width_max", "0 or more", option[5]);
-  *o = (options) { (uint32_t)order, history > 0 ? (uint32_t)history : HISTORY, option[2], option[3], option[4],
-    option[5] };
+  *o = (options) { (uint32_t)order, (uint32_t)history, option[2], option[3], option[4], option[5] };
   return AMBIT_OK;
 }
 

@@ -20,6 +20,7 @@ static const char *const names[ORIGINS] = {
   [FROM_SLOPE] = "errors' dependence on the data",
   [FROM_JACOBIAN] = "slopes' dependence on the data",
   [FROM_MIXED] = "older errors' dependence on the data",
+  [FROM_VARYING] = "what varies in time",
 };
 
 typedef struct writer {

@@ -149,6 +149,8 @@ static uint32_t adapted(zono *z) {
 
 void zono_choose_order(zono *z) {
   z->proof->prepared = 0;
-  uint32_t order = z->options.time_order ? z->options.time_order : z->m ? ORDER_DATA : adapted(z);
+  uint32_t order = z->options.time_order         ? z->options.time_order
+                   : z->m || z->problem.nvarying ? ORDER_DATA
+                                                 : adapted(z);
   z->K = order < z->K_max ? order : z->K_max;
 }

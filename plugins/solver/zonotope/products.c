@@ -81,6 +81,14 @@ static int open_groups(zono *z) {
   return 1;
 }
 
+static int open_squares(zono *z) {
+  quartic *q = z->proof->quartic;
+  size_t square = (size_t)z->nx * z->nx;
+  q->squares = z->problem.nvarying > 0;
+  return !q->squares ||
+         (doubles(z->host, square, &q->square_group) && doubles(z->host, (z->nx + z->na) * square, &q->square_sum));
+}
+
 int quartic_open(zono *z) {
   const ambit_host *h = z->host;
   quartic *q = z->proof->quartic = h->alloc(h, sizeof *q);
@@ -99,8 +107,8 @@ int quartic_open(zono *z) {
          doubles(h, n * (n + 1) / 2 * z->nx, &q->near) && doubles(h, n * (n + 1) / 2 * z->nx * z->nx, &q->near_sum) &&
          doubles(h, length, &q->product) && doubles(h, length * z->nx, &q->sum) &&
          doubles(h, length * z->nx, &q->term) && doubles(h, length * z->nx, &q->moved) &&
-         doubles(h, z->nx, &q->rounding) && doubles(h, z->nx, &q->size) && doubles(h, length, &q->group) &&
-         doubles(h, n * (n + 1) / 2 * z->nx, &q->near_group) && open_groups(z);
+         doubles(h, z->nx + z->na, &q->rounding) && doubles(h, z->nx, &q->size) && doubles(h, length, &q->group) &&
+         doubles(h, n * (n + 1) / 2 * z->nx, &q->near_group) && open_squares(z) && open_groups(z);
 }
 
 /* -- choice */
@@ -185,11 +193,12 @@ static void place(zono *z) {
 
 int quartic_begin(zono *z) {
   quartic *q = z->proof->quartic;
-  if (q->most == 0 || !choose_slots(z)) return 0;
+  if ((q->most == 0 && !q->squares) || !choose_slots(z)) return 0;
   if (q->n == 0) choose_data(z), place(z);
-  if (q->n == 0) return q->count = 0, 0;
+  if (q->n == 0 && !q->squares) return q->count = 0, 0;
   for (uint32_t i = 0; i < z->nx; i++) memset(q->sum + (size_t)i * q->length, 0, q->length * sizeof(double));
   memset(q->near_sum, 0, (size_t)z->nx * q->pairs * z->nx * sizeof(double));
-  memset(q->rounding, 0, z->nx * sizeof(double));
+  memset(q->rounding, 0, (z->nx + z->na) * sizeof(double));
+  if (q->squares) memset(q->square_sum, 0, (z->nx + z->na) * (size_t)z->nx * z->nx * sizeof(double));
   return 1;
 }

@@ -36,6 +36,7 @@ enum origin {
   FROM_SLOPE,    /* how it does, depending on the data and on time */
   FROM_JACOBIAN, /* the same for distances that there are already */
   FROM_MIXED,    /* how the movement of old generators depends on the data */
+  FROM_VARYING,  /* parameters that are functions of time */
   ORIGINS
 };
 
@@ -65,26 +66,28 @@ typedef struct proof {
   double *power, *power_new, *size, *size_new, *jacobian_size; /* [nx x nx] */
   double *grow, *grow_path;                                    /* [nx] per state: sums for bounds */
   double *columns;                                             /* [(ngen_max + 2 (nslot + nout) + nx + 2 m) x nx] */
-  double *turned;          /* [nx x (ngen_max + 4)] old generators, state by state */
-  double *moves;           /* [nx x (nx + 3)] mixed.c */
-  double *score, *sorted;  /* one of each column */
-  double *end;             /* [nx x stride] rows at the end of the step */
-  double *spread;          /* [nx] sizes of states' sets, for weights */
-  double *largest;         /* [nx] of these, of the whole run */
-  double *budget;          /* [nx] rates at which each state may be widened: pace.c */
-  double *worth, usual;    /* parts.c: [3 nx]; length of steps */
-  double *unit;            /* [nx] of the states, for norms */
-  double *work;            /* [4 nx + na] */
-  double paced;            /* what pace.c chose for the last step */
-  uint32_t time_order;     /* in time, where there are no data */
-  double rho_before;       /* of a longer step that was tried; 0: none */
-  uint32_t patience;       /* steps that are not halved for it */
-  int prepared;            /* total and drop are those of the rows */
-  double *boxes;           /* [ORIGINS x nx] what goes into the box */
-  uint8_t *origin, *from;  /* of columns, of z->G */
-  struct quartic *quartic; /* quartic.c */
-  double *late;            /* [nslot] what of z->r is FROM_TIME */
-  double *range;           /* [2 m] */
+  double *turned;             /* [nx x (ngen_max + 4)] old generators, state by state */
+  double *moves;              /* [nx x (nx + 3)] mixed.c */
+  double *score, *sorted;     /* one of each column */
+  double *end;                /* [nx x stride] rows at the end of the step */
+  double *spread;             /* [nx] sizes of states' sets, for weights */
+  double *largest;            /* [nx] of these, of the whole run */
+  double *budget;             /* [nx] rates at which each state may be widened: pace.c */
+  double *worth, usual;       /* parts.c: [3 nx]; length of steps */
+  double *unit;               /* [nx] of the states, for norms */
+  double *work;               /* [4 nx + na] */
+  double paced;               /* what pace.c chose for the last step */
+  uint32_t time_order;        /* in time, where there are no data */
+  double rho_before;          /* of a longer step that was tried; 0: none */
+  uint32_t patience;          /* steps that are not halved for it */
+  int prepared;               /* total and drop are those of the rows */
+  double *boxes;              /* [ORIGINS x nx] what goes into the box */
+  uint8_t *origin, *from;     /* of columns, of z->G */
+  uint16_t *source, *made_by; /* vary.c: which function of time, of columns, of z->G; 0: none */
+  struct quartic *quartic;    /* quartic.c */
+  struct residual *residual;  /* residual.c */
+  double *late;               /* [nslot] what of z->r is FROM_TIME */
+  double *range;              /* [2 m] */
   /* records */
   double *dense_mid, *dense_rad, *dense_column;
   ambit_set set;

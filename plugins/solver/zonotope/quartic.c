@@ -4,10 +4,12 @@
 ** functions of the same xi, which nearly cancel in the accelerations. So these terms are multiplied out at the middle
 ** of the step, and their sum with the weights of the lumps is one polynomial for each x', which the set keeps. Lumps
 ** bound what is left: other terms, and how the mean over the step differs from the middle (docs/numerics/zonotope.md,
-** section 7). So are terms of degree 2 in the data and 1 in eps, but they are bounded at once.
+** section 7). So are terms of degree 2 in the data and 1 in eps, but they are bounded at once, and products of errors
+** where these are as large as what varies in time makes them.
 */
 #include "quartic.h"
-#include "proof.h"
+#include "basis.h"
+#include "residual.h"
 
 /* to += power times what is at `at`; returns the sum of sizes */
 static double gather(double *to, const double *row, const uint32_t *at, uint32_t n, double power) {
@@ -46,10 +48,11 @@ static double left_mean(uint32_t k) { return fabs(1 / (k + 1.0) - ldexp(1, -(int
 static double left_path(uint32_t k) { return fmax(left_mean(k), ldexp(1, -1 - (int)k) * k / (k + 1.0)); }
 static double left_moment(uint32_t k) { return k / ((k + 1.0) * (k + 2.0)); }
 
-static double size_of(const operand *a, const operand *b, uint32_t i, uint32_t j) {
-  return a->size_l[i] * b->size_c[j] + a->size_c[i] * b->size_l[j] + a->size_q[i] * b->size_q[j] +
-         a->size_l[i] * b->size_x[j] + a->size_x[i] * b->size_l[j] + a->size_q[i] * b->size_r[j] +
-         a->size_r[i] * b->size_q[j];
+static double size_of(const quartic *q, uint32_t i, uint32_t j) {
+  const operand *a = &q->a, *b = &q->b;
+  return q->squares * a->size_r[i] * b->size_r[j] + a->size_l[i] * b->size_c[j] + a->size_c[i] * b->size_l[j] +
+         a->size_q[i] * b->size_q[j] + a->size_l[i] * b->size_x[j] + a->size_x[i] * b->size_l[j] +
+         a->size_q[i] * b->size_r[j] + a->size_r[i] * b->size_q[j];
 }
 
 /* the lump of slot j without what is known; whole: size of the known over the step */
@@ -60,7 +63,7 @@ static lump reduce(const zono *z, uint32_t j, uint32_t last_a, uint32_t last_b, 
   for (uint32_t k = 0; k <= last_a + last_b; k++, power *= length) {
     double size = 0;
     for (uint32_t i = 0; i <= k && i <= last_a; i++)
-      if (k - i <= last_b) size += size_of(&q->a, &q->b, i, k - i);
+      if (k - i <= last_b) size += size_of(q, i, k - i);
     *whole += size * power;
     if (k > z->K) continue;
     mean += (1 - left_mean(k)) * size * power, moment += (0.5 - left_moment(k)) * size * power;
@@ -107,11 +110,37 @@ static lump multiply(zono *z, uint32_t j, double sign, double *whole) {
   take(z, &q->a, a, sign), take(z, &q->b, b, 1);
   lump left = reduce(z, j, orders(z, a) - 1, orders(z, b) - 1, whole);
   if (*whole == 0) return left;
-  q->multiply(q, q->product);
-  multiply_near(q);
-  q->add(q->group, 1, q->product, q->length);
-  q->add(q->near_group, 1, q->near, (size_t)q->pairs * z->nx);
+  if (q->n) {
+    q->multiply(q, q->product);
+    multiply_near(q);
+    q->add(q->group, 1, q->product, q->length);
+    q->add(q->near_group, 1, q->near, (size_t)q->pairs * z->nx);
+  }
+  for (uint32_t k = 0; k < z->nx && q->squares; k++)
+    if (q->a.r[k] != 0) q->add(q->square_group + (size_t)k * z->nx, q->a.r[k], q->b.r, z->nx);
   return left;
+}
+
+/* row n of the square sums += c times those of the group */
+static void add_squares(const zono *z, uint32_t n, double c) {
+  quartic *q = z->proof->quartic;
+  size_t square = (size_t)z->nx * z->nx;
+  if (c != 0) q->add(q->square_sum + n * square, c, q->square_group, square);
+}
+
+/* eps_i times the errors that its row makes: these are not independent of one another */
+double quartic_square(zono *z, uint32_t n) {
+  const quartic *q = z->proof->quartic;
+  const double *x = q->square_sum + (size_t)n * z->nx * z->nx;
+  double *row = z->proof->grow_path, sum = 0;
+  for (uint32_t i = 0; i < z->nx && q->squares; i++) {
+    double single = 0;
+    for (uint32_t k = 0; k < z->nx; k++) row[k] = 0.5 * (x[i * z->nx + k] + x[k * z->nx + i]), single += fabs(row[k]);
+    if (single == 0) continue;
+    double rounding = 4 * UNIT * single, together = basis_resolve(z, row);
+    sum += fmin(single, together + mixed_size(z, row)) + rounding;
+  }
+  return sum;
 }
 
 /* the sums of each x' += what is known of the group of slot j; returns its size */
@@ -119,14 +148,21 @@ static double add_known(zono *z, uint32_t j, double whole) {
   const proof *p = z->proof;
   quartic *q = p->quartic;
   size_t near = (size_t)q->pairs * z->nx;
+  int by_equation = p->residual->used;
+  for (uint32_t e = 0; e < z->na && by_equation; e++) {
+    double c = p->residual->W[(size_t)e * z->nslot + j];
+    add_squares(z, z->nx + e, c), q->rounding[z->nx + e] += fabs(c) * whole;
+  }
   for (uint32_t x = 0; x < z->nx; x++) {
     double c = p->link[x] == LINK_STATE ? 0 : p->C[(size_t)p->link_to[x] * z->nslot + j];
     if (c == 0) continue;
     q->add(q->sum + (size_t)x * q->length, c, q->group, q->length);
     q->add(q->near_sum + (size_t)x * near, c, q->near_group, near);
+    if (q->squares && !(by_equation && p->link[x] == LINK_UNKNOWN)) add_squares(z, x, c);
     q->rounding[x] += fabs(c) * whole;
   }
-  return sizes(q->group, q->length) + sizes(q->near_group, near) + (2.0 * q->count + 8) * UNIT * whole;
+  double squares = q->squares ? sizes(q->square_group, (size_t)z->nx * z->nx) : 0;
+  return sizes(q->group, q->length) + sizes(q->near_group, near) + squares + (2.0 * q->count + 8) * UNIT * whole;
 }
 
 lump quartic_lump(zono *z, uint32_t j) {
@@ -137,6 +173,7 @@ lump quartic_lump(zono *z, uint32_t j) {
   if (q->chosen[j] > 1) return all;
   memset(q->group, 0, q->length * sizeof(double));
   memset(q->near_group, 0, (size_t)q->pairs * z->nx * sizeof(double));
+  if (q->squares) memset(q->square_group, 0, (size_t)z->nx * z->nx * sizeof(double));
   for (uint32_t k = j; k != AMBIT_NO_SLOT; k = q->next[k]) {
     double size;
     if (q->chosen[k] != 1) continue;

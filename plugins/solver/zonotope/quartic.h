@@ -1,4 +1,5 @@
-/* quartic.h -- what products of slots have of degree 4 in some of the data, which rows do not hold. */
+/* quartic.h -- what products of slots have of degree 4 in some of the data, or of degree 2 in eps, which rows do not
+** hold. */
 #ifndef ZONOTOPE_QUARTIC_H
 #define ZONOTOPE_QUARTIC_H
 #include "zonotope.h"
@@ -28,12 +29,15 @@ typedef struct quartic {
   double *term;     /* [nx x length] what the set has */
   double *moved;    /* [nx x length] the same at the end of the step */
   double *size;     /* [nx] sums of sizes of `term` */
-  double *rounding; /* [nx] of the sum */
+  double *rounding; /* [nx + na] of the sum */
   double *group;    /* [length] of products with the same coefficient together; near of it: */
   double *near_group;
-  double *weight;               /* [nslot] of lumps, by the budgets of the states */
-  uint8_t *chosen;              /* [nslot] */
-  int8_t *sign;                 /* [nslot] of a product in the sum that it goes into; 0: the slot is no product */
+  uint32_t squares;     /* 1: products of errors are known, too: */
+  double *square_group; /* [nx x nx] of the group, by pairs of eps; */
+  double *square_sum;   /* [(nx + na) x nx x nx] for each x', and for each equation where residual.c is at work */
+  double *weight;       /* [nslot] of lumps, by the budgets of the states */
+  uint8_t *chosen;      /* [nslot] */
+  int8_t *sign;         /* [nslot] of a product in the sum that it goes into; 0: the slot is no product */
   uint32_t *root, *next, *made; /* [nslot] that sum; the next product of it; the instruction that makes a slot */
   uint32_t count;               /* slots chosen */
   void (*multiply)(const struct quartic *q, double *to);
@@ -55,6 +59,8 @@ int quartic_begin(zono *z);
 lump quartic_lump(zono *z, uint32_t j);
 /* of x'_i and pair n: [nx] what one of each eps makes; rounding: of all pairs of x'_i */
 double *quartic_near(zono *z, uint32_t i, uint32_t n);
+/* bound of the products of errors in the sum of this step, of x'_n, or of equation n - nx */
+double quartic_square(zono *z, uint32_t n);
 /* bound of the sum of this step for x'_i */
 double quartic_sum(const zono *z, uint32_t i);
 /* sum of sizes of terms of state i */

@@ -6,6 +6,7 @@
 */
 #include "kink.h"
 #include "proof.h"
+#include "vary.h"
 #include <ambit/code.h>
 #include <stdio.h>
 
@@ -36,7 +37,7 @@ static int set_end(zono *z, double h) {
 static double longest(const zono *z) {
   double left = z->problem.time[z->next] - z->t, most = fabs(left);
   if (z->guess > 0 && GROW * z->guess < most) most = GROW * z->guess;
-  if (z->options.step_max < most) most = z->options.step_max;
+  most = fmin(most, fmin(z->options.step_max, z->vary_most));
   /* the last two steps before an instant are of like length: no sliver is left */
   if (most < fabs(left) && most > 0.6 * fabs(left)) most = 0.5 * fabs(left);
   return left < 0 ? -most : most;
@@ -53,7 +54,10 @@ static int prove_some(zono *z, double h) {
   for (;;) {
     if (set_end(z, h)) z->h = z->t_next - z->t;
     z->why = WHY_NOTHING, z->detail = NULL;
-    if (zono_defects(z) && zono_prove(z)) return 1;
+    if (zono_defects(z) && zono_prove(z)) {
+      if (vary_fits(z)) return 1;
+      z->why = WHY_GROWTH;
+    }
     why = z->why == WHY_NOTHING ? WHY_GROWTH : z->why;
     if (fabs(h) * 0.5 < least_step(z) || z->t + 0.5 * h == z->t) return fails(z, why == WHY_GROWTH ? WHY_STEP : why);
     h *= 0.5;
@@ -85,10 +89,10 @@ static int is_wide(zono *z) {
     const double *row = z->P + (size_t)i * z->shape.stride;
     z->culprit = i;
     if (most > 0 ? !(width <= z->limit[i]) : !(width < INFINITY)) return 1;
-    if (most == 0) ambit_explosion_note(&e, i, width, row_total(&z->shape, row), &z->limit[i]);
+    if (most == 0 && !z->problem.nvarying) ambit_explosion_note(&e, i, width, row_total(&z->shape, row), &z->limit[i]);
   }
   z->culprit = e.worst;
-  return z->options.width_max == 0 && ambit_explodes(&e);
+  return z->options.width_max == 0 && !z->problem.nvarying && ambit_explodes(&e);
 }
 
 static int advance(zono *z) {
@@ -113,6 +117,7 @@ static void work(zono *z) {
   uint32_t slow = 0;
   double most = 0;
   zono_start(z);
+  vary_start(z);
   zono_hull(z);
   for (uint32_t i = 0; i < z->nx; i++)
     z->limit[i] = z->options.width_max * fmax(1, fmax(fabs(z->lo[i]), fabs(z->hi[i])));

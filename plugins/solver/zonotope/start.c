@@ -15,6 +15,7 @@
 static int open_initial(const zono *z, zono *i) {
   *i = (zono) { .host = z->host, .shape = z->shape };
   memcpy(&i->problem, &z->problem, sizeof i->problem);
+  i->problem.nvarying = 0;
   i->program = (program) { .tape = z->problem.initial, .np = z->problem.nu };
   i->np = z->problem.nu, i->m = z->m, i->K = i->K_max = 0;
   return zono_open_rows(i) && zono_open_proof(i);
@@ -76,10 +77,10 @@ static int allocate(zono *z) {
 
 /* -- */
 
-/* rows and radii of all outputs; *own: how many more data there should be */
+/* rows and radii of all outputs; *own: how many more data there should be. Functions of time are no data. */
 static void keep(zono *z, const zono *i, const double *delta, uint32_t *own) {
   const shape *s = &z->shape;
-  uint32_t first = count_data(&z->problem), found = 0;
+  uint32_t first = count_data(&z->problem), found = 0, fixed = z->nx + z->np - z->problem.nvarying;
   for (uint32_t o = 0; o < z->nx + z->np; o++) {
     uint32_t slot = slot_out(i)[o];
     int state = o < z->nx;
@@ -87,7 +88,7 @@ static void keep(zono *z, const zono *i, const double *delta, uint32_t *own) {
     double *rad = state ? z->start_rad + o : z->start_p_rad + (o - z->nx);
     row_copy(s, to, row_at(i, slot, 0));
     *rad = delta[slot];
-    if (*rad <= THIN * row_total(s, to) + 0x1p-900) continue;
+    if (o >= fixed || *rad <= THIN * row_total(s, to) + 0x1p-900) continue;
     if (first + found < z->m) {
       to[1 + first + found] = *rad;
       *rad = 0;

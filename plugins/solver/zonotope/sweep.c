@@ -8,6 +8,7 @@
 */
 #include "kink.h"
 #include "proof.h"
+#include "residual.h"
 
 #define TURNS 12
 #define POWERS 6
@@ -190,6 +191,19 @@ static int sweep(zono *z, const sweeps *w, double h, const coefficients *k) {
   return 1;
 }
 
+/* adjoints of the equations themselves */
+static void sweep_equations(zono *z, const sweeps *w) {
+  for (uint32_t q = 0; q < z->na; q++) {
+    clear(z, w);
+    seed_one(w, slot_out(z)[z->nx + q]);
+    sweep_back(z, w, 0);
+    for (uint32_t j = 0; j < z->nslot; j++) {
+      const double *x = adjoint(w, j);
+      residual_keep(z, q, j, x[0], varies(w, x), x + 1 + z->shape.m);
+    }
+  }
+}
+
 /* -- results */
 
 /* J and dJ of x'_i */
@@ -292,6 +306,7 @@ int sweep_coefficients(zono *z) {
   proof *p = z->proof;
   coefficients k = { p->C, p->dC, p->L, p->dL, p->rho };
   if (!sweep(z, &p->forms, z->h, &k) || !close_rows(z)) return 0;
+  if (p->residual->used) sweep_equations(z, &p->forms);
   add_rest(z);
   for (uint32_t i = 0; i < z->nx; i++) read_slope(z, i);
   return 1;

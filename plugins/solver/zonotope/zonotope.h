@@ -51,7 +51,7 @@ enum why {
 };
 
 typedef struct options {
-  uint32_t time_order, history; /* 0: by need; generators kept, in multiples of nx */
+  uint32_t time_order, history; /* 0: by need; generators kept, in multiples of nx, 0: by need */
   double tolerance, step_max, step_min, width_max;
 } options;
 
@@ -101,6 +101,8 @@ typedef struct zono {
   /* -- the step: from t, h long (negative: backwards); s in [0, h] */
   double t, t_next, h, h_error; /* |(t_next - t) - h| <= h_error */
   double guess;                 /* length of the last step, without sign */
+  double vary_most;             /* vary.c: the longest step; */
+  uint32_t vary_room;           /* generators that are kept of what varies */
   uint32_t next;                /* the instant ahead */
   double *r;                    /* [nslot] what the operation itself fails by, see defect.c */
   double *rr;                   /* [nslot] the lump of each slot (constants and inputs included): r and second order */

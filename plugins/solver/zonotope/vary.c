@@ -1,0 +1,155 @@
+/* vary.c -- parameters that are functions of time: how long steps may be for them.
+**
+** Such a parameter is its middle, and a lump as wide as its range: nothing is asked of a lump but that it be a
+** measurable function of time with a bound. A step makes two generators of it, for its mean over the step and for its
+** moment (kernel.c). The second one is what a step that is too long costs: it shrinks with the square of the step. No
+** proof depends on anything here.
+*/
+#include "vary.h"
+#include "proof.h"
+
+#define LOSS 0.01     /* of the moments' generators, in parts of those of the means */
+#define SHORTEST 1e-5 /* of the whole time: steps are not made shorter than this */
+
+uint32_t vary_first(const zono *z) { return slot_p(z, z->np - z->problem.nvarying); }
+
+static double span(const zono *z) { return fabs(z->problem.time[z->problem.ntime - 1] - z->problem.time[0]); }
+
+static double through(const zono *z, const double *kernel, uint32_t i, uint32_t slot) {
+  const proof *p = z->proof;
+  double sum = 0;
+  for (uint32_t l = 0; l < z->nx; l++)
+    if (p->link[l] != LINK_STATE) sum += kernel[(size_t)i * z->nx + l] * p->C[(size_t)p->link_to[l] * z->nslot + slot];
+  return fabs(sum);
+}
+
+/* moments' generators by means', each in the units of the norm in which the step is short */
+static double loss(const zono *z) {
+  const proof *p = z->proof;
+  double means = 0, moments = 0;
+  for (uint32_t i = 0; i < z->nx; i++) {
+    double mean = 0, moment = 0;
+    for (uint32_t v = 0, slot = vary_first(z); v < z->problem.nvarying; v++, slot++) {
+      mean += through(z, p->mean, i, slot) * z->rr[slot];
+      moment += 0.5 * through(z, p->tilt, i, slot) * z->rr[slot];
+    }
+    means = fmax(means, mean / p->unit[i]), moments = fmax(moments, moment / p->unit[i]);
+  }
+  return means > 0 ? moments / means : 0;
+}
+
+void vary_start(zono *z) {
+  z->vary_most = INFINITY;
+  memset(z->proof->made_by, 0, z->ngen * sizeof *z->proof->made_by);
+}
+
+int vary_fits(zono *z) {
+  if (!z->problem.nvarying) return 1;
+  double share = loss(z), least = SHORTEST * span(z);
+  z->vary_most = fmax(share > 0 ? fabs(z->h) * LOSS / share : INFINITY, least);
+  return fabs(z->h) <= fmax(1.5 * z->vary_most, least);
+}
+
+/* -- their generators */
+
+void vary_mark(zono *z, uint32_t source, uint32_t at, uint32_t end) {
+  for (uint32_t c = at; c < end; c++) z->proof->source[c] = (uint16_t)(1 + 2 * source + (c - at));
+}
+
+typedef struct joint {
+  double share, sign; /* of the first column in the sum; of the second one */
+  double left;        /* what they leave, in units of the states' sets */
+} joint;
+
+static joint join(const zono *z, const double *a, const double *b) {
+  const double *unit = z->proof->spread;
+  double aa = 0, ab = 0, bb = 0;
+  for (uint32_t i = 0; i < z->nx; i++) {
+    double x = a[i] / unit[i], y = b[i] / unit[i];
+    aa += x * x, ab += x * y, bb += y * y;
+  }
+  joint j = { 0.5, ab < 0 ? -1 : 1, 0 };
+  double whole = aa + 2 * fabs(ab) + bb;
+  if (whole > 0) j.share = fmin(fmax((aa + fabs(ab)) / whole, 0), 1);
+  for (uint32_t i = 0; i < z->nx; i++) j.left += 2 * fabs((1 - j.share) * a[i] - j.share * j.sign * b[i]) / unit[i];
+  return j;
+}
+
+/* a := a + sign b: for symbols p and q, a p + sign b q = (share p + (1 - share) q) (a + sign b) + what goes into the
+** box */
+static void put_together(zono *z, double *a, const double *b, joint j) {
+  for (uint32_t i = 0; i < z->nx; i++) {
+    double other = j.sign * b[i], sum = a[i] + other;
+    double left = fabs(a[i] - j.share * sum) + fabs(other - (1 - j.share) * sum);
+    *box(z, FROM_VARYING, i) += left + 8 * UNIT * (fabs(a[i]) + fabs(other));
+    a[i] = sum;
+  }
+}
+
+static uint32_t next_of(const proof *p, uint32_t n, uint32_t c) {
+  uint32_t next = c + 1;
+  while (next < n && p->source[next] != p->source[c]) next++;
+  return next;
+}
+
+/* what a column in the box is larger by than itself, in units of the states' sets [Girard 2005] */
+static double boxed(const zono *z, const double *g) {
+  double sum = 0, most = 0;
+  for (uint32_t i = 0; i < z->nx; i++) {
+    double u = fabs(g[i]) / z->proof->spread[i];
+    sum += u, most = fmax(most, u);
+  }
+  return 2 * (sum - most);
+}
+
+/* one column of this source less: neighbours become one, or one goes into the box, whichever costs least */
+static void drop_one(zono *z, uint32_t n, uint32_t first) {
+  proof *p = z->proof;
+  uint32_t best = n, with = n, nx = z->nx;
+  joint least = { 0, 0, INFINITY };
+  for (uint32_t c = first, next; c < n; c = next) {
+    const double *g = p->columns + (size_t)c * nx;
+    double alone = boxed(z, g);
+    next = next_of(p, n, c);
+    if (alone < least.left) least.left = alone, best = n, with = c;
+    joint j = next < n ? join(z, g, p->columns + (size_t)next * nx) : least;
+    if (j.left < least.left) least = j, best = c, with = next;
+  }
+  if (with == n) return;
+  double *g = p->columns + (size_t)with * nx;
+  if (best < n)
+    put_together(z, p->columns + (size_t)best * nx, g, least);
+  else
+    for (uint32_t i = 0; i < nx; i++) *box(z, FROM_VARYING, i) += fabs(g[i]);
+  memset(g, 0, nx * sizeof *g);
+  p->source[with] = 0;
+}
+
+static uint32_t drop_empty(zono *z, uint32_t n) {
+  proof *p = z->proof;
+  uint32_t kept = 0;
+  for (uint32_t c = 0; c < n; c++) {
+    const double *g = p->columns + (size_t)c * z->nx;
+    double size = 0;
+    for (uint32_t i = 0; i < z->nx; i++) size += fabs(g[i]);
+    if (size == 0) continue;
+    memmove(p->columns + (size_t)kept * z->nx, g, z->nx * sizeof *g);
+    p->origin[kept] = p->origin[c], p->source[kept++] = p->source[c];
+  }
+  return kept;
+}
+
+uint32_t vary_merge(zono *z, uint32_t n) {
+  const proof *p = z->proof;
+  uint32_t sources = 2 * vary_sources(z), most = sources ? z->vary_room / sources : 0;
+  for (uint32_t s = 1; s <= sources; s++) {
+    uint32_t count = 0, first = n;
+    for (uint32_t c = n; c-- > 0;)
+      if (p->source[c] == s) first = c, count++;
+    for (; count > most; count--) {
+      while (p->source[first] != s) first++;
+      drop_one(z, n, first);
+    }
+  }
+  return sources ? drop_empty(z, n) : n;
+}
