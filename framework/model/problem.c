@@ -141,24 +141,6 @@ static ambit_status check_leaves(const build *b, size_t n, const ambit_expr *e, 
   return AMBIT_OK;
 }
 
-/* None of e[i] may depend on what varies in time. */
-static ambit_status check_fixed(
-    const build *b, size_t n, const ambit_expr *e, const char *what, const char *const *whose, const char *hint) {
-  for (size_t i = 0; i < n; i++) {
-    size_t count;
-    ambit_expr *leaf;
-    ambit_status status = ambit_unknowns_leaves(b->graph, b->arena, 1, &e[i], &count, &leaf, b->f);
-    if (status != AMBIT_OK) return status;
-    for (size_t k = 0; k < count; k++) {
-      if (ambit_graph_node(b->graph, leaf[k])->op != AMBIT_LEAF_VARYING) continue;
-      char name[AMBIT_DATUM_NAME_MAX];
-      ambit_graph_leaf_name(b->graph, leaf[k], name);
-      return ambit_fail(b->f, AMBIT_INVALID, "the %s `%s` depends on `%s`%s", what, whose[i], name, hint);
-    }
-  }
-  return AMBIT_OK;
-}
-
 /* The implicit form may depend on its unknowns, too. */
 static ambit_status check_form(const build *b, ambit_expr *allowed, const char *hint) {
   const ambit_system *s = b->q->system;
@@ -186,14 +168,8 @@ static ambit_status check_reach(const build *b) {
     status = check_leaves(b, b->ninvariant, b->invariant, "invariant", s->invariant_name, s->nx + 1, allowed, hint);
   if (status == AMBIT_OK && b->form) status = check_form(b, allowed, hint);
   if (status != AMBIT_OK) return status;
-  status = check_leaves(b, s->nx, b->start, "initial value of state", s->name, 0, NULL,
+  return check_leaves(b, s->nx, b->start, "initial value of state", s->name, 0, NULL,
       ", but it may use numbers and uncertain data only");
-  if (status == AMBIT_OK)
-    status = check_fixed(b, s->nx, b->start, "initial value of state", s->name,
-        ", which varies in time: use ambit.between for one unknown value");
-  return status != AMBIT_OK ? status
-                            : check_fixed(b, b->ninvariant, b->invariant, "invariant", s->invariant_name,
-                                  ", which varies in time in any way");
 }
 
 /* -- parameters and unknowns */
@@ -206,9 +182,38 @@ static void add_parameters(build *b, size_t n, const ambit_expr *leaf, uint32_t 
   }
 }
 
+/* None of e[i] may depend on what varies in time. */
+static ambit_status check_fixed(
+    const build *b, size_t n, const ambit_expr *e, const char *what, const char *const *whose, const char *hint) {
+  for (size_t i = 0; i < n; i++) {
+    size_t count;
+    ambit_expr *leaf;
+    ambit_status status = ambit_unknowns_leaves(b->graph, b->arena, 1, &e[i], &count, &leaf, b->f);
+    if (status != AMBIT_OK) return status;
+    for (size_t k = 0; k < count; k++) {
+      if (ambit_graph_node(b->graph, leaf[k])->op != AMBIT_LEAF_VARYING) continue;
+      char name[AMBIT_DATUM_NAME_MAX];
+      ambit_graph_leaf_name(b->graph, leaf[k], name);
+      return ambit_fail(b->f, AMBIT_INVALID, "the %s `%s` depends on `%s`%s", what, whose[i], name, hint);
+    }
+  }
+  return AMBIT_OK;
+}
+
+/* Initial values and invariants may not. */
+static ambit_status check_all_fixed(const build *b) {
+  const ambit_system *s = b->q->system;
+  ambit_status status = check_fixed(b, s->nx, b->start, "initial value of state", s->name,
+      ", which varies in time: use ambit.between for one unknown value");
+  if (status != AMBIT_OK) return status;
+  return check_fixed(
+      b, b->ninvariant, b->invariant, "invariant", s->invariant_name, ", which varies in time in any way");
+}
+
 /* What takes parameters for constants must not be given functions of time. */
 static ambit_status check_varying(const build *b) {
-  if (!b->p->nvarying || (b->q->want & AMBIT_WANT_VARYING)) return AMBIT_OK;
+  if (!b->p->nvarying) return AMBIT_OK;
+  if (b->q->want & AMBIT_WANT_VARYING) return check_all_fixed(b);
   char name[AMBIT_DATUM_NAME_MAX];
   ambit_graph_leaf_name(b->graph, b->input[b->p->nx + b->p->np - b->p->nvarying], name);
   return ambit_fail_code(b->f, AMBIT_UNABLE, AMBIT_CODE_UNABLE_VARYING,
@@ -256,6 +261,8 @@ static ambit_status seal_initial(build *b) {
     if (out[i] == AMBIT_NO_EXPR) return no_memory(b);
   }
   ambit_status status = ambit_unknowns_leaves(b->graph, b->arena, nx + np, out, &nu, &b->unknown, b->f);
+  for (size_t i = 0; i < nu && status == AMBIT_OK; i++)
+    if (ambit_graph_node(b->graph, b->unknown[i])->op == AMBIT_LEAF_VARYING) status = check_all_fixed(b);
   if (status != AMBIT_OK) return status;
   const char **name = room(b, nu + 1, sizeof *name);
   if (!name || !ambit_graph_leaf_names(b->graph, b->arena, nu, b->unknown, name)) return no_memory(b);

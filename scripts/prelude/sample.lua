@@ -13,7 +13,6 @@ local partial = require "ambit.partial"
 local session = require "ambit.session"
 local shape = require "ambit.shape"
 local simulate = require "ambit.simulate"
-local wave = require "ambit.wave"
 
 local verb = {}
 
@@ -147,8 +146,15 @@ local function request_of(t)
   return simulate.request(t, "sample", default, keys), in_lanes
 end
 
+local function without_varying(q)
+  for _, leaf in ipairs(core.leaves(q.system.rates)) do
+    if leaf.kind == "varying" then return require "ambit.wave".instead(q) or q end
+  end
+  return q
+end
+
 local function solve(q, draws, seed, plan)
-  q = wave.instead(q) or q
+  q = without_varying(q)
   local values, facts, report = core.sample_system(q.system.system, q.solver or "", q.arithmetic, q.options or {},
     q.arithmetic_options, q.initial, q.times, draws, seed, plan)
   facts.values, facts.states, facts.t, facts.report = values, q.system.states, q.times, report
