@@ -3,6 +3,7 @@
 #include "lua/core.h"
 #include "lua/interrupt.h"
 #include "lua/leave.h"
+#include "lua/limit.h"
 #include <fenv.h>
 #include <lualib.h>
 #include <signal.h>
@@ -97,10 +98,12 @@ int main(int argc, char **argv) {
   lua_pushcfunction(L, command);
   lua_pushlightuserdata(L, argv);
   int code = EXIT_FAILURE;
-  if (lua_pcall(L, 1, 1, 1) != LUA_OK)
-    fprintf(stderr, "ambit: %s\n", lua_tostring(L, -1));
-  else if (lua_isinteger(L, -1)) /* nothing else is an exit code, least of all 0 */
+  if (lua_pcall(L, 1, 1, 1) != LUA_OK) {
+    if (!ambit_limit_reached(NULL, NULL)) fprintf(stderr, "ambit: %s\n", lua_tostring(L, -1));
+  } else if (lua_isinteger(L, -1)) { /* nothing else is an exit code, least of all 0 */
     code = (int)lua_tointeger(L, -1);
+  }
+  ambit_interrupt_watch(NULL);
   lua_close(L);
   code = ambit_leave(code);
   return ambit_interrupt_seen() ? ambit_interrupt_code() : code;

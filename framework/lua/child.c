@@ -12,7 +12,9 @@
 */
 #include "lua/core.h"
 #include "lua/interrupt.h"
+#include "lua/limit.h"
 #include "lua/request.h"
+#include "lua/sanitized.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -31,14 +33,6 @@
 #define SLICE_MS 50               /* how often limits and Ctrl-C are looked at */
 #define LONGEST ((size_t)1 << 30) /* bytes that a child may say */
 #define LEAVING_MS 1              /* and whether a child whose pipe is at its end has left */
-
-#if defined(__SANITIZE_ADDRESS__)
-#define SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define SANITIZED 1
-#endif
-#endif
 
 typedef struct child {
   pid_t pid; /* 0: waited for */
@@ -84,7 +78,7 @@ static void memory_now(size_t *space, size_t *resident) {
 
 /* Allocations of so many bytes more than there are now fail. */
 static void limit_space(double more) {
-#if defined(SANITIZED)
+#if defined(AMBIT_SANITIZED)
   (void)more;
 #else
   size_t space, resident;
@@ -124,6 +118,7 @@ _Noreturn static void be_child(lua_State *L, ambit_lua *core, const limits *most
   if (null >= 0) dup2(null, STDOUT_FILENO);
   core->records = NULL; /* the lines in it are the parent's to write */
   core->progress = false;
+  ambit_limit_forget();
   limit_child(core, most);
   lua_pushvalue(L, 1);
   int status = lua_pcall(L, 0, 1, 0);
@@ -344,7 +339,7 @@ void ambit_lua_open_child(lua_State *L, ambit_lua *core) {
   ambit_lua_new_type(L, core, TYPE, type);
   lua_pop(L, 1);
   ambit_lua_set_functions(L, core, functions);
-#if defined(SANITIZED) /* is_sanitized: children have no limit of memory, and crash in another way */
+#if defined(AMBIT_SANITIZED) /* is_sanitized: children have no limit of memory, and crash in another way */
   lua_pushboolean(L, true);
 #else
   lua_pushboolean(L, false);

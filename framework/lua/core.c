@@ -1,5 +1,6 @@
 /* core.c -- the module `ambit` and its C half `ambit.core`. */
 #include "lua/core.h"
+#include "lua/limit.h"
 #include "base/meter.h"
 #include "num/rounding.h"
 #include <stdlib.h>
@@ -12,6 +13,7 @@ static int in_standard_environment(lua_State *L);
 static int state_close(lua_State *L) {
   ambit_lua *core = lua_touserdata(L, 1);
   ambit_profile_close(core->profile);
+  ambit_limit_records(NULL);
   if (core->records) ambit_records_close(core->records, NULL);
   if (core->graph) ambit_graph_close(core->graph);
   if (core->registry) ambit_registry_close(core->registry);

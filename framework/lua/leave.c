@@ -1,5 +1,6 @@
 /* leave.c -- see leave.h. Handlers of exit() know nothing but static data. */
 #include "lua/leave.h"
+#include "lua/limit.h"
 #include <ambit/code.h>
 #include <fcntl.h>
 #include <stdio.h>
@@ -38,8 +39,15 @@ static int later = -1; /* an exit code that replaces what ambit_leave is given; 
 
 void ambit_leave_with(int code) { later = code; }
 
+static void tell_limit(void) {
+  const char *limit, *sentence;
+  if (!ambit_limit_reached(&limit, &sentence)) return;
+  fprintf(stderr, "ambit: %s: what was done until then holds (%s)\n", sentence, limit);
+}
+
 int ambit_leave(int code) {
   guarded = 0;
+  tell_limit();
   if (later >= 0) code = later;
   if (fflush(stdout) == 0 && !ferror(stdout)) return code; /* the last flush, or one before it */
   fprintf(stderr, "ambit: not everything could be written to standard output\n");

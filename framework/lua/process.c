@@ -2,6 +2,7 @@
 #include "lua/core.h"
 #include "lua/interrupt.h"
 #include "lua/leave.h"
+#include "lua/limit.h"
 #include "num/decimal.h"
 #include <link.h>
 #include <malloc.h>
@@ -113,11 +114,31 @@ static int notes(lua_State *L) {
   return 0;
 }
 
-/* interrupted() -> was there a signal?, the exit code that it gives */
+/* interrupted() -> was there a signal, or was a limit reached?, the exit code that it gives, the code; the sentence if
+** it was a limit */
 static int interrupted(lua_State *L) {
+  const char *code = AMBIT_CODE_STOPPED_REQUEST, *sentence;
+  bool limit = ambit_limit_reached(&code, &sentence);
   lua_pushboolean(L, ambit_interrupt_seen());
   lua_pushinteger(L, ambit_interrupt_code());
-  return 2;
+  lua_pushstring(L, code);
+  if (limit) lua_pushstring(L, sentence);
+  return 3 + limit;
+}
+
+/* limit("time" | "memory" | "output", most, "10 s") -> nil, or what stands in the way */
+static int limit(lua_State *L) {
+  static const char *const name[] = { "time", "memory", "output", NULL };
+  ambit_limit which = (ambit_limit)luaL_checkoption(L, 1, NULL, name);
+  lua_pushstring(L, ambit_limit_begin(L, which, luaL_checknumber(L, 2), luaL_checkstring(L, 3)));
+  return 1;
+}
+
+/* blame_memory(): an allocation has failed */
+static int blame_memory(lua_State *L) {
+  (void)L;
+  ambit_limit_blame_memory();
+  return 0;
 }
 
 /* leave(code): ends the process as the command does */
@@ -164,7 +185,8 @@ void ambit_lua_open_process(lua_State *L, ambit_lua *core) {
   static const luaL_Reg functions[] = { { "libraries", libraries }, { "cpu", cpu }, { "deadline", deadline },
     { "terminal", terminal }, { "where", where }, { "fail", fail }, { "progress", progress }, { "notes", notes },
     { "interrupted", interrupted }, { "literal", literal }, { "codes", codes }, { "leave", leave },
-    { "leave_with", leave_with }, { "settle", settle }, { "heap", heap }, { NULL, NULL } };
+    { "leave_with", leave_with }, { "limit", limit }, { "blame_memory", blame_memory }, { "settle", settle },
+    { "heap", heap }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
   lua_pushliteral(L, AMBIT_VERSION);
   lua_setfield(L, -2, "version");

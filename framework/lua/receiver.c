@@ -1,5 +1,6 @@
 /* receiver.c -- records on their way from a solver to Lua and to JSON lines. */
 #include "lua/receiver.h"
+#include "lua/limit.h"
 #include "lua/request.h"
 #include "model/context.h"
 #include <math.h>
@@ -48,7 +49,10 @@ static int32_t emit(ambit_sink *s, const ambit_record *record) {
     ambit_fail(&r->failure, AMBIT_NOMEM, "out of memory for the records of this run");
     return 1;
   }
-  if (r->records && ambit_records_solver(r->records, record, r->name, &r->failure) != AMBIT_OK) return 1;
+  if (r->records) {
+    if (ambit_records_solver(r->records, record, r->name, &r->failure) != AMBIT_OK) return 1;
+    ambit_limit_recorded(r->records);
+  }
   return is_to_stop(r);
 }
 

@@ -1,5 +1,6 @@
 /* records.c -- JSON lines from Lua: values and results; the steps of a run are written by its sink. */
 #include "lua/core.h"
+#include "lua/limit.h"
 #include "host/provenance.h"
 #include "host/slow.h"
 #include <string.h>
@@ -45,6 +46,7 @@ static int open_records(lua_State *L) {
   ambit_failure f = { 0 };
   if (core->records) ambit_lua_error(L, "records are being written already");
   if (ambit_records_open(luaL_checkstring(L, 1), &core->records, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
+  ambit_limit_records(core->records);
   return 0;
 }
 
@@ -53,6 +55,7 @@ static int close_records(lua_State *L) {
   ambit_failure f = { 0 };
   ambit_records *r = core->records;
   core->records = NULL;
+  ambit_limit_records(NULL);
   if (r && ambit_records_close(r, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
   return 0;
 }
@@ -97,10 +100,12 @@ static int record(lua_State *L) {
   const char *kind = luaL_checkstring(L, 1);
   luaL_checktype(L, 2, LUA_TTABLE);
   if (!core->records) return 0;
+  if (strcmp(kind, "end") == 0) ambit_limit_records(NULL); /* it is the last one */
   ambit_records_begin(core->records, kind);
   write_fields(L, core->records, 2);
   if (ambit_records_end(core->records, &f) != AMBIT_OK && f.status != AMBIT_OK)
     ambit_lua_raise(L, &f); /* reported once */
+  ambit_limit_recorded(core->records);
   return 0;
 }
 

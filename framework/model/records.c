@@ -21,6 +21,7 @@ struct ambit_records {
   char *path;
   bool failed;     /* a write failed and was reported */
   uint64_t length; /* bytes of the lines that were written */
+  volatile sig_atomic_t writing;
   ambit_status (*before)(void *user, ambit_failure *f);
   void *user;
   bool inside;           /* `before` is writing */
@@ -200,8 +201,10 @@ static int write_line(const ambit_records *r, const unsigned char *text, size_t 
 }
 
 static ambit_status put_down(ambit_records *r, const unsigned char *text, size_t length, ambit_failure *f) {
+  r->writing = 1;
   int problem = write_line(r, text, length);
   r->length += length;
+  r->writing = problem != 0;
   if (problem == 0) return AMBIT_OK;
   r->failed = true;
   bool torn = r->file != STDOUT_FILENO && ftruncate(r->file, (off_t)(r->length - length)) != 0; /* no part of a line */
@@ -220,6 +223,9 @@ static ambit_status put_aside(ambit_records *r, const unsigned char *text, size_
   r->nheld += length;
   return AMBIT_OK;
 }
+
+uint64_t ambit_records_length(const ambit_records *r) { return r->length; }
+int ambit_records_idle_file(const ambit_records *r) { return r->writing ? -1 : r->file; }
 
 void ambit_records_hold(ambit_records *r) { r->holds = true; }
 

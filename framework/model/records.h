@@ -19,6 +19,11 @@ ambit_status ambit_records_open(const char *path, ambit_records **r, ambit_failu
 /* STOPPED if a write failed, now or earlier */
 ambit_status ambit_records_close(ambit_records *r, ambit_failure *f);
 
+/* Bytes that were written. */
+uint64_t ambit_records_length(const ambit_records *r);
+/* The file, between two lines; -1: a line is being written, or one could not be. Safe in a signal handler. */
+int ambit_records_idle_file(const ambit_records *r);
+
 /* `before` is called at the beginning of each line and may write lines of its own: of what the line rests on. If it
 ** fails, the line is not written, and no other. */
 void ambit_records_watch(ambit_records *r, ambit_status (*before)(void *user, ambit_failure *f), void *user);

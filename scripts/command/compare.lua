@@ -7,6 +7,7 @@ local compare_engine = require "ambit.compare.engine"
 local compare_files = require "ambit.command.compare.files"
 local compare_table = require "ambit.compare.table"
 local core = require "ambit.core"
+local limits = require "ambit.command.limits"
 local progress = require "ambit.compare.progress"
 local scene = require "ambit.command.scene"
 local session = require "ambit.session"
@@ -15,7 +16,7 @@ local command = { scene = true }
 
 command.usage = [[
 usage: ambit compare SCENE.lua [ARG ...] [--html FILE] [--csv FILE] [--json FILE|-] [--svg FILE] [--repeat N]
-                     [--limit SECONDS] [--quick]
+                     [--limit SECONDS] [--quick] [LIMITS]
 Runs the scene once, then repeats every `simulate` of it by each solver, arithmetic, order and tolerance that fits, and
 every `evaluate` in each arithmetic and its orders: how wide, how far, in what time. The scene can say by which:
 ambit.compare { solvers = { "lohner", { "taylor_model", order = { 8, 12 } } }, arithmetics = { "interval" } }.
@@ -27,10 +28,12 @@ ambit.compare { solvers = { "lohner", { "taylor_model", order = { 8, 12 } } }, a
   --limit SECONDS  of CPU time for each combination (default 4); after one that takes longer, higher orders of the same
                    method are skipped
   --quick          the same as --repeat 1 --limit 1
+]] .. limits.usage .. [[
+
 Words behind `--` are the scene's, even if they look like options. Ctrl-C ends the comparison; tables and files hold
 what was done until then.
 exit: 0 done, 1 error in the scene, its input or a file, or proofs contradict each other, 3 nothing was proved,
-      130 interrupted]]
+      5 a limit was reached, 130 interrupted]]
 
 local function complain(message) io.stderr:write("ambit: ", tostring(message), "\n") end
 
@@ -111,9 +114,11 @@ local function results(file, options, requests, failed)
 end
 
 function command.run(list)
-  local options, file, words = scene.arguments(list, { csv = true, svg = true, html = true, json = true,
+  local options, file, words = scene.arguments(list, limits.with { csv = true, svg = true, html = true, json = true,
     ["repeat"] = true, limit = true, quick = false }, true)
   if not options then return 2, file end
+  local wrong = scene.prepare(options)
+  if wrong then return 2, wrong end
   local problem = compare_files.problem(options)
   if problem then return complain(problem) or 1 end
   local good

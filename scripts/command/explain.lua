@@ -1,13 +1,14 @@
 -- explain.lua -- `ambit explain`: what a scene loads, builds and leaves out, in numbers.
 local core = require "ambit.core"
 local explain_facts = require "ambit.command.explain.facts"
+local limits = require "ambit.command.limits"
 local outputs = require "ambit.command.outputs"
 local scene = require "ambit.command.scene"
 
 local command = { scene = true }
 
 command.usage = [[
-usage: ambit explain [--json] [--dot FILE|-] [--svg FILE] SCENE.lua [ARG ...]
+usage: ambit explain [--json] [--dot FILE|-] [--svg FILE] [LIMITS] SCENE.lua [ARG ...]
 Runs the scene with its output discarded, then prints what it left out, in numbers: plugins and shared libraries in the
 process, quantities built of those available and the parts of every mechanism, nodes of the graph that were shared,
 folded away and put on tapes, Taylor coefficients known to be zero, uncertain and fixed data, terms cut by model
@@ -16,9 +17,12 @@ reduction; memory and CPU time; and for every simulation the best-suited solver 
   --dot FILE   also a graph of the scene in the language of Graphviz; what is left out is grey and dashed. `-` is
                standard output (and nothing else is printed)
   --svg FILE   the same as a picture with numbers in tool tips; needs the program `dot` (Debian: graphviz)
-exit: 0 done, 1 error in the scene (what was built until then is still explained), 130 interrupted]]
+]] .. limits.usage .. [[
 
-local known = { json = false, dot = true, svg = true }
+exit: 0 done, 1 error in the scene (what was built until then is still explained), 5 a limit was reached, 130
+      interrupted]]
+
+local known = limits.with { json = false, dot = true, svg = true }
 
 local function complain(message)
   io.stderr:write("ambit: ", message, "\n")
@@ -48,6 +52,8 @@ end
 function command.run(list)
   local options, file, words = scene.arguments(list, known)
   if not options then return 2, file end
+  local wrong = scene.prepare(options)
+  if wrong then return 2, wrong end
   local unwritable = check_outputs(options)
   if unwritable then return complain(unwritable) end
   scene.note_strays(words, known)

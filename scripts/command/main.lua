@@ -20,7 +20,7 @@ local commands = {
 
 local exit_codes = [[
 exit codes: 0 done and proved, 1 script or input error, or a broken plugin, 2 wrong usage, 3 ran but could not prove,
-4 proved that there is no answer, 130 interrupted]]
+4 proved that there is no answer, 5 a limit of the command line was reached, 130 interrupted]]
 
 local trust_options = [[
 options before the command, for plugins (AMBIT_PATH):

@@ -1,6 +1,7 @@
 -- profile.lua -- `ambit profile`: where the time of a scene goes.
 local core = require "ambit.core"
 local json = require "ambit.view.json"
+local limits = require "ambit.command.limits"
 local outputs = require "ambit.command.outputs"
 local provenance = require "ambit.provenance"
 local scene = require "ambit.command.scene"
@@ -11,16 +12,18 @@ local text = require "ambit.command.profile.text"
 local command = { scene = true }
 
 command.usage = [[
-usage: ambit profile [--json FILE] [--folded FILE] SCENE.lua [ARG ...]
+usage: ambit profile [--json FILE] [--folded FILE] [LIMITS] SCENE.lua [ARG ...]
 Runs the scene with its output discarded, and tells where its time goes: by stage (script, model, graph, tape, open,
 run, records), by service and plugin, by opcode and by equation, and as a tree of frames with bars. Opcodes and services
 are measured while the scene runs; what measuring costs is measured too, told, and taken off. Equations are apportioned:
 each has the instructions that it alone reaches, and its part of those that it shares.
   --json FILE    also write all of it as JSON; `-` is standard output, instead of the text
   --folded FILE  also write folded stacks (own time in microseconds), which flame graph programs read
-exit: 0 the scene ran, 1 it failed: then the profile is of what it did until there]]
+]] .. limits.usage .. [[
 
-local known = { json = true, folded = true }
+exit: 0 the scene ran, 1 it failed: then the profile is of what it did until there, 5 a limit was reached]]
+
+local known = limits.with { json = true, folded = true }
 
 local function complain(message) io.stderr:write("ambit: ", tostring(message), "\n") end
 
@@ -57,6 +60,8 @@ end
 function command.run(list)
   local options, file, words = scene.arguments(list, known)
   if not options then return 2, file end
+  local wrong = scene.prepare(options)
+  if wrong then return 2, wrong end
   scene.note_strays(words, known)
   local refusal = outputs.problem(options, { "json", "folded" }, { json = true, folded = true })
   if refusal then return complain(refusal) or 1 end

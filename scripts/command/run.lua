@@ -1,6 +1,7 @@
 -- run.lua -- `ambit run`.
 local code = require "ambit.code"
 local core = require "ambit.core"
+local limits = require "ambit.command.limits"
 local provenance = require "ambit.provenance"
 local scene = require "ambit.command.scene"
 local session = require "ambit.session"
@@ -8,15 +9,17 @@ local session = require "ambit.session"
 local command = { scene = true }
 
 command.usage = [[
-usage: ambit run [--json FILE|-] [--quiet] SCENE.lua [ARG ...]
+usage: ambit run [--json FILE|-] [--quiet] [LIMITS] SCENE.lua [ARG ...]
   --json FILE  also write every record as a line of JSON, first whence they come (version, plugins, SHA-256); `-` is
                standard output (what the scene prints then goes to standard error)
   --quiet      no progress bar and no notes
+]] .. limits.usage .. [[
+
 The words behind the scene are in its table `arg`. Ctrl-C ends a simulation with status "stopped" and keeps what was
 recorded.
 exit: 0 done and proved, 1 error in the scene or its input, or a plugin is broken, 3 a verb could not prove all, 4 a
-verb proved that there is no answer, 130 interrupted; of several the worst: 1 before 3 before 4. `ambit errors` lists
-the codes of verbs.]]
+verb proved that there is no answer, 5 a limit was reached, 130 interrupted; of several the worst: 1 before 3 before 4.
+`ambit errors` lists the codes of verbs.]]
 
 local function complain(message) io.stderr:write("ambit: ", tostring(message), "\n") end
 
@@ -32,7 +35,8 @@ end
 
 -- The worst that happened: of the verbs, an error of the scene, a signal.
 local function worst_of(problem)
-  if core.interrupted() then return "stopped.request" end
+  local stopped, _, ended = core.interrupted()
+  if stopped then return ended end
   if problem and code.family(session.worst) ~= "broken" then return "invalid" end
   return session.worst
 end
@@ -40,15 +44,15 @@ end
 -- The end of the scene, however it came: the last record, what is to be said, the exit code. problem: the error that
 -- ended it; wish: what os.exit asked for, which may not make it better.
 local function finish(problem, wish)
-  local worst, signalled, by_signal = worst_of(problem), core.interrupted()
+  local worst, stopped, by_stop, _, limit = worst_of(problem), core.interrupted()
   local exit = code.exit(worst)
   if wish and wish ~= 0 then exit = wish end
-  if signalled then exit = by_signal end
+  if stopped then exit = by_stop end
   if problem then complain(problem) end
-  local reason = problem and tostring(problem):match "^[^\n]*"
+  local reason = limit or problem and tostring(problem):match "^[^\n]*"
   pcall(core.record, "end", { "code", worst, "exit", exit, "reason", reason })
   if not close_records() then return 1 end
-  if signalled then complain "interrupted: what was recorded up to there is kept" end
+  if stopped and not limit then complain "interrupted: what was recorded up to there is kept" end
   local sentence = not problem and sentences[code.exit(worst)]
   if sentence then complain(("%s (%s): see status, code and reason of the verbs"):format(sentence, worst)) end
   scene.watch_finalisers(exit, worst, function(worse, ended)
@@ -57,11 +61,13 @@ local function finish(problem, wish)
   return exit
 end
 
-local known = { json = true, quiet = false }
+local known = limits.with { json = true, quiet = false }
 
 function command.run(list)
   local options, file, words = scene.arguments(list, known)
   if not options then return 2, file end
+  local wrong = scene.prepare(options)
+  if wrong then return 2, wrong end
   core.progress(not options.quiet)
   core.notes(not options.quiet)
   if not options.quiet then scene.note_strays(words, known) end

@@ -2,6 +2,7 @@
 -- lines.
 local code = require "ambit.code"
 local core = require "ambit.core"
+local limits = require "ambit.command.limits"
 local provenance = require "ambit.provenance"
 local session = require "ambit.session"
 
@@ -30,12 +31,20 @@ local function explain(message)
   return trace and message .. "\n" .. trace or message
 end
 
+-- Is this the error of an allocation that failed, of Lua's or of Ambit's?
+local function is_memory(problem)
+  return type(problem) == "string" and (problem:find "^not enough memory" or problem:find "^[^\n]*out of memory")
+end
+
 -- Loads and runs file with the given words; false and the message with traceback if that fails.
 function scene.run(file, words)
   _G.arg = table.move(words, 1, #words, 1, { [0] = file })
   local chunk, problem = provenance.load(file)
   if not chunk then return false, problem end
-  return xpcall(chunk, explain, table.unpack(words))
+  local good
+  good, problem = xpcall(chunk, explain, table.unpack(words))
+  if not good and is_memory(problem) then core.blame_memory() end
+  return good, problem
 end
 
 scene.explain = explain
@@ -70,6 +79,9 @@ function scene.print_to_stderr()
     io.stderr:write(table.concat(words, "\t"), "\n")
   end
 end
+
+-- What every command does before it runs a scene: nil, or what is wrong with the options.
+function scene.prepare(options) return limits.begin(options) end
 
 -- For a scene that is only looked at: what it prints goes nowhere, and os.exit ends the scene, not the command, with
 -- the error scene.leave. Returns a function that gives the command its output back.

@@ -1,13 +1,17 @@
 -- test.lua -- `ambit test`: busted as a library, inside this command.
 local core = require "ambit.core"
+local limits = require "ambit.command.limits"
+local scene = require "ambit.command.scene"
 
 local command = { scene = true }
 
 command.usage = [[
-usage: ambit test [PATH ...] [-- BUSTED-OPTION ...]
+usage: ambit test [LIMITS] [PATH ...] [-- BUSTED-OPTION ...]
 Runs the *_spec.lua files in the given files and directories (default: tests) with busted; `require "ambit"` is this
 command's own.
-exit: 0 all passed, 1 some failed or there was none]]
+]] .. limits.usage .. [[
+
+exit: 0 all passed, 1 some failed or there was none, 5 a limit was reached]]
 
 local missing = [[
 ambit: the test runner "busted" is not installed for Lua 5.4
@@ -35,7 +39,31 @@ local function count_tests(foreign)
   return counted
 end
 
+-- { path or option of busted, ... }, whether it lists only; or nil and what is wrong. Sets the limits.
+local function arguments(words)
+  local own, list, rest, listing = {}, {}, nil, false
+  for _, word in ipairs(words) do
+    if rest then
+      rest[#rest + 1] = word
+      listing = listing or word == "--list"
+    elseif word == "--" then
+      rest = {}
+    else
+      own[#own + 1] = word
+    end
+  end
+  local options, first, others = scene.arguments(own, limits.with {}, true, true)
+  if not options then return nil, first end
+  local wrong = scene.prepare(options)
+  if wrong then return nil, wrong end
+  list[1] = first or "tests"
+  table.move(others, 1, #others, 2, list)
+  return table.move(rest or {}, 1, #(rest or {}), #list + 1, list), listing
+end
+
 function command.run(words)
+  local list, listing = arguments(words)
+  if not list then return 2, listing end
   local foreign = require "ambit.foreign"
   local compatibility = foreign.find "busted.compatibility"
   if compatibility then compatibility.exit = function(code) core.leave(code == 0 and 0 or 1) end end
@@ -44,18 +72,6 @@ function command.run(words)
     io.stderr:write(missing)
     return 1
   end
-  local list, rest, listing = {}, false, false
-  for _, word in ipairs(words) do
-    if word == "--" and not rest then
-      rest = true
-    elseif not rest and word:sub(1, 1) == "-" then
-      return 2, ("unknown option `%s`"):format(word)
-    else
-      list[#list + 1] = word
-      listing = listing or word == "--list"
-    end
-  end
-  if not list[1] or list[1]:sub(1, 1) == "-" then table.insert(list, 1, "tests") end
   table.insert(list, 1, "--pattern=_spec%.lua$")
   list[0] = "ambit test"
   _G.arg = list

@@ -3,6 +3,7 @@ local check = require "ambit.check"
 local code = require "ambit.code"
 local core = require "ambit.core"
 local data = require "ambit.view.data"
+local limits = require "ambit.command.limits"
 local page = require "ambit.view.page"
 local scene = require "ambit.command.scene"
 local session = require "ambit.session"
@@ -11,16 +12,18 @@ local target = require "ambit.command.view.target"
 local command = { scene = true }
 
 command.usage = [[
-usage: ambit view SCENE.lua [ARG ...] [-o FILE] [--quiet]
+usage: ambit view SCENE.lua [ARG ...] [-o FILE] [--quiet] [LIMITS]
 Runs the scene and writes one HTML page, which needs no network and no other file: its mechanisms over time, and boxes
 that are guaranteed to contain chosen points at each instant and all the way to the next. The scene can say what:
   ambit.view { m, run = run, points = { tip = frame }, at = { joint = angle }, t = { 0, 5 }, title = "..." }
 Otherwise it is every mechanism, with the last simulation of it, and the frames that nothing else is fixed to.
-  -o, --output FILE   the page (default: the name of the scene, .html, in the working directory); `-` is standard output
-  --quiet             no progress bar and no notes
+  -o, --page FILE  the page (default: the name of the scene, .html, in the working directory); `-` is standard output
+  --quiet          no progress bar and no notes
+]] .. limits.usage .. [[
+
 Words behind `--` are the scene's, even if they look like options.
 exit: 0 written, 1 error in the scene, its input or the file, 3 written, but of a simulation that could not be proved,
-4 written, but of one that is proved to be impossible]]
+4 written, but of one that is proved to be impossible, 5 a limit was reached]]
 
 local function complain(message) io.stderr:write("ambit: ", tostring(message), "\n") end
 
@@ -76,12 +79,12 @@ end
 
 -- -- the command
 
--- -o is short for --output.
+-- -o is short for --page.
 local function long_options(list)
   local long, taking = {}, true
   for i, word in ipairs(list) do
     if word == "--" then taking = false end
-    long[i] = taking and word == "-o" and "--output" or word
+    long[i] = taking and word == "-o" and "--page" or word
   end
   return long
 end
@@ -99,11 +102,13 @@ local function show(file, words, output, quiet)
 end
 
 function command.run(list)
-  local options, file, words = scene.arguments(long_options(list), { output = true, quiet = false }, true)
+  local options, file, words = scene.arguments(long_options(list), limits.with { page = true, quiet = false }, true)
   if not options then return 2, file end
+  local wrong = scene.prepare(options)
+  if wrong then return 2, wrong end
   core.progress(not options.quiet)
   core.notes(not options.quiet)
-  local output = options.output or file:match("[^/]*$"):gsub("%.lua$", "") .. ".html"
+  local output = options.page or file:match("[^/]*$"):gsub("%.lua$", "") .. ".html"
   local problem = target.problem(output)
   if problem then return complain(problem) or 1 end
   if output == "-" then scene.print_to_stderr() end

@@ -31,8 +31,11 @@ local exits = { [0] = 0, 4, 3, 1 }
 -- Is `a` (a code) worse than `b`?
 function code.is_worse(a, b) return severity[code.family(a)] > severity[code.family(b)] end
 
--- The exit code of the command: 0 done, 4 proved that there is no answer, 3 could not prove, 1 broken or an error.
-function code.exit(name) return exits[severity[code.family(name)]] end
+local by_limit = { ["stopped.time"] = true, ["stopped.memory"] = true, ["stopped.output"] = true }
+
+-- The exit code of the command: 0 done, 4 proved that there is no answer, 3 could not prove, 1 broken or an error, 5 a
+-- limit of the command line was reached.
+function code.exit(name) return by_limit[name] and 5 or exits[severity[code.family(name)]] end
 
 -- A verb made of many runs may be over with one of them: give_up ends it from within, until_given_up takes that for its
 -- outcome.

@@ -57,6 +57,10 @@ end
 
 -- Called once at the end of every verb: tells of it and writes its `result` record.
 function session.finish(verb, result, report, settings)
+  if result.status == "stopped" then
+    local _, _, limit, sentence = core.interrupted()
+    if sentence then result.code, result.reason = limit, sentence end
+  end
   local ended = result.code or code.of(result.status)
   if result.code == nil then result.code = ended end
   if code.is_worse(ended, session.worst) then session.worst = ended end

@@ -284,7 +284,7 @@ describe("ambit view", function()
     print "said"
   ]]
 
-  it("writes beside nothing: default name, -o, --output=, standard output", function()
+  it("writes beside nothing: default name, -o, --page=, standard output", function()
     local folder, file = os.tmpname(), write(scene)
     os.remove(folder)
     os.execute("mkdir " .. folder)
@@ -296,7 +296,7 @@ describe("ambit view", function()
     has(stderr, "thing.html")
     local page = read(folder .. "/thing.html")
     has(page, "<!doctype html>", "</html>")
-    assert.equal(0, (shell(at .. "--quiet thing.lua --output=other.html")))
+    assert.equal(0, (shell(at .. "--quiet thing.lua --page=other.html")))
     assert.equal(page, read(folder .. "/other.html"))
     write("old", folder .. "/other.html")
     assert.equal(0, (shell(at .. "-o other.html thing.lua")))
@@ -348,10 +348,10 @@ describe("ambit view", function()
     has(stderr, "expected a scene")
     code, _, stderr = run "x.lua -o"
     assert.equal(2, code)
-    has(stderr, "`--output` needs a value")
-    code, _, stderr = run "x.lua --ouput=y"
+    has(stderr, "`--page` needs a value")
+    code, _, stderr = run "x.lua --pgae=y"
     assert.equal(2, code)
-    has(stderr, "--output")
+    has(stderr, "--page")
     local file = write "local ambit = require 'ambit' print(ambit.pi)"
     code, _, stderr = run(file .. " -o /tmp/never.html")
     os.remove(file)

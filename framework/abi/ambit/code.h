@@ -81,7 +81,11 @@
   X(MEMORY, "memory", "There was not enough memory.", "Make fewer data uncertain, or allow more memory.")              \
   X(STOPPED, "stopped", "Stopped before the end.", "What was recorded until then holds.")                              \
   X(STOPPED_LIMIT, "stopped.limit", "A limit that the scene or the command gave is used up.", "Raise the limit.")      \
-  X(STOPPED_REQUEST, "stopped.request", "Somebody asked for it: Ctrl-C, SIGTERM or SIGHUP.", "")                       \
+  X(STOPPED_MEMORY, "stopped.memory", "The limit of --memory is reached.", "Raise the limit, or ask for less.")        \
+  X(STOPPED_OUTPUT, "stopped.output", "The limit of --output is reached.", "Raise the limit, or print less.")          \
+  X(STOPPED_REQUEST, "stopped.request",                                                                                \
+      "Somebody asked for it: Ctrl-C, SIGTERM or SIGHUP; or nobody reads what is printed (SIGPIPE).", "")              \
+  X(STOPPED_TIME, "stopped.time", "The limit of --time is reached.", "Raise the limit, or ask for less.")              \
   X(STOPPED_WRITE, "stopped.write", "The records could not be written.", "Make room, or write them elsewhere.")        \
   X(BROKEN, "broken", "A plugin contradicts itself: nothing that it says is a proof.", "Tell its author.")             \
   X(BROKEN_BOUNDS, "broken.bounds", "A plugin gave bounds that are empty, inverted or NaN.", "Tell its author.")       \
