@@ -1,5 +1,5 @@
-# bench/*.c -> build/bench/*: programs that print ratios measured in one run; never tests.
-file(GLOB bench_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/bench/*.c)
+# tests/bench/*.c -> build/bench/*: programs that print ratios measured in one run; never tests.
+file(GLOB bench_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/bench/*.c)
 foreach(source ${bench_sources})
   get_filename_component(name ${source} NAME_WE)
   add_executable(bench.${name} EXCLUDE_FROM_ALL ${source})

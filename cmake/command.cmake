@@ -1,25 +1,35 @@
-# The command `ambit` and the Lua module lua/ambit.so: the same files of framework/lua and the same embedded scripts.
+# The command `ambit` and the Lua module lua/ambit.so: the same bridge and the same embedded scripts.
 # The module leaves Lua's own symbols to the interpreter that loads it; the command brings liblua along.
 pkg_search_module(LUA REQUIRED IMPORTED_TARGET lua5.4 lua-5.4 lua54)
 pkg_check_modules(FFI REQUIRED IMPORTED_TARGET libffi)
 
 set(embedded "")
 set(embedded_paths "")
-# scripts/prelude/reduce/pass.lua -> ambit.reduce.pass, scripts/command/run.lua -> ambit.command.run
+# framework/verbs/reduce/pass.lua -> ambit.reduce.pass, framework/verbs/reduce/reduce.lua -> ambit.reduce,
+# framework/models/frame.lua -> ambit.frame, scripts/command/run.lua -> ambit.command.run
 # What every scene reads comes first, side by side: a process maps the pages that it reads and their neighbours.
-set(first_prelude init.lua check.lua code.lua provenance.lua session.lua)
-set(first_command main.lua run.lua scene.lua)
-foreach(folder command prelude)
-  set(from ${PROJECT_SOURCE_DIR}/scripts/${folder})
+set(first_scripts/command main.lua run.lua scene.lua)
+set(first_framework/script init.lua check.lua code.lua provenance.lua session.lua)
+foreach(room scripts/command framework/script framework/models framework/verbs scripts/lab)
+  set(from ${PROJECT_SOURCE_DIR}/${room})
   file(GLOB_RECURSE scripts CONFIGURE_DEPENDS RELATIVE ${from} ${from}/*.lua)
-  list(REMOVE_ITEM scripts ${first_${folder}})
-  list(PREPEND scripts ${first_${folder}})
+  if(first_${room})
+    list(REMOVE_ITEM scripts ${first_${room}})
+    list(PREPEND scripts ${first_${room}})
+  endif()
   foreach(script ${scripts})
     string(REGEX REPLACE "\\.lua$" "" name ${script})
-    if(NOT folder STREQUAL "prelude")
-      string(PREPEND name ${folder}/)
+    if(name MATCHES "([^/]+)/([^/]+)$" AND CMAKE_MATCH_1 STREQUAL CMAKE_MATCH_2)
+      get_filename_component(name ${name} DIRECTORY)
+    endif()
+    if(room STREQUAL "scripts/command")
+      string(PREPEND name command/)
     endif()
     string(REPLACE "/" "." module ambit/${name})
+    if(embedded_at_${module})
+      message(FATAL_ERROR "${from}/${script}, ${embedded_at_${module}}: both are ${module}")
+    endif()
+    set(embedded_at_${module} ${from}/${script})
     list(APPEND embedded "${module}|${name}|${from}/${script}")
     list(APPEND embedded_paths ${from}/${script})
   endforeach()
@@ -34,14 +44,14 @@ add_custom_command(OUTPUT ${embedded_source}
   COMMAND ${CMAKE_COMMAND} -DOUTPUT=${embedded_source} "-DFILES=${embedded}" -P ${PROJECT_SOURCE_DIR}/cmake/embed.cmake
   DEPENDS ${embedded_paths} ${PROJECT_SOURCE_DIR}/cmake/embed.cmake VERBATIM)
 
-file(GLOB lua_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/framework/lua/*.c)
+file(GLOB_RECURSE lua_sources CONFIGURE_DEPENDS ${framework}/script/*.c ${framework}/models/*_lua.c ${framework}/verbs/*_lua.c)
 add_library(ambit_lua OBJECT ${lua_sources} ${embedded_source})
-target_include_directories(ambit_lua PRIVATE ${PROJECT_SOURCE_DIR}/framework ${LUA_INCLUDE_DIRS} ${FFI_INCLUDE_DIRS})
+target_include_directories(ambit_lua PRIVATE ${framework}/kernel ${framework} ${LUA_INCLUDE_DIRS} ${FFI_INCLUDE_DIRS})
 target_compile_definitions(ambit_lua PRIVATE AMBIT_VERSION="${PROJECT_VERSION}")
 target_link_libraries(ambit_lua PRIVATE ambit_flags)
 
-add_executable(ambit ${PROJECT_SOURCE_DIR}/framework/main.c $<TARGET_OBJECTS:ambit_lua>)
-target_include_directories(ambit PRIVATE ${PROJECT_SOURCE_DIR}/framework)
+add_executable(ambit ${framework}/main.c $<TARGET_OBJECTS:ambit_lua>)
+target_include_directories(ambit PRIVATE ${framework}/kernel ${framework})
 target_link_libraries(ambit PRIVATE ambit_flags libambit PkgConfig::LUA PkgConfig::FFI ${CMAKE_DL_LIBS} m)
 set_target_properties(ambit PROPERTIES ENABLE_EXPORTS ON)
 ambit_place(ambit ${CMAKE_INSTALL_BINDIR} RUNTIME_OUTPUT_DIRECTORY)

@@ -1,4 +1,4 @@
-# One set of flags for every target. -frounding-math: code relies on the rounding mode (framework/num/rounding.h); contraction is
+# One set of flags for every target. -frounding-math: code relies on the rounding mode (framework/kernel/num/rounding.h); contraction is
 # stated per file. Nothing is ever compiled with -ffast-math.
 add_library(ambit_flags INTERFACE)
 target_compile_definitions(ambit_flags INTERFACE _GNU_SOURCE)
@@ -17,5 +17,5 @@ if(AMBIT_SANITIZE)
 endif()
 # clang respects the rounding mode only with the strict model
 target_compile_options(ambit_flags INTERFACE $<$<C_COMPILER_ID:Clang>:-ffp-model=strict>)
-target_include_directories(ambit_flags INTERFACE ${PROJECT_SOURCE_DIR}/framework/abi)
+target_include_directories(ambit_flags INTERFACE ${PROJECT_SOURCE_DIR}/framework/kernel/abi)
 find_package(PkgConfig REQUIRED)

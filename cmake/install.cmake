@@ -11,9 +11,10 @@ install(TARGETS libambit EXPORT AmbitTargets LIBRARY DESTINATION ${CMAKE_INSTALL
 install(TARGETS ambit RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS ambit_module LIBRARY DESTINATION ${AMBIT_LUA_DIR})
 
-install(DIRECTORY framework/abi/ambit DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
-foreach(layer base num graph host mechanism model)
-  install(DIRECTORY framework/${layer} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/ambit-kernel FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY framework/kernel/abi/ambit DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+foreach(room kernel/base kernel/num kernel/graph kernel/host algebra mechanics models verbs)
+  install(DIRECTORY framework/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/ambit-kernel
+    FILES_MATCHING PATTERN "*.h" PATTERN "*_lua.h" EXCLUDE)
 endforeach()
 
 # Plugins need headers only: Ambit::sdk; hosts link Ambit::kernel.

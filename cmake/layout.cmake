@@ -4,7 +4,7 @@ set(AMBIT_LUA_DIR ${CMAKE_INSTALL_LIBDIR}/lua/5.4 CACHE STRING "where the Lua mo
 set(AMBIT_BUILD_LIBDIR ${PROJECT_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR})
 set(CMAKE_BUILD_RPATH_USE_ORIGIN ON)
 
-# The kernel looks for plugins in the folder `ambit` beside itself (framework/host/path.c).
+# The kernel looks for plugins in the folder `ambit` beside itself (framework/kernel/host/path.c).
 file(MAKE_DIRECTORY ${AMBIT_BUILD_LIBDIR} ${PROJECT_BINARY_DIR}/plugins)
 file(RELATIVE_PATH lib_to_plugins ${AMBIT_BUILD_LIBDIR} ${PROJECT_BINARY_DIR}/plugins)
 file(CREATE_LINK ${lib_to_plugins} ${AMBIT_BUILD_LIBDIR}/ambit SYMBOLIC)

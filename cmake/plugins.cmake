@@ -1,4 +1,4 @@
-# plugins/<kind>/<name>.c or plugins/<kind>/<name>/*.c -> plugins/<kind>/<name>.so. Plugins see framework/abi only. A file <name>.cmake
+# plugins/<kind>/<name>.c or plugins/<kind>/<name>/*.c -> plugins/<kind>/<name>.so. Plugins see framework/kernel/abi only. A file <name>.cmake
 # beside it names the libraries that this plugin alone links: set(AMBIT_PLUGIN_LIBRARIES ...), and what it takes of plugins/shared:
 # set(AMBIT_PLUGIN_SHARED name...).
 function(ambit_plugin kind name)

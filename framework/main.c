@@ -1,9 +1,9 @@
 /* main.c -- the command `ambit`: a Lua state with the module preloaded; what the words on the command line mean is
 ** scripts/command. */
-#include "lua/core.h"
-#include "lua/interrupt.h"
-#include "lua/leave.h"
-#include "lua/limit.h"
+#include "script/core.h"
+#include "script/interrupt.h"
+#include "script/leave.h"
+#include "script/limit.h"
 #include <fenv.h>
 #include <lualib.h>
 #include <signal.h>
@@ -27,7 +27,7 @@ __attribute__((noinline)) static void touch_stack(void) {
   for (size_t i = 0; i < sizeof room; i += 4096) room[i] = 0;
 }
 
-/* Chains of elements are nested calls (framework/mechanism/pull.c bounds how many). Under a limit of memory the stack
+/* Chains of elements are nested calls (framework/mechanics/pull.c bounds how many). Under a limit of memory the stack
 ** must have its room before the heap has taken all.
 */
 static void reserve_stack(void) {

@@ -28,7 +28,7 @@ os.remove(base .. ".lua")
 os.remove(base .. ".html")
 
 -- The drawing with its own part of the style sheet, in light colours; what is not shown is left out.
-local css = read "scripts/view/view.css"
+local css = read "scripts/lab/view/parts/view.css"
 local colours = css:match ":root {%s*color%-scheme: light dark;(.-)}"
 local style = css:match "/%* the drawing %*/(.-)%.legend {"
 local width, height = document:match '<svg id="drawing".-viewBox="0 0 (%d+) (%d+)"'

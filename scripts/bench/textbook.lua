@@ -11,7 +11,7 @@ local ambit = require "ambit"
 local core = require "ambit.core"
 local bench = require "bench"
 local session = require "ambit.session"
-local suggest = require "ambit.suggest"
+local suggest = require "ambit.simulate.suggest"
 
 local WIDER, SLOWER, MORE = 1.5, 2, 0.01 -- times, times, s
 local folder = (arg[0]:match ".*/" or "./") .. "../textbook/"

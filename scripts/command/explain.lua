@@ -1,6 +1,6 @@
 -- explain.lua -- `ambit explain`: what a scene loads, builds and leaves out, in numbers.
 local core = require "ambit.core"
-local explain_facts = require "ambit.command.explain.facts"
+local explain_facts = require "ambit.explain.facts"
 local limits = require "ambit.command.limits"
 local outputs = require "ambit.command.outputs"
 local scene = require "ambit.command.scene"
@@ -33,19 +33,19 @@ end
 local function check_outputs(options)
   local problem = outputs.problem(options, { "dot", "svg" }, { dot = true })
   if problem then return problem end
-  if options.svg and not require("ambit.command.explain.svg").has_dot() then
+  if options.svg and not require("ambit.explain.svg").has_dot() then
     return "--svg needs the program `dot` of Graphviz (Debian: apt install graphviz); --dot FILE works without it"
   end
 end
 
 local function write_graphs(options, facts)
-  local text, tips = require("ambit.command.explain.graph").dot(facts)
+  local text, tips = require("ambit.explain.graph").dot(facts)
   if options.dot then
     local good, problem = pcall(outputs.write, options.dot, text)
     if not good then return complain(problem) end
   end
   if not options.svg then return 0 end
-  local problem = require("ambit.command.explain.svg").write(options.svg, text, tips)
+  local problem = require("ambit.explain.svg").write(options.svg, text, tips)
   return problem and complain(problem) or 0
 end
 
@@ -60,10 +60,10 @@ function command.run(list)
   local facts = explain_facts.gather(file, words)
   local code = 0
   if options.json then
-    require("ambit.command.explain.json").write(facts)
+    require("ambit.explain.json").write(facts)
   elseif options.dot ~= "-" then
     io.stdout:write(require "ambit.provenance".lines "", "\n")
-    require("ambit.command.explain.text").write(function(f, ...) io.stdout:write(f:format(...)) end, facts)
+    require("ambit.explain.text").write(function(f, ...) io.stdout:write(f:format(...)) end, facts)
   end
   if options.dot or options.svg then code = write_graphs(options, facts) end
   if facts.problem then code = complain(facts.problem) end

@@ -1,13 +1,13 @@
 -- profile.lua -- `ambit profile`: where the time of a scene goes.
 local core = require "ambit.core"
-local json = require "ambit.view.json"
+local json = require "ambit.report.json"
 local limits = require "ambit.command.limits"
 local outputs = require "ambit.command.outputs"
 local provenance = require "ambit.provenance"
 local scene = require "ambit.command.scene"
 local session = require "ambit.session"
-local sums = require "ambit.command.profile.sums"
-local text = require "ambit.command.profile.text"
+local sums = require "ambit.profile.sums"
+local text = require "ambit.profile.text"
 
 local command = { scene = true }
 

@@ -1,4 +1,4 @@
--- repl.lua -- `ambit repl`: an interval calculator and a place to build mechanisms, with the prelude at hand.
+-- repl.lua -- `ambit repl`: an interval calculator and a place to build mechanisms, with the module `ambit` at hand.
 local ambit = require "ambit"
 local code = require "ambit.code"
 local core = require "ambit.core"

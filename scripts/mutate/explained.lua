@@ -45,19 +45,19 @@ return {
     "decides which datum is cut first, for speed",
   ["plugins/solver/taylor_model/proof.c | extremum 1 | double rad = larger(larger(mid - p->t, mid - w->t_next), larger(p->t - mid, w->t_next - mid));"] =
     "both are half the step, whichever way the time runs",
-  ["scripts/prelude/verify/box.lua | extremum 1 | lo = math.max(a.lo, b.lo), hi = math.min(a.hi, b.hi), when = seen.when, value = seen.value,"] =
+  ["framework/verbs/verify/box.lua | extremum 1 | lo = math.max(a.lo, b.lo), hi = math.min(a.hi, b.hi), when = seen.when, value = seen.value,"] =
     "both findings are true: the looser bound decides less",
-  ["scripts/prelude/verify/box.lua | extremum 2 | lo = math.max(a.lo, b.lo), hi = math.min(a.hi, b.hi), when = seen.when, value = seen.value,"] =
+  ["framework/verbs/verify/box.lua | extremum 2 | lo = math.max(a.lo, b.lo), hi = math.min(a.hi, b.hi), when = seen.when, value = seen.value,"] =
     "both findings are true: the looser bound decides less",
-  ["scripts/prelude/verify/search.lua | guard 1 | if #job.lo > 0 and job.sound_points and box.is_open(job, root) and not box.is_spent(job) then"] =
+  ["framework/verbs/verify/search.lua | guard 1 | if #job.lo > 0 and job.sound_points and box.is_open(job, root) and not box.is_spent(job) then"] =
     "single values are not tried: less is refuted",
-  ["scripts/prelude/verify/search.lua | sign 2 | local t = k == 0 and first or k == n and last or first + (last - first) * (k / n)"] =
+  ["framework/verbs/verify/search.lua | sign 2 | local t = k == 0 and first or k == n and last or first + (last - first) * (k / n)"] =
     "instants within the horizon at which steps end besides those asked for: any will do",
-  ["framework/num/decimal_digits.c | radius 1 | if (rest->d[i]) return 0;"] =
+  ["framework/kernel/num/decimal_digits.c | radius 1 | if (rest->d[i]) return 0;"] =
     "p and q have at most 998 digits, so that an inexact p/q is over 1e-990 from any double, which 1075 places show",
-  ["framework/num/decimal_print.c | extremum 2 | double width = ambit_interval_width(x), mag = ambit_interval_mag(x);"] =
+  ["framework/kernel/num/decimal_print.c | extremum 2 | double width = ambit_interval_width(x), mag = ambit_interval_mag(x);"] =
     "how many digits are shown: the bounds are rounded outward to any number of them",
-  ["framework/num/elementary.c | guard 1 | if (op != AMBIT_OP_ATAN2) blo = alo, bhi = ahi;"] =
+  ["framework/kernel/num/elementary.c | guard 1 | if (op != AMBIT_OP_ATAN2) blo = alo, bhi = ahi;"] =
     "only atan2 reads a second operand",
   ["plugins/solver/valencia/faces.c | guard 1 | if (slope.hi <= 0) return point(largest ? x.lo : x.hi);"] =
     "the whole interval is taken where one end would do: wider",
@@ -69,33 +69,33 @@ return {
     "memory that ran out for one array ran out for the next",
   ["plugins/solver/valencia/verify.c | guard 1 | if (why != WHY_NOTHING) return why;"] =
     "what fails there is an evaluation over a part of the tube, over the whole of which the same has just succeeded",
-  ["scripts/prelude/certify/couple.lua | sign 1 | if source ~= ZERO or shared[j].error_start ~= ZERO then active[j], count = true, count + 1 end"] =
+  ["framework/verbs/reduce/certify/couple.lua | sign 1 | if source ~= ZERO or shared[j].error_start ~= ZERO then active[j], count = true, count + 1 end"] =
     "the count is compared with itself a round before, and each round adds to it",
-  ["scripts/prelude/certify/curve.lua | extremum 1 | list[j] = list[j] and math.min(list[j], e) or e"] =
+  ["framework/verbs/reduce/certify/curve.lua | extremum 1 | list[j] = list[j] and math.min(list[j], e) or e"] =
     "both are bounds of the error: the larger one is above it too",
-  ["scripts/prelude/certify/values.lua | guard 1 | if not i then return nil end"] =
+  ["framework/verbs/reduce/certify/values.lua | guard 1 | if not i then return nil end"] =
     "without an instant the next line raises an error: nothing is claimed",
-  ["scripts/prelude/verify/box.lua | bound 3 | local whole, inside = lo <= job.lo[j] and hi >= job.hi[j], least <= most and lo <= most and hi >= least"] =
+  ["framework/verbs/verify/box.lua | bound 3 | local whole, inside = lo <= job.lo[j] and hi >= job.hi[j], least <= most and lo <= most and hi >= least"] =
     "fewer boxes are taken for allowed: less is refuted",
-  ["scripts/prelude/verify/box.lua | relation 1 | moved[j] = least <= most and math.min(math.max(x, least), most) or x"] =
+  ["framework/verbs/verify/box.lua | relation 1 | moved[j] = least <= most and math.min(math.max(x, least), most) or x"] =
     "a value that was not moved where it should be is not taken for allowed (is_allowed): less is refuted",
-  ["framework/num/power_kernel.h | logic 1 | if (n.size > PLAIN_MOST && bit % 4 == 0)"] =
+  ["framework/kernel/num/power_kernel.h | logic 1 | if (n.size > PLAIN_MOST && bit % 4 == 0)"] =
     "the pair is normalised more often, which is exact",
-  ["framework/num/solve.c | guard 1 | if (ambit_interval_is_empty(a[i]) || !ambit_interval_is_bounded(a[i])) return false;"] =
+  ["framework/verbs/roots/solve.c | guard 1 | if (ambit_interval_is_empty(a[i]) || !ambit_interval_is_bounded(a[i])) return false;"] =
     "such an entry makes the distance from one infinite, which the next check refuses",
-  ["framework/num/spectrum.c | term 1 | *spread += ambit_interval_width(value[i].re) + ambit_interval_width(value[i].im);"] =
+  ["framework/verbs/stability/spectrum.c | term 1 | *spread += ambit_interval_width(value[i].re) + ambit_interval_width(value[i].im);"] =
     "decides which of two enclosures, both true, is given",
   ["plugins/solver/taylor_model/functions.c | extremum 3 | double floor = range(s, q).lo, ga = larger(larger(ra.lo, -ra.hi), 0), gb = larger(larger(rb.lo, -rb.hi), 0);"] =
     "a smaller lower bound of the distance from 0: the radius is wider",
   ["plugins/solver/taylor_model/range.c | guard 1 | if (part == reach[v]) continue;"] =
     "nothing is left out of the box, and only the count of cuts grows",
-  ["scripts/prelude/verify/search.lua | guard 1 | if box.is_spent(job) or not box.is_open(job, b) then return end"] =
+  ["framework/verbs/verify/search.lua | guard 1 | if box.is_spent(job) or not box.is_open(job, b) then return end"] =
     "ends are tried although nothing is open: slower",
-  ["scripts/prelude/verify/search.lua | extremum 1 | for j, moved in ipairs(job.moved[k]) do effect[j] = math.max(effect[j] or 0, moved) end"] =
+  ["framework/verbs/verify/search.lua | extremum 1 | for j, moved in ipairs(job.moved[k]) do effect[j] = math.max(effect[j] or 0, moved) end"] =
     "decides which datum is cut first",
-  ["scripts/prelude/verify/search.lua | relation 1 | local weight = most > 0 and math.max((effect[j] or 0) / most, 0.02) or 1"] =
+  ["framework/verbs/verify/search.lua | relation 1 | local weight = most > 0 and math.max((effect[j] or 0) / most, 0.02) or 1"] =
     "decides which datum is cut first",
-  ["framework/graph/jet_general.c | logic 2 | if (!s->first || !s->length || !s->weighted || !s->branch || !s->target || !s->left || !s->right)"] =
+  ["framework/kernel/graph/jet_general.c | logic 2 | if (!s->first || !s->length || !s->weighted || !s->branch || !s->target || !s->left || !s->right)"] =
     "memory that ran out for one array ran out for the next",
   ["plugins/solver/krawczyk/newton.c | guard 1 | if (k->options.operation == OPERATOR_NEWTON) return VERDICT_UNKNOWN;"] =
     "rows narrow the box then, as they do for the other operators",
@@ -137,11 +137,11 @@ return {
     "steps that are too long for their rates fail in the proof, which takes longer",
   ["plugins/solver/stiff/step.c | guard 1 | if (too_fast(s, m)) return WHY_FAST;"] =
     "steps that are too long for their rates fail in the proof, which takes longer",
-  ["framework/graph/polynomial.c | radius 1 | for (size_t k = 0; k < ring->nlost && !known; k++) known = ring->lost[k] == atom;"] =
+  ["framework/algebra/polynomial.c | radius 1 | for (size_t k = 0; k < ring->nlost && !known; k++) known = ring->lost[k] == atom;"] =
     "what vanished is noted twice, and sooner there is too much of it: then nothing is rewritten",
-  ["framework/graph/polynomial.c | guard 1 | if (p.n > 64 * ring->limit / q.n) return fail(ring);"] =
+  ["framework/algebra/polynomial.c | guard 1 | if (p.n > 64 * ring->limit / q.n) return fail(ring);"] =
     "a limit of time and memory: what is multiplied out is right whatever its length",
-  ["framework/graph/tail_value.c | guard 1 | if (!(floor > 0)) return INFINITY;"] =
+  ["framework/kernel/graph/tail_value.c | guard 1 | if (!(floor > 0)) return INFINITY;"] =
     "a floor of 0 then gives 0/0, which claims nothing either",
   ["plugins/solver/lohner/start.c | unit 1 | return i < s->nx ? o->rad[i] > THIN * fabs(o->mid[i]) + 0x1p-1000 : o->rad[i] > 0;"] =
     "which boxes get a column of their own: either way all of the box is in the set",

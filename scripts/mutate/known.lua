@@ -2,9 +2,9 @@
 return {
   { area = "taylor_model", file = "plugins/solver/taylor_model/proof.c", old = "w->dexcess[k] = H *", new = "w->dexcess[k] = 0 * H *" },
   { area = "valencia", file = "plugins/solver/valencia/verify.c", old = "s->start[i] = error + lost", new = "s->start[i] = error" },
-  { area = "certify", file = "scripts/prelude/certify/bounds.lua", old = "math.max(least[j][k] or -math.huge, x.lo)",
+  { area = "certify", file = "framework/verbs/reduce/certify/bounds.lua", old = "math.max(least[j][k] or -math.huge, x.lo)",
     new = "math.max(least[j][k] or -math.huge, x.hi)" },
-  { area = "certify", file = "scripts/prelude/certify/bound.lua", old = "core.interval(e).lo", new = "core.interval(e).hi" },
-  { area = "robots", file = "scripts/prelude/urdf.lua", old = "{ 1, 0, 0 }", new = "{ 0, 0, 1 }" },
-  { area = "graph", file = "framework/graph/simplify.c", old = "if (e >= g->count || limit == 0)", new = "if (e >= g->count && limit == 0)" },
+  { area = "certify", file = "framework/verbs/reduce/certify/bound.lua", old = "core.interval(e).lo", new = "core.interval(e).hi" },
+  { area = "robots", file = "framework/models/robot/urdf.lua", old = "{ 1, 0, 0 }", new = "{ 0, 0, 1 }" },
+  { area = "graph", file = "framework/algebra/simplify.c", old = "if (e >= g->count || limit == 0)", new = "if (e >= g->count && limit == 0)" },
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Writes framework/num/elementary_tables.h: every constant of the elementary functions, computed by mpmath at 400 bits.
+"""Writes framework/kernel/num/elementary_tables.h: every constant of the elementary functions, computed by mpmath at 400 bits.
 
-Usage: elementary.py > framework/num/elementary_tables.h          (the output is the same on every run)
+Usage: elementary.py > framework/kernel/num/elementary_tables.h          (the output is the same on every run)
 
 Every polynomial is a Taylor polynomial, so that no fitted coefficient needs a certificate. The claimed error bounds are
 here too: the kernels use them and tests/num/proof/check.py proves them, both from the generated file.
@@ -81,6 +81,7 @@ def table(name, values, per_line=2):
 def main():
     print("/* elementary_tables.h -- written by scripts/tables/elementary.py, do not edit.\n"
           "** Double-doubles (high, low), proved against the functions by tests/num/proof/check.py. */")
+    print("/* clang-format off */")
     print("#ifndef AMBIT_ELEMENTARY_TABLES_H\n#define AMBIT_ELEMENTARY_TABLES_H")
     print("/* claimed bounds of |h + l - f| / |h|; FAR: where SIN_LEAST <= |sin|, TAN_LEAST <= |tan| <= TAN_MOST;\n"
           "** NEAR: where |atan| <= ATAN_SMALL; POWER: times the exponent */")

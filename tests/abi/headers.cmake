@@ -1,5 +1,5 @@
 # Every header of the SDK compiles alone, as C17 and as C++17.
-file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/framework/abi/ambit/*.h)
+file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/framework/kernel/abi/ambit/*.h)
 set(units "")
 foreach(header ${headers})
   get_filename_component(name ${header} NAME_WE)
@@ -10,5 +10,5 @@ foreach(header ${headers})
   endforeach()
 endforeach()
 add_library(sdk_headers OBJECT ${units})
-target_include_directories(sdk_headers PRIVATE ${PROJECT_SOURCE_DIR}/framework/abi)
+target_include_directories(sdk_headers PRIVATE ${PROJECT_SOURCE_DIR}/framework/kernel/abi)
 target_compile_options(sdk_headers PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Werror)

@@ -26,7 +26,7 @@ assert(known["unable.width"] and known.ok)
 
 -- In C by name, in Lua as text.
 local names = {}
-for name, code in read "framework/abi/ambit/code.h":gmatch 'X%(([A-Z_]+),%s*"([%w.-]+)"' do names[name] = code end
+for name, code in read "framework/kernel/abi/ambit/code.h":gmatch 'X%(([A-Z_]+),%s*"([%w.-]+)"' do names[name] = code end
 for path in output "find framework plugins scripts -name '*.[ch]' -o -name '*.lua'":gmatch "[^\n]+" do
   local text = path:find "/code.h$" and "" or read(path)
   for name in text:gmatch "AMBIT_CODE_([A-Z_]+)" do
@@ -35,7 +35,7 @@ for path in output "find framework plugins scripts -name '*.[ch]' -o -name '*.lu
   for code in (path:find "lua$" and text or ""):gmatch '"([a-z]+%.?[%w-]*)"' do
     local family = code:match "^[^.]+"
     if known[family] and code:find(".", 1, true) then
-      assert(known[code], ("%s: the code %s is not in framework/abi/ambit/code.h"):format(path, code))
+      assert(known[code], ("%s: the code %s is not in framework/kernel/abi/ambit/code.h"):format(path, code))
     end
     if known[code] then used[code] = true end
   end

@@ -1,7 +1,7 @@
 /* test_collect.c -- nodes live as long as something holds them, and nobody can tell that others were freed. */
 #include "graph/collect.h"
 #include "graph/kink.h"
-#include "graph/node_map.h"
+#include "algebra/node_map.h"
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -19,9 +19,9 @@ foreach(folder broken shadow lying)
     add_dependencies(broken_plugins ${target})
   endforeach()
 endforeach()
-foreach(test host.registry host.object host.services host.slow_fault host.trust model.environment model.faults model.evaluate model.simulate model.sample
-    model.sample_lanes model.split_solver
-    model.allocations model.work)
+foreach(test host.registry host.object host.services host.slow_fault host.trust verbs.environment verbs.faults verbs.evaluate verbs.simulate verbs.sample
+    verbs.sample_lanes verbs.split_solver
+    verbs.allocations verbs.work)
   if(TARGET test.${test})
     target_compile_definitions(test.${test} PRIVATE AMBIT_BROKEN_DIR="${AMBIT_BROKEN_DIR}"
       AMBIT_SHADOW_DIR="${AMBIT_SHADOW_DIR}" AMBIT_LYING_DIR="${AMBIT_LYING_DIR}" AMBIT_PLUGINS_DIR="${PROJECT_BINARY_DIR}/plugins")

@@ -1,7 +1,7 @@
 /* test_pool.c -- threads that work on items: all of them, each once, in order; outcomes that do not depend on how many
 ** threads there are; stopping, the floating-point environment, signals, and systems that give no threads. */
 #include "host/pool.h"
-#include "host/processors.h"
+#include "verbs/run/processors.h"
 #include "host/services.h"
 #include "num/environment.h"
 #include <ambit/rounding.h>

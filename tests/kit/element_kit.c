@@ -1,7 +1,7 @@
 /* element_kit.c -- see element_kit.h. */
 #include "kit/element_kit.h"
 #include "kit/element_kit_inside.h"
-#include "model/unit.h"
+#include "models/unit.h"
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 ** part; what is not of a port is declined.
 */
 #include "kit/element_kit_inside.h"
-#include "mechanism/parts.h"
+#include "mechanics/parts.h"
 #include <string.h>
 
 static const uint32_t whole[] = { AMBIT_FIELD, AMBIT_ENERGY, AMBIT_POWER, AMBIT_MASS, AMBIT_MASS_MOMENT,

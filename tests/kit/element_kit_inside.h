@@ -4,7 +4,7 @@
 #include "graph/graph.h"
 #include "kit/element_kit.h"
 #include "kit/element_stage.h"
-#include "mechanism/mechanism.h"
+#include "mechanics/mechanism.h"
 #include "num/random.h"
 
 #define ELEMENT_KIT_PORTS 8u

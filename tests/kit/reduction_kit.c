@@ -1,7 +1,7 @@
 /* reduction_kit.c -- plays the proofs of random models and judges what a strategy decides. */
 #include "kit/reduction_kit.h"
 #include "kit/conduct.h"
-#include "model/reduction.h"
+#include "verbs/reduce/reduction.h"
 #include "num/random.h"
 #include <math.h>
 #include <stdarg.h>

@@ -1,7 +1,7 @@
 /* solver_kit_problems.h -- problems with closed solutions, as expressions and as enclosures of the truth. */
 #ifndef AMBIT_SOLVER_KIT_PROBLEMS_H
 #define AMBIT_SOLVER_KIT_PROBLEMS_H
-#include "model/problem.h"
+#include "verbs/simulate/problem.h"
 
 #define KIT_STATES 12
 #define KIT_TIMES 8

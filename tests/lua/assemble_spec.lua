@@ -308,7 +308,7 @@ describe("a configuration of uncertain data", function()
 
   it("is a box where anything else was changed", function()
     local m, found = tolerated "1%"
-    local data = require "ambit.assemble_data"
+    local data = require "ambit.assemble.data"
     local system, plain = m:dynamics(), {}
     for i in ipairs(system.states) do plain[i] = core.expression(i) end
     local function taken(start) return data.correlate(plain, start, system, { 0, 1 }) ~= plain end
@@ -341,7 +341,7 @@ describe("a configuration of uncertain data", function()
     m:close_pin { a = link(m, hinge(m, pin, "psi"), rod, 0), b = m:prismatic { from = m.world, axis = "x", name = "s" } }
     local found = m:assemble { t = 1, guess = { psi = "-0.6", s = "3.8" }, within = "0.5" }
     assert.equal("unique", found.status)
-    local data, system = require "ambit.assemble_data", m:dynamics()
+    local data, system = require "ambit.assemble.data", m:dynamics()
     local plain = { core.expression(0), core.expression(0) }
     assert.is_true(data.correlate(plain, found.configuration, system, { 1, 2 }) ~= plain)
     assert.is_true(data.correlate(plain, found.configuration, system, { 0, 2 }) == plain)

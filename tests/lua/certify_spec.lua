@@ -296,7 +296,7 @@ describe("certify", function()
   end)
 
   it("takes the text of an error bound for no more than it says", function()
-    local bound = require "ambit.certify.bound"
+    local bound = require "ambit.reduce.certify.bound"
     local function read(text) return select(2, bound.read({ x = text }, { { name = "x" } }, "certify")).x end
     assert.is_true(read "0.1" < 0.1) -- the double 0.1 is above one tenth
     assert.equal(0.3, read "0.3")    -- the double 0.3 is below three tenths
@@ -464,8 +464,8 @@ describe("certify", function()
   end)
 
   it("is not made unsound by what a solver is told: lowered order and coarse tolerance only widen", function()
-    local proof = require "ambit.certify.proof"
-    local model, scenario = require "ambit.certify.model", require "ambit.certify.scenario"
+    local proof = require "ambit.reduce.certify.proof"
+    local model, scenario = require "ambit.reduce.certify.model", require "ambit.reduce.certify.scenario"
     local full = ambit.ode { states = { "x" }, equations = function(s) return { x = -s.x + 0.5 * ambit.sin(s.x) } end }
     local less = ambit.ode { states = { "x" }, equations = function(s) return { x = -s.x } end }
     local t = { t = { 0, 2 }, initial = { x = ambit.between(1, 2) } }

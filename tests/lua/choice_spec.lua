@@ -1,7 +1,7 @@
 -- What happens where the solver that suits best fails, and who may be chosen at all.
 local ambit = require "ambit"
 local core = require "ambit.core"
-local suggest = require "ambit.suggest"
+local suggest = require "ambit.simulate.suggest"
 
 local function chain(n, tolerance)
   local m = ambit.mechanism { "chain", gravity = { 0, "-9.81", 0 } }

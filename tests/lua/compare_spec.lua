@@ -138,7 +138,7 @@ describe("compare", function()
 end)
 
 describe("the picture", function()
-  local axis, label = require "ambit.compare.axis", require "ambit.compare.label"
+  local axis, label = require "ambit.report.axis", require "ambit.compare.label"
   local state = 1
   local function random()
     state = (state * 16807) % 2147483647

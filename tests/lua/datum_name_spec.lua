@@ -2,7 +2,7 @@
 local ambit = require "ambit"
 local core = require "ambit.core"
 local session = require "ambit.session"
-local uncertain = require "ambit.uncertain"
+local uncertain = require "ambit.run.uncertain"
 
 local around, between = ambit.around, ambit.between
 

@@ -1,11 +1,11 @@
 -- Reduction of mechanisms by their elements: a mechanism built anew against the same one built by hand, certificates
 -- against small-step integration of equations written by hand, and what bad input is told.
 local ambit = require "ambit"
-local certify = require "ambit.certify.model"
+local certify = require "ambit.reduce.certify.model"
 local core = require "ambit.core"
-local proof = require "ambit.certify.proof"
+local proof = require "ambit.reduce.certify.proof"
 local reduction = require "ambit.reduce.mechanism"
-local scenario = require "ambit.certify.scenario"
+local scenario = require "ambit.reduce.certify.scenario"
 local session = require "ambit.session"
 local around, between = ambit.around, ambit.between
 

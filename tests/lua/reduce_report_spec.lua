@@ -4,7 +4,7 @@ local ambit = require "ambit"
 local core = require "ambit.core"
 local report = require "ambit.reduce.report"
 local judge = require "ambit.reduce.report_judge"
-local number = require "ambit.reduce.report_number"
+local number = require "ambit.report.number"
 
 local between = ambit.between
 

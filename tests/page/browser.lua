@@ -89,7 +89,7 @@ if not alike:find '"first":"over_sample_max"' then fail("alike", "the diagram be
 
 local function colours(name)
   local list, known = {}, {}
-  for colour in read("scripts/page/" .. name):gmatch "%s(%-%-[%w-]+): #" do
+  for colour in read("scripts/lab/page/parts/" .. name):gmatch "%s(%-%-[%w-]+): #" do
     if not known[colour] then list[#list + 1], known[colour] = colour, true end
   end
   table.sort(list)

@@ -13,8 +13,8 @@
 #include "graph/interpreter.h"
 #include "graph/store.h"
 #include "graph/tape.h"
-#include "model/context.h"
-#include "model/evaluate.h"
+#include "verbs/run/context.h"
+#include "verbs/evaluate/evaluate.h"
 #include <stdio.h>
 #include <time.h>
 

@@ -2,7 +2,7 @@
 ** played by the test. */
 #ifndef REDUCTION_CASE_H
 #define REDUCTION_CASE_H
-#include "model/reduction.h"
+#include "verbs/reduce/reduction.h"
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -13,7 +13,7 @@ add_dependencies(test.plugins.solver_krawczyk solver_krawczyk arithmetic_interva
 foreach(name solver_krawczyk_operators solver_krawczyk_parameters)
   add_dependencies(test.plugins.${name} solver_krawczyk arithmetic_interval)
 endforeach()
-add_dependencies(test.model.eigen service_eigen)
+add_dependencies(test.verbs.eigen service_eigen)
 # From inside: with the files of the plugin, prove.c being included by the second.
 file(GLOB krawczyk_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/plugins/solver/krawczyk/*.c)
 target_sources(test.plugins.solver_krawczyk_linear PRIVATE ${krawczyk_sources})

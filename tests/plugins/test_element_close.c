@@ -1,11 +1,11 @@
 /* Elements that close loops: the virtual power of their wrenches is that of their rows, the rows vanish where the joint
 ** that they are named after could be, and say everything it says there.
 */
-#include "mechanism/balance.h"
-#include "mechanism/constraints.h"
-#include "mechanism/loop_point.h"
-#include "mechanism/machine.h"
-#include "mechanism/partition.h"
+#include "mechanics/balance.h"
+#include "mechanics/constraints.h"
+#include "mechanics/loop_point.h"
+#include "mechanics/machine.h"
+#include "mechanics/partition.h"
 #include "num/random.h"
 #include <math.h>
 

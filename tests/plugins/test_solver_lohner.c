@@ -2,7 +2,7 @@
 ** would notice if the remainder were missing. */
 #include "solver_lies.h"
 #include "kit/reference_models.h"
-#include "model/simulate.h"
+#include "verbs/simulate/simulate.h"
 
 static void passes_the_kit(void **unused) {
   (void)unused;
@@ -88,7 +88,7 @@ static int32_t count_record(ambit_sink *sink, const ambit_record *r) {
   return 0;
 }
 
-/* bench/lohner.c makes a million of them */
+/* tests/bench/lohner.c makes a million of them */
 static void many_steps_need_no_more_memory(void **unused) {
   (void)unused;
   static const double time[] = { 0, 20 };

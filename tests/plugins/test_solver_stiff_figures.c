@@ -1,5 +1,5 @@
 /* The stiff integrator on published problems: reference digits are inside narrow enclosures, a changed datum excludes
-** them, bench/stiff.c measures; and random stiff systems, record by record, against 300-bit series. */
+** them, tests/bench/stiff.c measures; and random stiff systems, record by record, against 300-bit series. */
 #include "kit/stiff_models.h"
 #include "num/random.h"
 #include "solver_track.h"

@@ -4,7 +4,7 @@
 #include "kit/reference_models.h"
 #include "kit/solution_oracle.h"
 #include "graph/tape.h"
-#include "model/problem.h"
+#include "verbs/simulate/problem.h"
 #include "oracle.h"
 #include "solver/taylor_model/flow.h"
 #include "solver_case.h"

@@ -2,8 +2,8 @@
 #include "kit/reference_models.h"
 #include "kit/solution_oracle.h"
 #include "graph/tape.h"
-#include "model/problem.h"
-#include "model/simulate.h"
+#include "verbs/simulate/problem.h"
+#include "verbs/simulate/simulate.h"
 #include "oracle.h"
 #include <setjmp.h>
 #include <stdarg.h>

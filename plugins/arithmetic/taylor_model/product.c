@@ -18,7 +18,7 @@
 /* how a product of two polynomials is computed */
 enum { SPARSE, DENSE, ROWS };
 
-/* ns for a product of coefficients, about (bench/taylor_model.c) */
+/* ns for a product of coefficients, about (tests/bench/taylor_model.c) */
 static const double cost[] = { [SPARSE] = 1.2, [DENSE] = 0.5, [ROWS] = 0.15 };
 
 static uint32_t blocks_of(const context *c, const model *x) {

@@ -14,7 +14,7 @@
 -- Minutes of a share are functions of the data like the states. The distance from the line of sight is a state, so that
 -- it keeps what x and y have in common.
 local ambit = require "ambit"
-local condense = require "ambit.event.condense"
+local condense = require "ambit.leg.condense"
 local n = ambit.number
 
 local FIRST, LAST, END = 120, 150, 200

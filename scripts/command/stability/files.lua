@@ -1,5 +1,5 @@
 -- stability/files.lua -- what `ambit stability` writes besides its table: a page, JSON, CSV, Markdown.
-local json = require "ambit.view.json"
+local json = require "ambit.report.json"
 local outputs = require "ambit.command.outputs"
 local provenance = require "ambit.provenance"
 local suite_table = require "ambit.suite.table"

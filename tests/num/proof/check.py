@@ -25,7 +25,7 @@ from tables import ProofFailure, Tables, check_all, mutations, require
 
 
 def check_generated(directory, text):
-    generator = directory.parent.parent / "scripts" / "tables" / "elementary.py"
+    generator = directory.parents[2] / "scripts" / "tables" / "elementary.py"
     written = subprocess.run([sys.executable, generator], capture_output=True, text=True, check=True).stdout
     require(written == text, "elementary_tables.h is not what scripts/tables/elementary.py writes")
 

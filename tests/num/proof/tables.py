@@ -1,4 +1,4 @@
-"""The constants of framework/num/elementary_tables.h as exact numbers, and the checks of every word of them."""
+"""The constants of framework/kernel/num/elementary_tables.h as exact numbers, and the checks of every word of them."""
 import re
 
 from mpmath import atan, cosh, factorial, floor, log, mp, mpf, pi, sin, sinh

@@ -1,0 +1,272 @@
+/* variation.c -- builds S' = A S + b column by column, for the entries that can differ from zero.
+**
+** A = df/dx and b = df/dq are symbolic. Column j of S vanishes for all time in the rows that neither start with a
+** derivative, nor have a forcing, nor are reached through nonzero entries of A from such a row: there S = 0 solves the
+** linear equations, and solutions are unique.
+*/
+#include "verbs/sensitivity/variation.h"
+#include "verbs/run/unknowns.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define ZERO 0u /* node 0 is the constant 0 */
+
+typedef struct column {
+  ambit_expr unknown, scale;   /* of the datum; unknown is NO_EXPR for an initial value */
+  ambit_expr *start, *forcing; /* [nx] dx0/dq, df/dq */
+  bool *reached;               /* [nx] */
+} column;
+
+typedef struct build {
+  const ambit_variation_request *q;
+  const ambit_system *s;
+  ambit_graph *graph;
+  ambit_arena *arena;
+  ambit_failure *f;
+  ambit_expr *slope; /* [nx x nx] A by rows */
+  column *column;    /* [nby] */
+  ambit_variation *v;
+} build;
+
+static ambit_status no_memory(const build *b) { return ambit_fail(b->f, AMBIT_NOMEM, "out of memory"); }
+
+static void *room(const build *b, size_t n, size_t size) { return ambit_arena_alloc(b->arena, n * size); }
+
+static ambit_expr multiply(const build *b, ambit_expr x, ambit_expr y) {
+  return ambit_graph_op(b->graph, AMBIT_OP_MUL, x, y);
+}
+
+/* *d := de/dx; `what` and `whose` for the message */
+static ambit_status derive(
+    const build *b, ambit_expr e, ambit_expr x, const char *what, const char *whose, ambit_expr *d) {
+  ambit_failure why = { 0 };
+  *d = ambit_graph_derivative(b->graph, e, x, &why);
+  if (*d != AMBIT_NO_EXPR) return AMBIT_OK;
+  if (why.status == AMBIT_OK) return no_memory(b);
+  return ambit_fail(b->f, why.status, "the %s `%s` has no derivative: %s", what, whose, why.message);
+}
+
+/* -- the quantities */
+
+/* The one unknown of the datum, and 1/(dq/du). */
+static ambit_status read_datum(const build *b, const ambit_variation_by *by, column *c) {
+  size_t n;
+  ambit_expr *leaf, slope;
+  ambit_status status = ambit_unknowns_leaves(b->graph, b->arena, 1, &by->datum, &n, &leaf, b->f);
+  if (status != AMBIT_OK) return status;
+  if (n == 0) return ambit_fail(b->f, AMBIT_INVALID, "`%s` is not uncertain: it has one value only", by->name);
+  if (n > 1 || ambit_graph_node(b->graph, leaf[0])->op != AMBIT_LEAF_UNKNOWN)
+    return ambit_fail(b->f, AMBIT_INVALID, "`%s` is not one uncertain datum: it depends on %s", by->name,
+        n > 1 ? "several" : "a state or on time");
+  status = derive(b, by->datum, leaf[0], "datum", by->name, &slope);
+  if (status != AMBIT_OK) return status;
+  const ambit_node *node = ambit_graph_node(b->graph, slope);
+  if (!node->constant || ambit_interval_contains(node->range, 0))
+    return ambit_fail(b->f, AMBIT_INVALID, "`%s` is not an uncertain datum or a constant times one", by->name);
+  c->unknown = leaf[0];
+  c->scale = ambit_graph_op(b->graph, AMBIT_OP_DIV, ambit_graph_number(b->graph, 1), slope);
+  return c->scale == AMBIT_NO_EXPR ? no_memory(b) : AMBIT_OK;
+}
+
+static ambit_status differentiate_datum(const build *b, column *c) {
+  for (size_t i = 0; i < b->s->nx; i++) {
+    ambit_expr start, forcing;
+    ambit_status status = derive(b, b->q->initial[i], c->unknown, "initial value of state", b->s->name[i], &start);
+    if (status == AMBIT_OK)
+      status = derive(b, b->s->rate[i], c->unknown, "right-hand side of state", b->s->name[i], &forcing);
+    if (status != AMBIT_OK) return status;
+    c->start[i] = start == ZERO ? ZERO : multiply(b, start, c->scale);
+    c->forcing[i] = forcing == ZERO ? ZERO : multiply(b, forcing, c->scale);
+    if (c->start[i] == AMBIT_NO_EXPR || c->forcing[i] == AMBIT_NO_EXPR) return no_memory(b);
+  }
+  return AMBIT_OK;
+}
+
+static ambit_status read_column(const build *b, size_t j) {
+  const ambit_variation_by *by = &b->q->by[j];
+  column *c = &b->column[j];
+  size_t nx = b->s->nx;
+  c->start = room(b, nx, sizeof *c->start); /* zeroed: the constant 0 */
+  c->forcing = room(b, nx, sizeof *c->forcing);
+  c->reached = room(b, nx, sizeof *c->reached);
+  c->unknown = AMBIT_NO_EXPR;
+  if (!c->start || !c->forcing || !c->reached) return no_memory(b);
+  if (by->initial_of != AMBIT_VARIATION_ZERO) {
+    c->start[by->initial_of] = ambit_graph_number(b->graph, 1);
+    return c->start[by->initial_of] == AMBIT_NO_EXPR ? no_memory(b) : AMBIT_OK;
+  }
+  ambit_status status = read_datum(b, by, c);
+  return status == AMBIT_OK ? differentiate_datum(b, c) : status;
+}
+
+/* Along a solution g stays zero, so its start must stay on g = 0 while the quantity varies: here, because g knows
+** nothing of what varies. */
+static ambit_status check_invariants(const build *b, size_t j) {
+  const column *c = &b->column[j];
+  for (size_t k = 0; k < b->s->ninvariant; k++) {
+    ambit_expr d = ZERO;
+    ambit_status status = AMBIT_OK;
+    if (c->unknown != AMBIT_NO_EXPR)
+      status = derive(b, b->s->invariant[k], c->unknown, "constraint", b->s->invariant_name[k], &d);
+    for (size_t i = 0; i < b->s->nx && d == ZERO && status == AMBIT_OK; i++)
+      if (c->start[i] != ZERO)
+        status = derive(b, b->s->invariant[k], b->s->state[i], "constraint", b->s->invariant_name[k], &d);
+    if (status != AMBIT_OK) return status;
+    if (d != ZERO)
+      return ambit_fail(b->f, AMBIT_INVALID,
+          "the derivative by `%s` is not defined by the initial values: `%s` moves the start off the constraint `%s`, "
+          "and how the other states follow is not known; differentiate by data that neither the initial values nor "
+          "the constraints depend on (masses, forces)",
+          b->q->by[j].name, b->q->by[j].name, b->s->invariant_name[k]);
+  }
+  return AMBIT_OK;
+}
+
+static ambit_status differentiate(const build *b) {
+  size_t nx = b->s->nx;
+  for (size_t i = 0; i < nx; i++)
+    for (size_t k = 0; k < nx; k++) {
+      ambit_status status =
+          derive(b, b->s->rate[i], b->s->state[k], "right-hand side of state", b->s->name[i], &b->slope[i * nx + k]);
+      if (status != AMBIT_OK) return status;
+    }
+  for (size_t j = 0; j < b->q->nby; j++) {
+    ambit_status status = read_column(b, j);
+    if (status == AMBIT_OK) status = check_invariants(b, j);
+    if (status != AMBIT_OK) return status;
+  }
+  return AMBIT_OK;
+}
+
+/* -- structure */
+
+static void reach(const build *b, column *c) {
+  size_t nx = b->s->nx;
+  for (size_t i = 0; i < nx; i++) c->reached[i] = c->start[i] != ZERO || c->forcing[i] != ZERO;
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (size_t i = 0; i < nx; i++)
+      for (size_t k = 0; k < nx && !c->reached[i]; k++)
+        if (c->reached[k] && b->slope[i * nx + k] != ZERO) grows = c->reached[i] = true;
+  }
+}
+
+/* Which entries are states; returns how many states there are in all. */
+static size_t number_states(const build *b, uint32_t *place) {
+  size_t n = b->s->nx, nby = b->q->nby;
+  for (size_t j = 0; j < nby; j++) {
+    reach(b, &b->column[j]);
+    for (size_t i = 0; i < b->s->nx; i++)
+      place[i * nby + j] = b->column[j].reached[i] ? (uint32_t)n++ : AMBIT_VARIATION_ZERO;
+  }
+  return n;
+}
+
+/* -- the new system */
+
+static const char *join(const build *b, const char *format, const char *first, const char *second) {
+  size_t n = strlen(format) + strlen(first) + strlen(second);
+  char *text = room(b, n, 1);
+  if (text) snprintf(text, n, format, first, second);
+  return text;
+}
+
+static bool is_one(const char *unit) { return !unit || !*unit || strcmp(unit, "1") == 0 || strcmp(unit, "rad") == 0; }
+
+static const char *ratio_unit(const build *b, const char *above, const char *below) {
+  if (above && below && strcmp(above, below) == 0) return "1";
+  if (is_one(below)) return is_one(above) ? "1" : above;
+  return join(b, "%s/(%s)", is_one(above) ? "1" : above, below);
+}
+
+/* sum_k A_ik S_kj + b_ij */
+static ambit_expr variation_rate(const build *b, size_t i, size_t j) {
+  size_t nx = b->s->nx, nby = b->q->nby;
+  ambit_expr sum = b->column[j].forcing[i];
+  for (size_t k = 0; k < nx; k++) {
+    uint32_t at = b->v->place[k * nby + j];
+    if (at == AMBIT_VARIATION_ZERO || b->slope[i * nx + k] == ZERO) continue;
+    ambit_expr term = multiply(b, b->slope[i * nx + k], b->v->system.state[at]);
+    if (term == AMBIT_NO_EXPR) return term;
+    sum = ambit_graph_op(b->graph, AMBIT_OP_ADD, sum, term);
+    if (sum == AMBIT_NO_EXPR) return sum;
+  }
+  return sum;
+}
+
+typedef struct parts {
+  const char **name, **unit;
+  ambit_expr *state, *rate, *start;
+} parts;
+
+static ambit_status name_states(const build *b, const parts *p) {
+  size_t nby = b->q->nby;
+  for (size_t i = 0; i < b->s->nx; i++)
+    for (size_t j = 0; j < nby; j++) {
+      uint32_t at = b->v->place[i * nby + j];
+      if (at == AMBIT_VARIATION_ZERO) continue;
+      p->name[at] = join(b, "d %s/d %s", b->s->name[i], b->q->by[j].name);
+      p->unit[at] = ratio_unit(b, b->s->unit[i], b->q->by[j].unit);
+      if (!p->name[at] || !p->unit[at]) return no_memory(b);
+      p->state[at] = ambit_graph_symbol(b->graph, p->name[at], p->unit[at]);
+      p->start[at] = b->column[j].start[i];
+      if (p->state[at] == AMBIT_NO_EXPR) return no_memory(b);
+    }
+  return AMBIT_OK;
+}
+
+static ambit_status check_names(const build *b) {
+  const ambit_system *s = &b->v->system;
+  for (size_t i = b->s->nx; i < s->nx; i++)
+    for (size_t k = 0; k < i; k++)
+      if (strcmp(s->name[i], s->name[k]) == 0)
+        return ambit_fail(
+            b->f, AMBIT_INVALID, "there would be two states `%s`: give the quantities other names", s->name[i]);
+  return AMBIT_OK;
+}
+
+static ambit_status assemble(const build *b, size_t n) {
+  size_t nx = b->s->nx, nby = b->q->nby;
+  parts p = { room(b, n, sizeof *p.name), room(b, n, sizeof *p.unit), room(b, n, sizeof *p.state),
+    room(b, n, sizeof *p.rate), room(b, n, sizeof *p.start) };
+  if (!p.name || !p.unit || !p.state || !p.rate || !p.start) return no_memory(b);
+  memcpy(p.name, b->s->name, nx * sizeof *p.name);
+  memcpy(p.unit, b->s->unit, nx * sizeof *p.unit);
+  memcpy(p.state, b->s->state, nx * sizeof *p.state);
+  memcpy(p.rate, b->s->rate, nx * sizeof *p.rate);
+  memcpy(p.start, b->q->initial, nx * sizeof *p.start);
+  b->v->system = *b->s;
+  b->v->system.source = NULL; /* it knows nothing of the further states */
+  b->v->system.nx = n;
+  b->v->system.name = p.name;
+  b->v->system.unit = p.unit;
+  b->v->system.state = p.state;
+  b->v->system.rate = p.rate;
+  b->v->initial = p.start;
+  ambit_status status = name_states(b, &p);
+  if (status == AMBIT_OK) status = check_names(b);
+  for (size_t i = 0; i < nx && status == AMBIT_OK; i++)
+    for (size_t j = 0; j < nby && status == AMBIT_OK; j++) {
+      uint32_t at = b->v->place[i * nby + j];
+      if (at == AMBIT_VARIATION_ZERO) continue;
+      p.rate[at] = variation_rate(b, i, j);
+      if (p.rate[at] == AMBIT_NO_EXPR) status = no_memory(b);
+    }
+  return status;
+}
+
+ambit_status ambit_variation_build(
+    const ambit_variation_request *q, ambit_arena *arena, ambit_variation *v, ambit_failure *f) {
+  build b = { .q = q, .s = q->system, .graph = q->system->graph, .arena = arena, .f = f, .v = v };
+  size_t nx = q->system->nx;
+  *v = (ambit_variation) { 0 };
+  b.slope = room(&b, nx * nx, sizeof *b.slope);
+  b.column = room(&b, q->nby, sizeof *b.column);
+  uint32_t *place = room(&b, nx * q->nby, sizeof *place);
+  if (!b.slope || !b.column || !place) return no_memory(&b);
+  ambit_status status = differentiate(&b);
+  if (status != AMBIT_OK) return status;
+  v->place = place;
+  return assemble(&b, number_states(&b, place));
+}

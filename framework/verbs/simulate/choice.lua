@@ -1,0 +1,330 @@
+-- simulate/choice.lua -- a run whose solver nobody named: the one that suits best, and a way back. Where it ends early,
+-- makes no way, or completes with sets far wider than they need be, the next best one goes on. docs/choosing.md says
+-- when.
+--
+-- Every piece is a proof of its own; nothing here decides what is true, only who is asked next.
+local core = require "ambit.core"
+local option = require "ambit.option"
+
+local choice = {}
+
+local LOOSE = 1.5       -- times the sampled hull: what is wider is worth another solver ...
+local TIGHT = 1.2       -- ... and from what is not, another one can go on
+local PATIENCE = 2      -- s of CPU time after which it is asked whether the end is in reach
+local MORE, LEAST = 4, 8 -- CPU time of all that follows the first run: so many times its own, and at least so many s
+local REACH = 8         -- times what a steady try has taken, that its rest may take for it to go on
+local CUT = 4           -- times that, for the parts of a run that came to the end
+local PART = 0.5        -- of what is left of that: what one try has without question, or one hull of draws
+local AGAIN = 2         -- times what a run took that was stopped for its pace, after which it must be steady
+local CREEP = "unable.creep"
+local PIECES = { 8, 64 } -- into which the data are cut where every solver fails
+local DRAWS, MOST = 8, 128 -- draws of the hull for each datum, and at most
+local VISIBLE = 1e-6    -- width of a hull, in parts of its state, below which it is mostly rounding
+local FURTHER = 1e-6    -- of the whole time, by which one run gets further than another
+local SHARE = 0.01      -- of a state's widest hull, below which its width at a time does not matter
+
+-- -- how wide is it?
+
+-- The listed times that the run reached, on its clock.
+local function times_of(run)
+  local list = { run.times[1] }
+  local forward = run.times[#run.times] >= run.times[1]
+  for i = 2, #run.times do
+    local t = run.times[i]
+    if forward and t <= run.t_reached or not forward and t >= run.t_reached then list[#list + 1] = t end
+  end
+  if list[#list] ~= run.t_reached then list[#list + 1] = run.t_reached end
+  return list
+end
+
+local function tight_at(run, t)
+  local i, is_end = core.track_find(run.track, t)
+  return i and is_end and i
+end
+
+-- The widest set of state i at the listed times.
+local function widest_of(run, i)
+  local widest = 0
+  for _, t in ipairs(times_of(run)) do
+    local step = tight_at(run, t)
+    if step then widest = math.max(widest, core.track_value(run.track, step, i):width()) end
+  end
+  return widest
+end
+
+-- Are all sets at the end hardly wider than they are to first order in the data? Then they are tight, and nothing need
+-- be drawn to see it. A state that has come to rest, whose set was far wider before, does not count. A solver whose set
+-- is not a function of the data says nothing about it.
+local function is_plainly_tight(run)
+  local linear = core.track_linear(run.track)
+  if not linear then return false end
+  for i, name in ipairs(run.states) do
+    local x = run.x[name]
+    local width = x:width()
+    if width > VISIBLE * x:mag() and width > LOOSE * linear[i] and width >= SHARE * widest_of(run, i) then
+      return false
+    end
+  end
+  return true
+end
+
+-- The hull of draws at these times by state, or nil if there is none, or none in so many seconds: { t, lo = { [state] =
+-- { [time] } }, hi }.
+local function hull_of(q, times, unknowns, seconds)
+  local inner = require "ambit.sample".inner(q, math.min(MOST, DRAWS * (unknowns + 2)), 1,
+    { t = times, threads = 1, cpu = seconds })
+  return inner and inner.failed == 0 and inner or nil
+end
+
+-- The largest factor of width by sampled width, of which state, and when; nil: not known.
+local function worst(run, hull)
+  local most, which, when
+  for i, name in ipairs(run.states) do
+    local widest, size = 0, 0
+    for k = 2, #hull.t do
+      local lo, hi = hull.lo[i][k], hull.hi[i][k]
+      widest, size = math.max(widest, hi - lo), math.max(size, math.abs(lo), math.abs(hi))
+    end
+    for k = 2, #hull.t do
+      local step = tight_at(run, hull.t[k])
+      local width = hull.hi[i][k] - hull.lo[i][k]
+      local factor = step and widest > VISIBLE * size and width >= SHARE * widest
+        and core.track_value(run.track, step, i):width() / width
+      if factor and (not most or factor > most) then most, which, when = factor, name, hull.t[k] end
+    end
+  end
+  return most, which, when
+end
+
+-- run.overestimate of a run that nobody has looked at yet: estimated, not proved; nil: nothing is uncertain, or no
+-- sample reaches the end.
+function choice.overestimate(run, q)
+  local unknowns = run.report and run.report.unknowns or 0
+  if unknowns == 0 or #times_of(run) < 2 then return nil end
+  local hull = hull_of(q, times_of(run), unknowns)
+  if hull then return worst(run, hull) end
+end
+
+-- Did it come to the end? "partial": it is not certain which events happen.
+local function is_through(run) return run.status == "complete" or run.status == "partial" end
+
+-- -- the CPU time of everything that follows the first run
+
+-- Other solvers may take half of it, so that there is as much for cutting the data. Where a run came to the end it is
+-- known what its parts take, and that they do: they may cost more.
+local function budget_after(seconds) return core.cpu() + math.max(LEAST, MORE * seconds) / 2 end
+
+local function budget_of_parts(state)
+  local spent = state.best.cpu_seconds
+  if is_through(state.best) then return core.cpu() + CUT * math.max(LEAST, MORE * spent) end
+  return math.max(core.cpu(), state.ends) + math.max(LEAST, MORE * state.first_seconds) / 2
+end
+
+-- What the next try or hull has of it; not positive: nothing is left.
+local function part_of(ends, is_last) return (is_last and 1 or PART) * (ends - core.cpu()) end
+
+-- -- who goes on?
+
+-- Those of the list that prove their results, one by one: each is loaded when it is its turn.
+function choice.proving(list)
+  local i = 0
+  return function()
+    repeat i = i + 1 until not list[i] or option.declaration("solver", list[i].solver).rigorous
+    return list[i]
+  end
+end
+
+-- Calls `run` with the CPU time of this process limited, within a limit that holds already. Was this limit reached?
+function choice.within(seconds, run)
+  local outer = core.deadline(nil)
+  local own = core.cpu() + seconds
+  core.deadline(outer and math.min(outer, own) or own)
+  local good, problem = pcall(run)
+  core.deadline(outer)
+  if not good then error(problem, 0) end
+  return not (outer and core.cpu() >= outer) and core.cpu() >= own
+end
+
+local function describe(run)
+  if run.status == "complete" and run.overestimate then
+    return ("complete, with sets about %.3g times as wide as sampled ones"):format(run.overestimate)
+  end
+  return ("%s at t = %s"):format(run.status, core.literal(run.t_reached))
+end
+
+-- Is `run` better than `best`? Whoever got further; of complete ones, the narrower.
+local function is_better(run, best)
+  if run.status == "complete" and best.status == "complete" then
+    return (run.overestimate or math.huge) < (best.overestimate or math.huge)
+  end
+  if run.status == "complete" or best.status == "complete" then return run.status == "complete" end
+  local first, last = run.times[1], run.times[#run.times]
+  return math.abs(run.t_reached - first) > math.abs(best.t_reached - first) + FURTHER * math.abs(last - first)
+end
+
+-- Sets what is known of the width; a run that came to the end needs no other solver if that is little.
+local function judge(run, q, hull, ends)
+  if not is_through(run) then return false end
+  local is_tight = run.report.unknowns == 0 or is_plainly_tight(run)
+  if is_tight and not hull.made then return true end
+  if not hull.made and part_of(ends) <= 0 then return true end
+  if not hull.made then hull.made, hull.draws = true, hull_of(q, times_of(run), run.report.unknowns, part_of(ends)) end
+  if not hull.draws then return true end -- nothing to hold it against
+  run.overestimate = worst(run, hull.draws)
+  return is_tight or not run.overestimate or run.overestimate <= LOOSE
+end
+
+-- Can a run that ended early be gone on from: is what it reached still tight, and are its times those of the scene?
+local function goes_on(run, q, ends)
+  local times = q.times
+  if run.status ~= "unable" or q.events or times.shift or times.final or run.t_reached == times[1] then return false end
+  local unknowns = run.report.unknowns
+  if unknowns == 0 or not core.track_set(run.track) or part_of(ends) <= 0 then return false end
+  local hull = hull_of(q, times_of(run), unknowns, part_of(ends))
+  local factor = hull and worst(run, hull)
+  return factor and factor <= TIGHT
+end
+
+-- The request of what is left of a run.
+local function rest_of(q, run)
+  local times, initial, set = { run.t_reached }, {}, run:set()
+  local forward = q.times[#q.times] > q.times[1]
+  for _, t in ipairs(q.times) do
+    if forward and t > run.t_reached or not forward and t < run.t_reached then times[#times + 1] = t end
+  end
+  for i, name in ipairs(q.system.states) do initial[i] = set[name] end
+  return { initial = initial, times = times }
+end
+
+-- Did a run that goes on from the end of the best one get further? Only then the two become one: the first is changed.
+local function gains(run, state)
+  return is_better({ status = run.status, t_reached = run.t_reached, times = state.q.times }, state.best)
+end
+
+-- The second run behind the first.
+local function joined(first, second, q)
+  core.track_join(first.track, second.track)
+  second.track, second.initial, second.times, second.t_start = first.track, first.initial, q.times, first.t_start
+  second.question = first.question
+  second.cpu_seconds, second.step_count = first.cpu_seconds + second.cpu_seconds, first.step_count + second.step_count
+  rawset(second, "x", nil)
+  table.insert(second.parts, 1, { solver = first.solver, t_from = first.parts[1].t_from, t = first.t_reached })
+  return second
+end
+
+-- Does no ordinary run reach the end either? Then the solutions end, or are too hard to follow.
+local function is_beyond(run, q)
+  if run.status == "complete" then return false end
+  local times = { q.times[1], q.times[#q.times] }
+  local inner = require "ambit.sample".inner(q, DRAWS, 1, { t = times, cpu = math.max(1, run.cpu_seconds) })
+  return inner and inner.failed >= inner.draws
+end
+
+-- May another solver be asked after this? Not where the run was stopped from outside, or where nothing is to be gained.
+local function may_go_on(run) return is_through(run) or run.status == "unable" end
+
+local function record_way(state, try)
+  local last, from = state.tried[#state.tried], try.from
+  local fields = { "solver", try.solver, "t", from and from.t_reached or state.q.times[1], "after", last.solver,
+    "because", last.outcome }
+  if try.pieces then table.move({ "pieces", try.pieces }, 1, 2, #fields + 1, fields) end
+  core.record("way_back", fields)
+end
+
+-- One try: -> the run, is it the best one until now, is it good? Its records are kept only if it is the best.
+local function try_one(state, try)
+  local left, from = try.left or {}, try.from
+  record_way(state, try)
+  left.patience = not try.pieces and not try.reach and PATIENCE or nil -- pieces pass the instants late, all at once
+  left.due, left.reach = part_of(state.ends, try.pieces == PIECES[#PIECES]), try.reach or REACH
+  local run = state.ask(try, left)
+  local gained = not from or gains(run, state)
+  if from and gained then run = joined(from, run, state.q) end
+  local good = gained and judge(run, state.q, state.hull, state.ends)
+  state.tried[#state.tried + 1] = { solver = try.solver, pieces = try.pieces, outcome = describe(run), run = run }
+  local better = gained and is_better(run, state.best)
+  if better then state.best, state.by = run, try end
+  return run, better, good
+end
+
+-- One after the other of the ways to go on, while there is CPU time left -> is the best run good, or was it stopped?
+local function try_all(state, ways)
+  for try in ways do
+    if part_of(state.ends) <= 0 then
+      state.untried[#state.untried + 1] = { solver = try.solver, pieces = try.pieces }
+    else
+      core.records_hold()
+      local called, run, better, good = pcall(try_one, state, try)
+      core.records_release(called and better)
+      if not called then error(run, 0) end
+      if good or not may_go_on(run) then return true end
+      if try.pieces and not better then return false end
+    end
+  end
+  return false
+end
+
+-- The next best solvers, the first of which goes on from what the run reached, if that is tight.
+local function other_solvers(state)
+  local next_one = choice.proving(state.q.suggestion.others)
+  local from = goes_on(state.best, state.q, state.ends) and state.best or nil
+  return function()
+    local other = next_one()
+    if not other then return nil end
+    local try = { solver = other.solver, reason = other.reason, from = from, left = from and rest_of(state.q, from) }
+    from = nil
+    return try
+  end
+end
+
+-- The best solver until now, with the data that matter most cut.
+local function cut_data(state)
+  local i = 0
+  state.ends = budget_of_parts(state)
+  return function()
+    i = i + 1
+    local n = PIECES[i]
+    if state.q.events or not n then return nil end
+    return { solver = state.by.solver, pieces = n, left = { pieces = n },
+      reason = ("%s; the data are cut into %d parts, since whole they get too wide"):format(state.by.reason, n) }
+  end
+end
+
+-- The best run was stopped for its pace, and nobody got further: it is done again, for as long as it goes on steadily.
+local function carry_on(state)
+  local best, by, is_asked = state.best, state.by, false
+  state.ends = core.cpu() + best.cpu_seconds / PART * AGAIN
+  return function()
+    if is_asked then return nil end
+    is_asked = true
+    return { solver = by.solver, reason = by.reason, reach = math.huge }
+  end
+end
+
+-- q: a request with a suggestion; ask({ solver, reason }, changes) -> its run. changes: what is not as in the request.
+function choice.solve(q, ask)
+  local others = q.suggestion.others
+  local began = core.cpu()
+  local first = ask(q.suggestion, { patience = #others > 0 and PATIENCE or nil })
+  local hull, first_seconds = {}, core.cpu() - began
+  local ends = budget_after(first_seconds)
+  if judge(first, q, hull, ends) or #others == 0 or not may_go_on(first) then return first end
+  if q.run_options.pieces or q.run_options.unknown or is_beyond(first, q) then return first end
+  local state = { q = q, ask = ask, hull = hull, ends = ends, first_seconds = first_seconds,
+    best = first, by = q.suggestion, untried = {},
+    tried = { { solver = first.solver, outcome = describe(first), run = first } } }
+  local good = try_all(state, other_solvers(state))
+  good = good or first.report.unknowns > 0 and try_all(state, cut_data(state))
+  if not good and state.best.code == CREEP and not state.by.pieces and not state.by.from then
+    try_all(state, carry_on(state))
+  end
+  local best = state.best
+  if best.status == "unable" then
+    require "ambit.simulate.choice_reason".add(q, best, state, choice.within)
+  end
+  for _, try in ipairs(state.tried) do try.run = nil end
+  best.tried = state.tried
+  return best
+end
+
+return choice

@@ -1,0 +1,49 @@
+/* simulate.h -- the verb `simulate`: from a system and its uncertain initial state to a stream of records. */
+#ifndef AMBIT_SIMULATE_H
+#define AMBIT_SIMULATE_H
+#include "host/registry.h"
+#include "verbs/run/report.h"
+#include "verbs/split/split_plan.h"
+#include "graph/system.h"
+#include <ambit/solver.h>
+
+typedef struct ambit_simulate_request {
+  const ambit_system *system;
+  ambit_registry *registry;
+  const char *solver;     /* "lohner" */
+  const char *arithmetic; /* NULL: the solver's default */
+  size_t nsolver_option, narithmetic_option;
+  const ambit_option *solver_option, *arithmetic_option;
+  const ambit_expr *initial; /* [nx] over unknowns; every state */
+  size_t ntime;              /* >= 2 */
+  const double *time;
+  uint32_t threads;     /* at most; 0: as verbs/run/processors.h says */
+  size_t ncut;          /* uncertain data to cut (split.h), or names of others */
+  const ambit_cut *cut; /* without cuts and `pieces` the run is one */
+  uint32_t pieces;      /* at most so many by choice of the data to cut; 0: only those of `cut` */
+  uint32_t wish;        /* AMBIT_WISH_*: what the sink would like besides */
+  /* or NULL: is told, before the first record, the unknowns that sets (ambit_set) are functions of */
+  void (*prepared)(void *user, size_t nu, const ambit_expr *unknown);
+  void *prepared_user;
+  size_t nnarrow; /* unknowns that have a narrower range in this run than their own, and that range */
+  const ambit_expr *narrow;
+  const ambit_interval *range;
+  ambit_sink *sink; /* sees every record as it is made */
+} ambit_simulate_request;
+
+typedef struct ambit_simulate_result {
+  ambit_status status;            /* OK = complete, UNABLE, STOPPED, DOMAIN */
+  char code[AMBIT_CODE_MAX];      /* "" if complete */
+  char reason[AMBIT_MESSAGE_MAX]; /* "" if complete; else why, and which knob to turn */
+  double t_reached;
+  double cpu_seconds; /* of the integration itself, over all threads */
+  double wall_seconds;
+  uint32_t steps, threads, pieces;
+  uint32_t rigorous;
+} ambit_simulate_result;
+
+/* Returns INVALID or NOMEM for requests that cannot start (f explains: pairs that do not fit are refused by name with
+** the list of what fits), otherwise OK with the outcome in `result`. Builds only what the solver wants. */
+ambit_status ambit_simulate(
+    const ambit_simulate_request *q, ambit_simulate_result *result, ambit_report *report, ambit_failure *f);
+#endif

@@ -1,0 +1,28 @@
+/* split_plan.h -- which data a split cuts, and into how many parts. */
+#ifndef AMBIT_SPLIT_PLAN_H
+#define AMBIT_SPLIT_PLAN_H
+#include "graph/graph.h"
+#include "verbs/split/pieces.h"
+#include <ambit/solver.h>
+
+/* What is asked for an unknown; parts == 0: nothing, but it has this name, and may be cut by choice. */
+typedef struct ambit_cut {
+  ambit_expr unknown;
+  const char *name;
+  uint32_t parts;
+} ambit_cut;
+
+typedef struct ambit_split_plan {
+  ambit_pieces pieces;
+  const char *const *name; /* [nu] or NULL each */
+} ambit_split_plan;
+
+/* Cuts as asked and, with total > 0, the others by their influence on the solution (probe.h), so that there are at most
+** `total` pieces. INVALID: an unknown that the problem does not depend on, more than one request for an unknown. */
+ambit_status ambit_split_plan_make(const ambit_problem *p, const ambit_tape *initial, const ambit_expr *unknown,
+    size_t ncut, const ambit_cut *cut, uint32_t total, ambit_arena *arena, ambit_split_plan *plan, ambit_failure *f);
+
+/* The instants of a run whose pieces are to be merged: the given ones, or, if only a start and an end are given, these
+** and equal intervals between them, so that the tubes say something. n is changed; NULL: out of memory. */
+const double *ambit_split_plan_instants(ambit_arena *arena, const double *time, size_t *n);
+#endif

@@ -1,4 +1,0 @@
-/* right.c -- nothing wrong here. */
-#include "model/evaluate.h"
-#include <ffi.h>
-#include <lua.h>
