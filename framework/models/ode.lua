@@ -63,7 +63,7 @@ end
 -- declaration: the equations as they were written, function(s, p, t), if they can be written again
 function ode.of_system(system, name, mechanism, parameters, declaration)
   local self = object(system, name, mechanism, parameters, declaration)
-  session.add(session.odes, self)
+  session.add_ode(self)
   return self
 end
 

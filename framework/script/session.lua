@@ -10,6 +10,7 @@ local session = {
   verbs = nil,                            -- a list: a command wants to know all of them, in order
   mechanisms = setmetatable({}, weak),    -- by number; only what is still alive
   odes = setmetatable({}, weak),
+  units = {},                             -- name of a state -> { unit, ..., [unit] = true } of all systems, those that are gone, too
   observer = nil,                         -- `ambit explain`: a function that is told of every verb as it ends
   worst = "ok",                           -- the worst code that a verb ended with
   closing = nil,                          -- a function: the command is over, and wants to know of codes all the same
@@ -27,6 +28,16 @@ local count = 0
 function session.add(list, value)
   count = count + 1
   list[count] = value
+end
+
+-- Remembers an ode, and for ever the units of its states: what a value may be is no matter of what is still alive.
+function session.add_ode(system)
+  session.add(session.odes, system)
+  for i, name in ipairs(system.states) do
+    local units = session.units[name] or {}
+    session.units[name] = units
+    if not units[system.units[i]] then units[#units + 1], units[system.units[i]] = system.units[i], true end
+  end
 end
 
 -- For `ambit explain`: from now on nothing is forgotten, and observer(verb) is called at the end of each verb.

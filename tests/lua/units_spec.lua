@@ -269,7 +269,7 @@ end)
 
 describe("a mechanism", function()
   local m = ambit.mechanism { "arm", gravity = { 0, "-9.81", 0 } }
-  local joint, shoulder = m:revolute { from = m.world, axis = "z", name = "q" }
+  local joint, shoulder = m:revolute { from = m.world, axis = "z", name = "bend" }
   local tip = m:rigid_link { from = joint, offset = { 1, 0, 0 } }
   m:point_mass { at = tip, mass = 2 }
 
@@ -278,10 +278,11 @@ describe("a mechanism", function()
     local quantities = { { m:position(tip).x, "m" }, { m:velocity(tip).y, "m/s" }, { m:acceleration(tip).y, "m/s^2" },
       { m:angular_velocity(tip).z, "rad/s" }, { m:distance(tip, m.world), "m" }, { m:energy().total, "J" },
       { m:power(), "W" }, { m:total_mass(), "kg" }, { m:centre_of_mass().x, "m" }, { at.linear.x, "N s" },
-      { at.angular.z, "N m s" }, { m:coordinates()["q'"], "rad/s" }, { m:coordinates()["q''"], "rad/s^2" },
+      { at.angular.z, "N m s" }, { m:coordinates()["bend'"], "rad/s" }, { m:coordinates()["bend''"], "rad/s^2" },
       { m:mass_matrix()[1][1], "kg m^2" }, { m:bias()[1], "N m" }, { m:gravity_torque()[1], "N m" },
       { m:inverse_dynamics()[1], "N m" }, { m:generalised_forces()[1], "N m" }, { m:jacobian(tip)[5][1], "m" },
-      { m:forward_dynamics()[1], "rad/s^2" }, { m:dynamics():rate "q'", "rad/s^2" }, { m:orientation(tip)[1][1], "1" },
+      { m:forward_dynamics()[1], "rad/s^2" }, { m:dynamics():rate "bend'", "rad/s^2" },
+      { m:orientation(tip)[1][1], "1" },
       { m:reaction(shoulder).force.x, "N" }, { m:reaction(shoulder).torque.z, "N m" },
       { m:relative_pose(m.world, tip).position.x, "m" }, { m:relative_velocity(m.world, tip).linear.x, "m/s" },
       { m:angle(m.world, tip), "rad" } }
@@ -293,7 +294,7 @@ describe("a mechanism", function()
   end)
 
   it("checks values of its variables, laws and parameters", function()
-    fails(function() ambit.evaluate { m:position(tip).x, at = { q = m:position(tip).y } } end, "at.q",
+    fails(function() ambit.evaluate { m:position(tip).x, at = { bend = m:position(tip).y } } end, "at.bend",
       "a number or angle (rad)", "a length (m)")
     fails(function() m:joint_torque { joint = shoulder, torque = function(q) return number "3 N m" / q / "1 s" end } end,
       "torque", "a torque or energy (N m)", "a power (W)")
@@ -302,10 +303,10 @@ describe("a mechanism", function()
     end, "force[1]", "a force (N)")
     fails(function() m:point_mass { at = tip, mass = m:distance(tip, m.world) } end, "mass", "a mass (kg)", "a length (m)")
     for _, box in ipairs { { "1 m", "2 m" }, "[1, 2] m", { 0, m:distance(tip, m.world) } } do
-      fails(function() ambit.equilibria { m:dynamics(), box = { q = box } } end, "box.q")
+      fails(function() ambit.equilibria { m:dynamics(), box = { bend = box } } end, "box.bend")
     end
-    local function safe(s) return s.q - "1 m" end
-    fails(function() ambit.verify { m:dynamics(), initial = { q = 0, ["q'"] = 0 }, t = 1, safe = safe } end,
+    local function safe(s) return s.bend - "1 m" end
+    fails(function() ambit.verify { m:dynamics(), initial = { bend = 0, ["bend'"] = 0 }, t = 1, safe = safe } end,
       "a number or angle (rad)", "a length (m)")
   end)
 

@@ -28,11 +28,9 @@ function binding.value(leaf, value, what)
   local function in_unit(unit) return core.expression(value, unit ~= "1" and unit or nil, what) end
   local good, result = pcall(in_unit, leaf.unit)
   if good then return result end
-  for _, system in pairs(session.odes) do
-    for i, name in ipairs(system.states) do
-      local fits, other = pcall(in_unit, name == leaf.name and system.units[i] or leaf.unit)
-      if fits then return other end
-    end
+  for _, unit in ipairs(session.units[leaf.name] or {}) do
+    local fits, other = pcall(in_unit, unit)
+    if fits then return other end
   end
   error(result, 0)
 end
