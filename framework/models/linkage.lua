@@ -22,7 +22,7 @@ function linkage.plane(axis)
 end
 
 -- The enclosure of an expression, whatever its unknowns are.
-function linkage.enclose(e) return (core.evaluate("interval", {}, { e }, {}, {}))[1] end
+function linkage.enclose(e) return (core.evaluate { expressions = { e } })[1] end
 
 -- The enclosure of a length; refuses one that moves.
 function linkage.check_fixed(what, name, length)

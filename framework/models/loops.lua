@@ -54,7 +54,7 @@ end
 
 -- What a user writes, as a set of numbers.
 local function set_of(value, unit, what)
-  return core.evaluate("interval", {}, { core.expression(value, unit, what) }, {}, {})[1]
+  return core.evaluate { expressions = { core.expression(value, unit, what) } }[1]
 end
 
 -- m:reference { beta = "-0.06" }: the assembled configuration at which the independent coordinates are chosen (of sets

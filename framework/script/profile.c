@@ -56,13 +56,17 @@ static bool is_verb(const char *name) {
   return false;
 }
 
-/* "simulate lohner interval, scene.lua:12": its arguments that are texts, and where the script asks for it */
+/* "simulate lohner interval, scene.lua:12": the solver and the arithmetic of its request, and where the script asks for
+** it */
 static void enter_verb(lua_State *L, const char *name) {
   char text[AMBIT_FRAME_NAME];
   size_t used = (size_t)snprintf(text, sizeof text, "%s", name);
-  for (int i = 1; i <= 3 && used < sizeof text; i++)
-    if (lua_type(L, i) == LUA_TSTRING)
-      used += (size_t)snprintf(text + used, sizeof text - used, " %.24s", lua_tostring(L, i));
+  static const char *const key[] = { "solver", "arithmetic" };
+  for (size_t i = 0; i < sizeof key / sizeof *key && lua_istable(L, 1); i++) {
+    if (lua_getfield(L, 1, key[i]) == LUA_TSTRING && used < sizeof text)
+      used += (size_t)snprintf(text + used, sizeof text - used, " %.24s", lua_tostring(L, -1));
+    lua_pop(L, 1);
+  }
   ambit_lua_where(L);
   const char *where = lua_tostring(L, -1);
   size_t length = strlen(where);

@@ -1,5 +1,7 @@
-/* request.c -- what the verbs share: options, instants, fields and reports between Lua tables and C. */
+/* request.c -- what the verbs share: questions, options, lists and reports between Lua tables and C. */
 #include "script/request.h"
+#include "models/system_lua.h"
+#include "script/fields.h"
 #include <string.h>
 
 /* {name, text, name, text, ...} at idx -> options owned by Lua */
@@ -31,36 +33,70 @@ void ambit_lua_set_text(lua_State *L, const char *key, const char *value) {
   lua_setfield(L, -2, key);
 }
 
-static void set_work(lua_State *L, const char *key, uint64_t value) {
-  lua_pushinteger(L, (lua_Integer)value);
-  lua_setfield(L, -2, key);
+void ambit_lua_push_report(lua_State *L, const ambit_report *r) {
+#define ONE(member, kind) AMBIT_LUA_ONE(ambit_report, #member, kind, 0, member)
+  static const ambit_lua_field field[] = { ONE(arithmetic, AMBIT_LUA_BUFFER), ONE(solver, AMBIT_LUA_BUFFER),
+    ONE(expressions, AMBIT_LUA_COUNT), ONE(graph_nodes, AMBIT_LUA_WORK), ONE(tape_slots, AMBIT_LUA_COUNT),
+    ONE(tape_constants, AMBIT_LUA_COUNT), ONE(tape_instructions, AMBIT_LUA_COUNT), ONE(tape_runs, AMBIT_LUA_COUNT),
+    ONE(states, AMBIT_LUA_COUNT), ONE(parameters, AMBIT_LUA_COUNT), ONE(unknowns, AMBIT_LUA_COUNT),
+    ONE(constant_slots, AMBIT_LUA_COUNT), ONE(steps, AMBIT_LUA_COUNT), ONE(seconds_build, AMBIT_LUA_NUMBER),
+    ONE(seconds_run, AMBIT_LUA_NUMBER), ONE(seconds_graph, AMBIT_LUA_NUMBER), ONE(seconds_tape, AMBIT_LUA_NUMBER),
+    ONE(seconds_context, AMBIT_LUA_NUMBER), ONE(seconds_open, AMBIT_LUA_NUMBER), ONE(seconds_close, AMBIT_LUA_NUMBER),
+#define AMBIT_X(name, what) AMBIT_LUA_ONE(ambit_report, #name, AMBIT_LUA_WORK, 0, work.name),
+    AMBIT_WORKS(AMBIT_X)
+#undef AMBIT_X
+  };
+#undef ONE
+  static const ambit_lua_fields fields = AMBIT_LUA_FIELDS(ambit_report, field);
+  ambit_lua_push(L, &fields, r);
 }
 
-void ambit_lua_push_report(lua_State *L, const ambit_report *r) {
-  lua_createtable(L, 0, 40);
-  ambit_lua_set_text(L, "arithmetic", r->arithmetic);
-  if (r->solver[0]) ambit_lua_set_text(L, "solver", r->solver);
-  ambit_lua_set_count(L, "expressions", r->expressions);
-  set_work(L, "graph_nodes", r->graph_nodes);
-  ambit_lua_set_count(L, "tape_slots", r->tape_slots);
-  ambit_lua_set_count(L, "tape_constants", r->tape_constants);
-  ambit_lua_set_count(L, "tape_instructions", r->tape_instructions);
-  ambit_lua_set_count(L, "tape_runs", r->tape_runs);
-  ambit_lua_set_count(L, "states", r->states);
-  ambit_lua_set_count(L, "parameters", r->parameters);
-  ambit_lua_set_count(L, "unknowns", r->unknowns);
-  ambit_lua_set_count(L, "constant_slots", r->constant_slots);
-  ambit_lua_set_count(L, "steps", r->steps);
-  ambit_lua_set_number(L, "seconds_build", r->seconds_build);
-  ambit_lua_set_number(L, "seconds_run", r->seconds_run);
-  ambit_lua_set_number(L, "seconds_graph", r->seconds_graph);
-  ambit_lua_set_number(L, "seconds_tape", r->seconds_tape);
-  ambit_lua_set_number(L, "seconds_context", r->seconds_context);
-  ambit_lua_set_number(L, "seconds_open", r->seconds_open);
-  ambit_lua_set_number(L, "seconds_close", r->seconds_close);
-#define AMBIT_X(name, what) set_work(L, #name, r->work.name);
-  AMBIT_WORKS(AMBIT_X)
-#undef AMBIT_X
+ambit_evaluate_request ambit_lua_read_question(lua_State *L, int idx, const char *what) {
+#define LIST(key, kind, flags, member, count) AMBIT_LUA_LIST(ambit_evaluate_request, key, kind, flags, member, count)
+  static const ambit_lua_field field[] = { AMBIT_LUA_ONE(
+                                               ambit_evaluate_request, "arithmetic", AMBIT_LUA_TEXT, 0, arithmetic),
+    LIST("options", AMBIT_LUA_OPTIONS, 0, option, noption),
+    LIST("expressions", AMBIT_LUA_EXPRESSIONS, AMBIT_LUA_NEEDED, expr, nexpr),
+    LIST("leaves", AMBIT_LUA_EXPRESSIONS, 0, leaf, nbinding),
+    LIST("values", AMBIT_LUA_EXPRESSIONS, AMBIT_LUA_SAME, value, nbinding) };
+#undef LIST
+  static const ambit_lua_fields fields = AMBIT_LUA_FIELDS(ambit_evaluate_request, field);
+  ambit_evaluate_request q = { .graph = AMBIT_LUA(L)->graph, .registry = AMBIT_LUA(L)->registry };
+  ambit_lua_read(L, idx, what, &fields, &q);
+  if (q.nbinding && !q.value) ambit_lua_error(L, "core.%s: `values` is missing", what);
+  return q;
+}
+
+typedef struct flow {
+  ambit_simulate_request q;
+  size_t nx;
+} flow;
+
+static ambit_simulate_request read_flow(lua_State *L, int idx, const char *what, bool outline) {
+#define LIST(key, kind, flags, member, count) AMBIT_LUA_LIST(flow, key, kind, flags, member, count)
+  static const ambit_lua_field field[] = { { .key = "system", .kind = AMBIT_LUA_OTHER },
+    AMBIT_LUA_ONE(flow, "solver", AMBIT_LUA_TEXT, AMBIT_LUA_NEEDED, q.solver),
+    AMBIT_LUA_ONE(flow, "arithmetic", AMBIT_LUA_TEXT, 0, q.arithmetic),
+    LIST("options", AMBIT_LUA_OPTIONS, 0, q.solver_option, q.nsolver_option),
+    LIST("arithmetic_options", AMBIT_LUA_OPTIONS, 0, q.arithmetic_option, q.narithmetic_option),
+    LIST("initial", AMBIT_LUA_EXPRESSIONS, AMBIT_LUA_NEEDED | AMBIT_LUA_SAME, q.initial, nx),
+    LIST("times", AMBIT_LUA_NUMBERS, AMBIT_LUA_NEEDED, q.time, q.ntime) };
+#undef LIST
+  static const ambit_lua_fields fields = AMBIT_LUA_FIELDS(flow, field);
+  luaL_checktype(L, idx, LUA_TTABLE);
+  lua_getfield(L, idx, "system");
+  const ambit_lua_system *s = (outline ? ambit_lua_check_outline : ambit_lua_check_system)(L, lua_gettop(L));
+  flow f = { .q = { .system = &s->system, .registry = AMBIT_LUA(L)->registry }, .nx = s->system.nx };
+  ambit_lua_read(L, idx, what, &fields, &f);
+  return f.q;
+}
+
+ambit_simulate_request ambit_lua_read_flow(lua_State *L, int idx, const char *what) {
+  return read_flow(L, idx, what, false);
+}
+
+ambit_simulate_request ambit_lua_read_outline(lua_State *L, int idx, const char *what) {
+  return read_flow(L, idx, what, true);
 }
 
 double *ambit_lua_numbers(lua_State *L, int idx, size_t *n) {

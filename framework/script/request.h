@@ -1,5 +1,5 @@
-/* request.h -- what the verbs share: options, lists, fields and reports between Lua tables and C. Arrays are Lua's
-** (one userdata each, pushed). */
+/* request.h -- what the verbs share: questions, options, lists and reports between Lua tables and C. Arrays are Lua's
+** (one userdata each, pushed). Requests of one verb alone are declared beside it (script/fields.h). */
 #ifndef AMBIT_LUA_REQUEST_H
 #define AMBIT_LUA_REQUEST_H
 #include "script/core.h"
@@ -12,13 +12,16 @@ double *ambit_lua_numbers(lua_State *L, int idx, size_t *n);       /* {x, ...} *
 const char **ambit_lua_texts(lua_State *L, int idx, size_t *n);    /* {text, ...}; the texts stay the table's */
 void ambit_lua_push_report(lua_State *L, const ambit_report *r);
 
-/* (arithmetic, options, {expression}, {leaf}, {value}) at 1..5 */
-ambit_evaluate_request ambit_lua_evaluate_request(lua_State *L);
+/* What is evaluated: { arithmetic = nil (the verb's own), options, expressions, leaves, values } at idx; leaves, values:
+** the bindings. */
+ambit_evaluate_request ambit_lua_read_question(lua_State *L, int idx, const char *what);
 /* {enclosure, ...}; partial [n]: 1 where it holds for a part of the data only, or NULL */
 void ambit_lua_push_enclosures(lua_State *L, size_t n, const ambit_interval *x, const uint8_t *partial);
 
-/* (system, solver, arithmetic or nil, solver options, arithmetic options, {initial}, {time}) at 1..7 */
-ambit_simulate_request ambit_lua_simulate_request(lua_State *L);
+/* What is run: { system, solver = "" (none), arithmetic, options, arithmetic_options, initial, times } at idx. */
+ambit_simulate_request ambit_lua_read_flow(lua_State *L, int idx, const char *what);
+/* the same; of the system the states are enough */
+ambit_simulate_request ambit_lua_read_outline(lua_State *L, int idx, const char *what);
 
 /* Field of the table on top of the stack. */
 void ambit_lua_set_number(lua_State *L, const char *key, double value);

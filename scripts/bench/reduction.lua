@@ -45,8 +45,8 @@ local function seconds(model, given, solver, options)
   local rates = core.substitute(model.rates, given.leaves, given.values)
   local system = core.system(model.states, model.units, model.symbols, rates)
   for _ = 1, REPEATS do
-    local _, facts = core.simulate(system, solver, nil, options or reference.options(system, initial, given.times), {},
-      initial, given.times, nil, {})
+    local _, facts = core.simulate { system = system, solver = solver, initial = initial, times = given.times,
+      options = options or reference.options(system, initial, given.times) }
     if facts.status ~= "complete" then return nil end
     least = math.min(least or math.huge, facts.cpu_seconds)
   end

@@ -46,9 +46,9 @@ end
 -- The rigorous runs that work() makes.
 local function runs_of(work)
   local simulate, count = core.simulate, 0
-  core.simulate = function(system, solver, ...)
-    if solver ~= "gsl" then count = count + 1 end
-    return simulate(system, solver, ...)
+  core.simulate = function(flow, ...)
+    if flow.solver ~= "gsl" then count = count + 1 end
+    return simulate(flow, ...)
   end
   local good, result = pcall(work)
   core.simulate = simulate

@@ -61,9 +61,10 @@ describe("a run of the solver that suits", function()
   it("is gone on from where it ended with a tight set", function()
     local system, initial = chain(2, "0.1%")
     local simulate = core.simulate
-    core.simulate = function(s, solver, a, o, p, i, times, ...) -- luacheck: ignore
-      local track, facts, report = simulate(s, solver, a, o, p, i, solver == "lohner" and { 0, 0.25 } or times, ...)
-      if solver == "lohner" then facts.status, facts.code, facts.reason = "unable", "unable.step", "made to" end
+    core.simulate = function(flow, ...) -- luacheck: ignore
+      if flow.solver == "lohner" then flow.times = { 0, 0.25 } end
+      local track, facts, report = simulate(flow, ...)
+      if flow.solver == "lohner" then facts.status, facts.code, facts.reason = "unable", "unable.step", "made to" end
       return track, facts, report
     end
     local good, run = pcall(with_lohner_first, { system, initial = initial, t = { 0, 0.5, 1 }, dense = true })
@@ -173,9 +174,10 @@ describe("a run of the solver that suits", function()
     local system, initial = chain(2, "1%")
     local clock, asked, cpu, simulate, own = 0, {}, core.cpu, core.simulate, suggest.solver
     core.cpu = function() return clock end -- luacheck: ignore
-    core.simulate = function(s, solver, ...) -- luacheck: ignore
+    core.simulate = function(flow, ...) -- luacheck: ignore
+      local solver = flow.solver
       asked[#asked + 1] = solver
-      local track, facts, report = simulate(s, solver, ...)
+      local track, facts, report = simulate(flow, ...)
       clock = clock + 3 -- s: the first run took three, so that others have six
       if solver == "valencia" then clock = clock + 10 end
       facts.status, facts.code, facts.reason, facts.t_reached = "unable", "unable.step", "made to", 0
@@ -196,12 +198,11 @@ describe("a run of the solver that suits", function()
     local system, initial = chain(2, "0.1%")
     local clock, due, cpu, simulate = 0, nil, core.cpu, core.simulate
     core.cpu = function() return clock end -- luacheck: ignore
-    core.simulate = function(s, solver, a, o, p, i, times, watch, options) -- luacheck: ignore
+    core.simulate = function(flow, watch, options) -- luacheck: ignore
       if options.pieces == 8 then due = options.due end
-      local track, facts, report = simulate(s, solver, a, o, p, i, times, watch,
-        { silent = true, pieces = options.pieces })
+      local track, facts, report = simulate(flow, watch, { silent = true, pieces = options.pieces })
       clock, facts.cpu_seconds = clock + 3, 3
-      if solver == "valencia" then facts.status, facts.code, facts.t_reached = "unable", "unable.step", 0 end
+      if flow.solver == "valencia" then facts.status, facts.code, facts.t_reached = "unable", "unable.step", 0 end
       return track, facts, report
     end
     local good, run = pcall(with_lohner_first, { system, initial = initial, t = { 0, 1 } }, "valencia")
@@ -215,14 +216,15 @@ describe("a run of the solver that suits", function()
   it("goes on with the first, as long as it is steady, where that was slow and nobody got further", function()
     local system, initial = chain(2, "1%")
     local asked, reach, simulate = {}, {}, core.simulate
-    core.simulate = function(s, solver, a, o, p, i, times, watch, options) -- luacheck: ignore
+    core.simulate = function(flow, watch, options) -- luacheck: ignore
       local n = #asked + 1
-      asked[n], reach[n] = solver, options.reach
-      local track, facts, report = simulate(s, solver, a, o, p, i, n == 1 and { 0, 0.01 } or times, watch, options)
+      asked[n], reach[n] = flow.solver, options.reach
+      if n == 1 then flow.times = { 0, 0.01 } end
+      local track, facts, report = simulate(flow, watch, options)
       if n == 1 then
         facts.status, facts.code, facts.reason, facts.cpu_seconds = "unable", "unable.creep", "made to", 60
       end
-      if solver == "valencia" or options.pieces then
+      if flow.solver == "valencia" or options.pieces then
         facts.status, facts.code, facts.reason, facts.t_reached = "unable", "unable.step", "made to", 0
       end
       return track, facts, report
@@ -250,9 +252,10 @@ describe("verify", function()
   it("asks another solver where the first is open, and ends one that makes no way", function()
     local o = ambit.ode { states = { "x", "v" }, equations = function(s) return { s.v, -s.x - s.v / 10 } end }
     local asked, watch, own = {}, core.watch, suggest.solver
-    core.watch = function(s, solver, ...) -- luacheck: ignore
-      local findings, outcome, report = watch(s, solver, ...)
-      assert.equal(2, (select(17, ...))) -- patience
+    core.watch = function(flow, wishes) -- luacheck: ignore
+      local findings, outcome, report = watch(flow, wishes)
+      local solver = flow.solver
+      assert.equal(2, wishes.patience)
       if solver == "taylor_model" then outcome.status = "unable" findings[1].holds = false findings[1].hi = math.huge end
       asked[#asked + 1] = solver
       return findings, outcome, report

@@ -196,7 +196,7 @@ local function point(system, implicit)
   return leaves, values
 end
 
-local function exact(list, leaves, values) return core.evaluate("mpfr", {}, list, leaves, values) end
+local function exact(list, leaves, values) return core.evaluate { arithmetic = "mpfr", expressions = list, leaves = leaves, values = values } end
 
 local function expect_zero(list, what)
   for i, x in ipairs(list) do
@@ -268,7 +268,7 @@ end
 
 local function numbers(list, leaves, values)
   local out = {}
-  for i, x in ipairs(core.evaluate("real", {}, list, leaves, values)) do out[i] = x:mid() end
+  for i, x in ipairs(core.evaluate { arithmetic = "real", expressions = list, leaves = leaves, values = values }) do out[i] = x:mid() end
   return out
 end
 
@@ -475,7 +475,7 @@ describe("the right-hand sides of many joints", function()
   setup(function() math.randomseed(19) end)
 
   it("are not written for a solver that takes the implicit form", function()
-    local function made() return select(2, core.evaluate("interval", {}, { core.expression(1) }, {}, {})).graph_nodes end
+    local function made() return select(2, core.evaluate { expressions = { core.expression(1) } }).graph_nodes end
     local d, before = long_chain(14, true):dynamics(), made()
     local run = ambit.simulate { d, initial = at_rest(d), t = { 0, "0.01" }, solver = "zonotope" }
     assert.equal("complete", run.status)

@@ -116,7 +116,7 @@ describe("a mechanism built anew", function()
       name = "rod" }
     m:spring_damper { from = slide, from_offset = { 1, 1, 0 }, to = tip, stiffness = 5, length = "1.5", name = "stay" }
     local r, number = candidates(m, true)
-    local function at(name) return core.evaluate("interval", {}, r.candidates[number[name]].motions, {}, {})[1] end
+    local function at(name) return core.evaluate { expressions = r.candidates[number[name]].motions }[1] end
     assert.is_true(at("rod: rigid"):contains(-0.3 + math.sqrt(1 - 0.16)))
     local q = at("stay: rigid"):mid() -- the circle about (1, 1) with radius 1.5 and that about 0 with radius 2
     assert.is_true(math.abs((2 * math.cos(q) - 1) ^ 2 + (2 * math.sin(q) - 1) ^ 2 - 2.25) < 1e-12)

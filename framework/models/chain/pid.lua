@@ -15,7 +15,7 @@ local function limited(torque, limit)
   return core.max(-limit, core.min(limit, torque))
 end
 
-local function is_positive(e) return core.evaluate("interval", {}, { e }, {}, {})[1].lo > 0 end
+local function is_positive(e) return core.evaluate { expressions = { e } }[1].lo > 0 end
 
 -- ki tau: what the excess is divided by, for the integral to stand still.
 local function unwinding(p, kp, ki)

@@ -135,7 +135,7 @@ local function residuals(q, ranges)
   end
   table.move(q.leaves, 1, #q.leaves, #leaves + 1, leaves)
   table.move(q.values, 1, #q.values, #values + 1, values)
-  return (core.evaluate("interval", {}, q.expressions, leaves, values))
+  return (core.evaluate { expressions = q.expressions, leaves = leaves, values = values })
 end
 
 -- The first row of each loop that `is_open` says is open: "`close1` (close1.2: 0.3)"
@@ -177,7 +177,7 @@ end
 -- One configuration: what is given, and what was found.
 local function complete(point, given)
   local whole = {}
-  for name, value in pairs(given) do whole[name] = core.evaluate("interval", {}, { value }, {}, {})[1] end
+  for name, value in pairs(given) do whole[name] = core.evaluate { expressions = { value } }[1] end
   for name, x in pairs(point) do whole[name] = x end
   return setmetatable(whole, getmetatable(point))
 end
@@ -295,7 +295,8 @@ end
 
 -- Where a plain iteration ends: { centre, open, converged }.
 local function approach(q, start)
-  local centre, open, converged = core.approach(q.expressions, q.symbols, q.names, q.leaves, q.values, start)
+  local centre, open, converged = core.approach { equations = q.expressions, unknowns = q.symbols,
+    names = q.names, leaves = q.leaves, values = q.values, x = start }
   if not centre then return { centre = start, converged = false } end
   return { centre = converged and centre or start, open = open, converged = converged }
 end

@@ -46,7 +46,8 @@ end
 local function numbers(expressions, leaves, at)
   local values, out = {}, {}
   for i, x in ipairs(at) do values[i] = core.expression(x) end
-  for i, x in ipairs(core.evaluate("real", {}, expressions, leaves, values)) do
+  local found = core.evaluate { arithmetic = "real", expressions = expressions, leaves = leaves, values = values }
+  for i, x in ipairs(found) do
     out[i] = x:mid()
     if x.partial or not (math.abs(out[i]) < math.huge) then return nil end
   end
@@ -120,7 +121,7 @@ local function enclose_rest(p, y, box)
   local name, options = option.arithmetic({ "taylor_model", order = 2 }, "assemble")
   local n, both, values = #y, table.move(y, 1, #y, 1, {}), {}
   table.move(core.substitute(p.list, p.symbols, y), 1, n, n + 1, both)
-  local found = core.evaluate(name, options, both, {}, {})
+  local found = core.evaluate { arithmetic = name, options = options, expressions = both }
   local ranges, defects = {}, {}
   for i = 1, n do
     ranges[i], defects[i] = found[i]:hull(box[i]), -found[n + i]
@@ -129,8 +130,8 @@ local function enclose_rest(p, y, box)
     end
     values[i] = core.expression(ranges[i])
   end
-  if not core.are_smooth(p.list, p.symbols, p.names, {}, {}, ranges) then return nil end
-  local entries = core.evaluate("interval", {}, p.jacobian, p.symbols, values)
+  if not core.are_smooth { equations = p.list, unknowns = p.symbols, names = p.names, box = ranges } then return nil end
+  local entries = core.evaluate { expressions = p.jacobian, leaves = p.symbols, values = values }
   for _, x in ipairs(entries) do
     if x.partial or not x:is_bounded() then return nil end
   end
@@ -156,7 +157,7 @@ function data.expressions(list, symbols, names, box)
     end
   end
   if #p.unknowns == 0 then return nil end
-  for j, x in ipairs(core.evaluate("interval", {}, p.unknowns, {}, {})) do p.middle[j] = x:mid() end
+  for j, x in ipairs(core.evaluate { expressions = p.unknowns }) do p.middle[j] = x:mid() end
   for _, f in ipairs(p.list) do
     for _, x in ipairs(symbols) do
       local good, d = pcall(core.derivative, f, x)

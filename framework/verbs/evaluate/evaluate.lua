@@ -76,7 +76,8 @@ function verb.evaluate(t)
   local leaves, values = binding.resolve(t.at, expressions, "evaluate")
   local name, options = option.arithmetic(t.arithmetic == nil and "interval" or t.arithmetic, "evaluate: arithmetic")
   session.ask { expressions = expressions, paths = paths, leaves = leaves, values = values, arithmetic = name }
-  local results, report, blame, rigorous = core.evaluate(name, options, expressions, leaves, values)
+  local results, report, blame, rigorous = core.evaluate { arithmetic = name, options = options,
+    expressions = expressions, leaves = leaves, values = values }
   write_values(paths, results)
   local facts = judge(paths, results, blame, rigorous, allowed)
   facts.arithmetic, facts.cpu_seconds, facts.report = name, report.seconds_run, report

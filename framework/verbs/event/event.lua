@@ -64,14 +64,13 @@ end
 -- The watch for one run of q = { system, initial, times }. options: quiet (no records), hold (keep the set before the
 -- event that ends the run), starts_on ([i] = true: g of entry i is known to be 0 at the start).
 function event.watch(q, list, options)
-  local names, g, direction, stop, starts_on, must_leave = {}, {}, {}, {}, {}, {}
-  local on = options.starts_on or {}
+  local rows, on = {}, options.starts_on or {}
   for i, e in ipairs(list) do
-    names[i], g[i], direction[i] = e.name, e.g, e.direction
-    stop[i], starts_on[i], must_leave[i] = e.stop and 1 or 0, on[i] and 1 or 0, e.must_leave and 1 or 0
+    rows[i] = { name = e.name, g = e.g, direction = e.direction, stop = e.stop, starts_on = on[i],
+      must_leave = e.must_leave }
   end
-  return core.events(q.system.system, q.initial, q.times[1], names, g, direction, stop, starts_on, must_leave,
-    ROOM, options.quiet or false, options.hold or false)
+  return core.events { system = q.system.system, initial = q.initial, start = q.times[1], list = rows, room = ROOM,
+    quiet = options.quiet, hold = options.hold }
 end
 
 local reasons = {

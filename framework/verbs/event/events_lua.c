@@ -1,6 +1,6 @@
 /* events_lua.c -- events between Lua and the kernel's watch. */
 #include "verbs/event/events_lua.h"
-#include "script/request.h"
+#include "script/fields.h"
 #include "models/system_lua.h"
 #include <stdlib.h>
 #include <string.h>
@@ -18,26 +18,6 @@ static int release(lua_State *L) {
 
 /* -- making one */
 
-static lua_Integer integer_at(lua_State *L, int idx, size_t i) {
-  lua_rawgeti(L, idx, (lua_Integer)i + 1);
-  lua_Integer value = luaL_checkinteger(L, -1);
-  lua_pop(L, 1);
-  return value;
-}
-
-/* {name}, {g}, {direction}, {stop: 0 or 1}, {starts on the surface: 0 or 1}, {must leave it: 0 or 1} at first and
-** behind it */
-static ambit_event *read_events(lua_State *L, int first, size_t *n) {
-  const char **name = ambit_lua_texts(L, first, n);
-  ambit_expr *g = ambit_lua_to_array(L, first + 1, *n);
-  ambit_event *event = lua_newuserdatauv(L, (*n + 1) * sizeof *event, 0);
-  for (size_t k = 0; k < *n; k++)
-    event[k] =
-        (ambit_event) { name[k], g[k], (int32_t)integer_at(L, first + 2, k), (uint32_t)integer_at(L, first + 3, k),
-          (uint32_t)integer_at(L, first + 4, k), (uint32_t)integer_at(L, first + 5, k) };
-  return event;
-}
-
 static ambit_lua_events *push_events(lua_State *L, size_t nx) {
   ambit_lua_events *w = lua_newuserdatauv(L, sizeof *w, 0);
   memset(w, 0, sizeof *w);
@@ -49,20 +29,44 @@ static ambit_lua_events *push_events(lua_State *L, size_t nx) {
   return w;
 }
 
-/* events(system, {initial}, t_start, {name}, {g}, {direction}, {stop}, {starts_on}, {must_leave}, room, quiet, hold) */
+/* What events are looked for: those of `list`, of the run of `system` from `initial` at `start`. room: most that are
+** kept; quiet: the run writes no records; hold: keep the set before the event that ends it. */
+typedef struct wishes {
+  ambit_event_watch_request q;
+  size_t nx;
+  bool quiet, hold;
+} wishes;
+
+static wishes read_wishes(lua_State *L, int idx) {
+#define ONE(key, kind, member) AMBIT_LUA_ONE(ambit_event, key, kind, 0, member)
+  static const ambit_lua_field event[] = { ONE("name", AMBIT_LUA_TEXT, name), ONE("g", AMBIT_LUA_EXPRESSION, g),
+    ONE("direction", AMBIT_LUA_SIGN, direction), ONE("stop", AMBIT_LUA_SWITCH, stop),
+    ONE("starts_on", AMBIT_LUA_SWITCH, starts_on), ONE("must_leave", AMBIT_LUA_SWITCH, must_leave) };
+#undef ONE
+  static const ambit_lua_fields events = AMBIT_LUA_FIELDS(ambit_event, event);
+  static const ambit_lua_field field[] = { { .key = "system", .kind = AMBIT_LUA_OTHER },
+    AMBIT_LUA_LIST(wishes, "initial", AMBIT_LUA_EXPRESSIONS, AMBIT_LUA_NEEDED | AMBIT_LUA_SAME, q.initial, nx),
+    AMBIT_LUA_ONE(wishes, "start", AMBIT_LUA_NUMBER, AMBIT_LUA_NEEDED, q.t_start),
+    { "list", AMBIT_LUA_ROWS, AMBIT_LUA_NEEDED, offsetof(wishes, q.event), offsetof(wishes, q.n), &events },
+    AMBIT_LUA_ONE(wishes, "room", AMBIT_LUA_SIZE, AMBIT_LUA_NEEDED, q.room),
+    AMBIT_LUA_ONE(wishes, "quiet", AMBIT_LUA_FLAG, 0, quiet), AMBIT_LUA_ONE(wishes, "hold", AMBIT_LUA_FLAG, 0, hold) };
+  static const ambit_lua_fields fields = AMBIT_LUA_FIELDS(wishes, field);
+  luaL_checktype(L, idx, LUA_TTABLE);
+  lua_getfield(L, idx, "system");
+  const ambit_system *s = &ambit_lua_check_system(L, lua_gettop(L))->system;
+  wishes w = { .q = { .system = s }, .nx = s->nx };
+  ambit_lua_read(L, idx, "events", &fields, &w);
+  return w;
+}
+
+/* events(wishes) -> what looks for them */
 static int events_new(lua_State *L) {
-  const ambit_system *s = &ambit_lua_check_system(L, 1)->system;
-  ambit_event_watch_request q = {
-    .system = s, .t_start = luaL_checknumber(L, 3), .room = (size_t)luaL_checkinteger(L, 10)
-  };
-  bool quiet = lua_toboolean(L, 11), hold = lua_toboolean(L, 12);
-  q.initial = ambit_lua_to_array(L, 2, s->nx);
-  q.event = read_events(L, 4, &q.n);
-  ambit_lua_events *w = push_events(L, s->nx);
-  w->quiet = quiet;
-  w->hold = hold;
+  wishes wanted = read_wishes(L, 1);
+  ambit_lua_events *w = push_events(L, wanted.nx);
+  w->quiet = wanted.quiet;
+  w->hold = wanted.hold;
   ambit_failure f = { 0 };
-  if (ambit_event_watch_open(&q, &w->watch, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
+  if (ambit_event_watch_open(&wanted.q, &w->watch, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
   return 1;
 }
 
@@ -96,14 +100,6 @@ static int32_t progress(ambit_sink *s, double done, const char *message) {
   return outer->progress(outer, done, message);
 }
 
-ambit_lua_events *ambit_lua_find_events(lua_State *L, int first) {
-  for (int i = first; i <= lua_gettop(L); i++) {
-    ambit_lua_events *w = luaL_testudata(L, i, AMBIT_TYPE_EVENTS);
-    if (w) return w;
-  }
-  return NULL;
-}
-
 void ambit_lua_events_begin(ambit_lua_events *w, ambit_simulate_request *q, ambit_receiver *to) {
   if (!w) return;
   w->sink = (ambit_sink) { sizeof(ambit_sink), emit, progress };
@@ -129,12 +125,17 @@ static const char *outcome_name(uint32_t outcome) {
 }
 
 static void push_found(lua_State *L, const ambit_lua_events *w, const ambit_event_found *e) {
+#define ONE(key, kind, member) AMBIT_LUA_ONE(ambit_event_found, key, kind, 0, member)
+  static const ambit_lua_field field[] = { ONE("rigorous", AMBIT_LUA_SWITCH, rigorous),
+    ONE("direction", AMBIT_LUA_SIGN, direction) };
+#undef ONE
+  static const ambit_lua_fields fields = AMBIT_LUA_FIELDS(ambit_event_found, field);
   lua_createtable(L, 0, 6);
-  ambit_lua_set_count(L, "event", e->event + 1);
-  ambit_lua_set_text(L, "outcome", outcome_name(e->outcome));
-  lua_pushboolean(L, e->rigorous != 0);
-  lua_setfield(L, -2, "rigorous");
-  ambit_lua_set_number(L, "direction", e->direction);
+  ambit_lua_write(L, &fields, e);
+  lua_pushinteger(L, (lua_Integer)e->event + 1);
+  lua_setfield(L, -2, "event");
+  lua_pushstring(L, outcome_name(e->outcome));
+  lua_setfield(L, -2, "outcome");
   ambit_lua_push_enclosure(L, (ambit_interval) { e->t_lo, e->t_hi }, 0);
   lua_setfield(L, -2, "t");
   lua_createtable(L, (int)w->nx, 0);

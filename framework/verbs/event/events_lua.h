@@ -22,8 +22,6 @@ typedef struct ambit_lua_events {
   double *lo, *hi; /* [nx] ... and its hull */
 } ambit_lua_events;
 
-/* The watch among the arguments from `first` on, or NULL. */
-ambit_lua_events *ambit_lua_find_events(lua_State *L, int first);
 /* Around ambit_simulate; a NULL watch does nothing. */
 void ambit_lua_events_begin(ambit_lua_events *w, ambit_simulate_request *q, ambit_receiver *to);
 void ambit_lua_events_end(ambit_lua_events *w);

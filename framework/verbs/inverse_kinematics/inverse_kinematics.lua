@@ -86,7 +86,7 @@ end
 local function check_rotation(r, nearest)
   local off = {}
   for i = 1, 9 do off[i] = r[i] - nearest[i] end
-  for i, x in ipairs(core.evaluate("interval", {}, off, {}, {})) do
+  for i, x in ipairs(core.evaluate { expressions = off }) do
     if x:is_empty() or x:mig() > 1e-6 then
       check.fail("%s: orientation: the rows are no rotation: entry %d of row %d is off by %s", what, (i - 1) % 3 + 1,
         (i + 2) // 3, x)
@@ -202,7 +202,7 @@ local function drop_turned(found, q, trace)
     for i, name in ipairs(q.names) do
       leaves[#leaves + 1], values[#values + 1] = q.symbols[i], core.expression(rawget(point, name))
     end
-    local x = core.evaluate("interval", {}, { trace }, leaves, values)[1]
+    local x = core.evaluate { expressions = { trace }, leaves = leaves, values = values }[1]
     return x.hi < 3, x.lo > -1
   end
   for _, key in ipairs { "proved", "partly", "undecided" } do

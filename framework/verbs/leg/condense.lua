@@ -40,7 +40,7 @@ end
 local function column(list, w, widths, place)
   local products = {}
   for i, x in ipairs(list) do products[i] = core.derivative(x, w) * w end
-  local effect, sum, largest, share = core.evaluate("interval", {}, products, {}, {}), 0, 0, 0
+  local effect, sum, largest, share = core.evaluate { expressions = products }, 0, 0, 0
   for i, x in ipairs(effect) do
     if not x:is_bounded() then return nil end
     sum, largest = sum + x:mag(), math.max(largest, x:mag())
@@ -80,7 +80,7 @@ function condense.few(list, data)
     if leaf.lo <= 0 and leaf.hi >= 0 and not is_kept(leaf, data) then rests[#rests + 1] = leaf.expression end
   end
   if #rests <= #list then return list end
-  for i, x in ipairs(core.evaluate("interval", {}, list, {}, {})) do widths[i] = x:width() end
+  for i, x in ipairs(core.evaluate { expressions = list }) do widths[i] = x:width() end
   local columns = {}
   for k, w in ipairs(rests) do columns[#columns + 1] = column(list, w, widths, k) end
   local chosen = choose(columns, KEPT * #list)

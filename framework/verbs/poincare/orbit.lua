@@ -13,7 +13,7 @@ local function no(...) return { proved = false, reason = (...):format(select(2, 
 local function value(e, leaf, at)
   local leaves, values = {}, {}
   if leaf then leaves[1], values[1] = leaf, core.expression(at) end
-  return core.evaluate("interval", {}, { e }, leaves, values)[1]
+  return core.evaluate { expressions = { e }, leaves = leaves, values = values }[1]
 end
 
 -- The number of the one state that the section fixes.

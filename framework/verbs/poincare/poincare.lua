@@ -55,7 +55,7 @@ local function request(t)
   return q
 end
 
-local function hull(e) return core.evaluate("interval", {}, { e }, {}, {})[1] end
+local function hull(e) return core.evaluate { expressions = { e } }[1] end
 
 local function depends_on_time(q)
   local list = table.move(q.system.rates, 1, #q.system.rates, 2, { q.g })

@@ -6,6 +6,7 @@
 -- x' = g too, from the same start. Solutions of x' = g are unique where the proofs that follow run it (their solvers
 -- need a Lipschitz condition), so both models have the same ones, and what is proved of one holds for the other.
 local core = require "ambit.core"
+local flow = require "ambit.run.flow"
 local model = require "ambit.reduce.model"
 
 local branch = {}
@@ -21,14 +22,15 @@ local cases = {
 
 -- Which of the conditions hold at all times of one scenario: { [number] = true }, or nil and what the run said.
 local function proved_over(job, scenario, m, conditions)
-  local rates, initial, names, kinds = job.apply(scenario, m.rates), {}, {}, {}
+  local rates, initial, watched = job.apply(scenario, m.rates), {}, {}
   for i, name in ipairs(m.states) do initial[i] = scenario.initial[name] end
-  for k in ipairs(conditions) do names[k], kinds[k] = tostring(k), "always" end
+  for k, g in ipairs(job.apply(scenario, conditions)) do
+    watched[k] = { g = g, name = tostring(k), kind = "always" }
+  end
   local q = { initial = initial, times = scenario.times, system = { states = m.states, rates = rates, parameters = {},
     system = core.system(m.states, m.units, m.symbols, rates) } }
   local how = job.solver_of(q)
-  local findings, outcome = core.watch(q.system.system, how.solver, how.arithmetic, how.options,
-    how.arithmetic_options, initial, scenario.times, job.apply(scenario, conditions), names, kinds, {}, {}, {}, CUTS)
+  local findings, outcome = core.watch(flow(q, how), { conditions = watched, cuts = CUTS })
   job.count()
   local holds = {}
   for k, finding in ipairs(findings) do holds[k] = finding.holds end

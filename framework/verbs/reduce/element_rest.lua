@@ -77,7 +77,7 @@ end
 
 -- Over all data; nil: it is not defined there, or not bounded.
 local function enclose(e)
-  local good, x = pcall(core.evaluate, "interval", {}, { e }, {}, {})
+  local good, x = pcall(core.evaluate, { expressions = { e } })
   return good and x[1]:is_bounded() and not x[1]:is_empty() and x[1] or nil
 end
 

@@ -47,7 +47,7 @@ end
 -- How the equations are integrated: the implicit methods need derivatives.
 function reference.options(system, initial, times)
   local list = { "relative", TOLERANCE, "absolute", "1e-12" }
-  local facts = core.look(system, "", nil, {}, {}, initial, times)
+  local facts = core.look { system = system, solver = "", initial = initial, times = times }
   if facts and facts.kinks == 0 and facts.decay > STIFF then
     list[#list + 1], list[#list + 2] = "method", "msbdf"
   end
@@ -57,8 +57,8 @@ end
 -- The states at the nodes, { { x1, x2, ... }, ... }, or nil where the integration ends early.
 local function follow(model, rates, initial, nodes)
   local system = core.system(model.states, model.units, model.symbols, rates)
-  local track, facts = core.simulate(system, "gsl", nil, reference.options(system, initial, nodes), {}, initial,
-    nodes, nil, { silent = true })
+  local track, facts = core.simulate({ system = system, solver = "gsl",
+    options = reference.options(system, initial, nodes), initial = initial, times = nodes }, nil, { silent = true })
   if facts.status ~= "complete" then return nil end
   local rows = {}
   for k, t in ipairs(nodes) do
@@ -68,7 +68,7 @@ local function follow(model, rates, initial, nodes)
     end
     rows[k] = row
   end
-  for i, x in ipairs(core.evaluate("real", {}, initial, {}, {})) do rows[1][i] = x:mid() end
+  for i, x in ipairs(core.evaluate { arithmetic = "real", expressions = initial }) do rows[1][i] = x:mid() end
   return rows
 end
 
@@ -163,7 +163,9 @@ function reference.values(r, expressions)
   local fixed, rows = with_data(r, expressions), {}
   for k in ipairs(r.t) do
     local row = {}
-    for i, x in ipairs(core.evaluate("real", {}, fixed, binding(r, k))) do row[i] = x:mid() end
+    local leaves, values = binding(r, k)
+    local list = core.evaluate { arithmetic = "real", expressions = fixed, leaves = leaves, values = values }
+    for i, x in ipairs(list) do row[i] = x:mid() end
     rows[k] = row
   end
   return rows

@@ -188,8 +188,9 @@ end
 
 -- q: settings, and expressions, names, symbols (expressions), ranges, leaves, values, centre (numbers or nil), more
 function verb.run(q)
-  local track, facts, report = core.roots(q.solver, q.arithmetic, q.options, q.arithmetic_options, q.expressions,
-    q.symbols, q.names, q.leaves, q.values, q.ranges, q.centre, q.leading)
+  local track, facts, report = core.roots { solver = q.solver, arithmetic = q.arithmetic, options = q.options,
+    arithmetic_options = q.arithmetic_options, equations = q.expressions, unknowns = q.symbols, names = q.names,
+    leaves = q.leaves, values = q.values, box = q.ranges, centre = q.centre, leading = q.leading }
   facts.proved, facts.partly, facts.undecided = read_track(track, q.names, q.ranges, further(q))
   facts.unknowns, facts.solver, facts.arithmetic, facts.report = q.names, q.solver, report.arithmetic, report
   return setmetatable(facts, Roots)

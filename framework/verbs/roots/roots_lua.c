@@ -1,7 +1,7 @@
 /* roots_lua.c -- verified roots of expressions as Lua values. */
+#include "script/fields.h"
 #include "script/receiver.h"
 #include "script/request.h"
-#include "models/system_lua.h"
 #include "verbs/stability/eigen.h"
 #include "verbs/roots/equations.h"
 #include "verbs/roots/roots.h"
@@ -16,53 +16,61 @@ static void push_doubles(lua_State *L, size_t n, const double *x) {
   }
 }
 
-/* ({equation}, {unknown}, {name}, {leaf}, {value}) at first .. first + 4 */
-static ambit_equations equations(lua_State *L, int first) {
-  ambit_equations q = { .graph = AMBIT_LUA(L)->graph };
-  q.ne = (size_t)luaL_len(L, first);
-  q.nx = (size_t)luaL_len(L, first + 1);
-  q.nbinding = (size_t)luaL_len(L, first + 3);
-  q.equation = ambit_lua_to_array(L, first, q.ne);
-  q.unknown = ambit_lua_to_array(L, first + 1, q.nx);
-  q.name = ambit_lua_texts(L, first + 2, &q.nx);
-  q.leaf = ambit_lua_to_array(L, first + 3, q.nbinding);
-  q.value = ambit_lua_to_array(L, first + 4, q.nbinding);
-  return q;
-}
+/* What the verbs about equations are asked: { equations, unknowns, names, leaves, values } and, of `more`, what one of
+** them wants besides. */
+typedef struct question {
+  ambit_equations q;
+  ambit_roots_request r;
+  double *x; /* approach: where to start */
+  bool data; /* are_smooth: as functions of the data, too? */
+} question;
 
-static ambit_interval *boxes(lua_State *L, int idx, size_t n) {
-  ambit_interval *box = lua_newuserdatauv(L, (n + 1) * sizeof *box, 0);
-  for (size_t i = 0; i < n; i++) {
-    lua_rawgeti(L, idx, (lua_Integer)i + 1);
-    box[i] = ((const ambit_lua_enclosure *)luaL_checkudata(L, -1, AMBIT_TYPE_ENCLOSURE))->x;
-    lua_pop(L, 1);
-  }
-  return box;
+static question read_question(lua_State *L, int idx, const char *what) {
+#define LIST(key, kind, flags, member, count) AMBIT_LUA_LIST(question, key, kind, flags, member, count)
+#define ONE(key, kind, member) AMBIT_LUA_ONE(question, key, kind, 0, member)
+  static const ambit_lua_field field[] = { LIST("equations", AMBIT_LUA_EXPRESSIONS, AMBIT_LUA_NEEDED, q.equation, q.ne),
+    LIST("unknowns", AMBIT_LUA_EXPRESSIONS, AMBIT_LUA_NEEDED, q.unknown, q.nx),
+    LIST("names", AMBIT_LUA_TEXTS, AMBIT_LUA_NEEDED | AMBIT_LUA_SAME, q.name, q.nx),
+    LIST("leaves", AMBIT_LUA_EXPRESSIONS, 0, q.leaf, q.nbinding),
+    LIST("values", AMBIT_LUA_EXPRESSIONS, AMBIT_LUA_SAME, q.value, q.nbinding),
+    LIST("box", AMBIT_LUA_ENCLOSURES, AMBIT_LUA_SAME, r.box, q.nx),
+    LIST("centre", AMBIT_LUA_NUMBERS, AMBIT_LUA_SAME, r.centre, q.nx), ONE("leading", AMBIT_LUA_SIZE, r.leading),
+    ONE("solver", AMBIT_LUA_TEXT, r.solver), ONE("arithmetic", AMBIT_LUA_TEXT, r.arithmetic),
+    LIST("options", AMBIT_LUA_OPTIONS, 0, r.solver_option, r.nsolver_option),
+    LIST("arithmetic_options", AMBIT_LUA_OPTIONS, 0, r.arithmetic_option, r.narithmetic_option),
+    LIST("x", AMBIT_LUA_NUMBERS, AMBIT_LUA_SAME, x, q.nx), ONE("data", AMBIT_LUA_FLAG, data) };
+#undef LIST
+#undef ONE
+  static const ambit_lua_fields fields = AMBIT_LUA_FIELDS(question, field);
+  question a = { .q = { .graph = AMBIT_LUA(L)->graph }, .r = { .registry = AMBIT_LUA(L)->registry } };
+  ambit_lua_read(L, idx, what, &fields, &a);
+  if (a.q.nbinding && !a.q.value) ambit_lua_error(L, "core.%s: `values` is missing", what);
+  return a;
 }
 
 static void push_result(lua_State *L, const ambit_receiver *to, const ambit_roots_result *result) {
-  lua_createtable(L, 0, 6);
+#define ONE(member, kind) AMBIT_LUA_ONE(ambit_roots_result, #member, kind, 0, member)
+  static const ambit_lua_field field[] = { ONE(cpu_seconds, AMBIT_LUA_NUMBER), ONE(boxes, AMBIT_LUA_COUNT),
+    ONE(further, AMBIT_LUA_COUNT), ONE(rigorous, AMBIT_LUA_SWITCH) };
+#undef ONE
+  static const ambit_lua_fields fields = AMBIT_LUA_FIELDS(ambit_roots_result, field);
+  ambit_lua_push(L, &fields, result);
   ambit_receiver_tell(L, to, result->status, result->code, result->reason);
-  ambit_lua_set_number(L, "cpu_seconds", result->cpu_seconds);
-  ambit_lua_set_count(L, "boxes", result->boxes);
-  ambit_lua_set_count(L, "further", result->further);
-  lua_pushboolean(L, result->rigorous != 0);
-  lua_setfield(L, -2, "rigorous");
 }
 
-/* roots(solver, arithmetic or nil, solver options, arithmetic options, {equation}, {unknown}, {name}, {leaf}, {value},
-** {box}, {centre} or nil, number of leading equations or nil) -> track of roots, result, report */
+static void need(lua_State *L, const char *what, const char *key, const void *value) {
+  if (!value) ambit_lua_error(L, "core.%s: `%s` is missing", what, key);
+}
+
+/* roots{equations, ..., solver, arithmetic, options, arithmetic_options, box, centre = nil, leading = number of leading
+** equations or nil} -> track of roots, result, report */
 static int roots(lua_State *L) {
-  lua_settop(L, 12);
-  ambit_equations q = equations(L, 5);
-  ambit_roots_request request = { .equations = &q, .registry = AMBIT_LUA(L)->registry };
-  request.solver = luaL_checkstring(L, 1);
-  request.arithmetic = luaL_optstring(L, 2, NULL);
-  request.solver_option = ambit_lua_options(L, 3, &request.nsolver_option);
-  request.arithmetic_option = ambit_lua_options(L, 4, &request.narithmetic_option);
-  request.box = boxes(L, 10, q.nx);
-  request.centre = lua_isnil(L, 11) ? NULL : ambit_lua_numbers(L, 11, &q.nx);
-  request.leading = (size_t)luaL_optinteger(L, 12, 0);
+  question a = read_question(L, 1, "roots");
+  ambit_equations q = a.q;
+  ambit_roots_request request = a.r;
+  need(L, "roots", "solver", request.solver);
+  need(L, "roots", "box", request.box);
+  request.equations = &q;
   ambit_receiver to = ambit_receiver_push(L, q.nx, q.name, 0);
   request.sink = &to.sink;
   ambit_roots_result result = { 0 };
@@ -77,50 +85,57 @@ static int roots(lua_State *L) {
   return 3;
 }
 
-/* approach({equation}, {unknown}, {name}, {leaf}, {value}, {x}) -> {x}, {residual}, converged; nil, why */
+/* approach{equations, ..., x} -> {x}, {residual}, converged; nil, why */
 static int approach(lua_State *L) {
-  lua_settop(L, 6);
-  ambit_equations q = equations(L, 1);
-  double *x = ambit_lua_numbers(L, 6, &q.nx), *residual = lua_newuserdatauv(L, (q.ne + 1) * sizeof *residual, 0);
+  question a = read_question(L, 1, "approach");
+  need(L, "approach", "x", a.x);
+  double *residual = lua_newuserdatauv(L, (a.q.ne + 1) * sizeof *residual, 0);
   bool converged = false;
   ambit_failure f = { 0 };
-  ambit_status status = ambit_roots_approach(&q, x, residual, &converged, &f);
+  ambit_status status = ambit_roots_approach(&a.q, a.x, residual, &converged, &f);
   if (status == AMBIT_UNABLE) {
     lua_pushnil(L);
     lua_pushstring(L, f.message);
     return 2;
   }
   if (status != AMBIT_OK) ambit_lua_raise(L, &f);
-  push_doubles(L, q.nx, x);
-  push_doubles(L, q.ne, residual);
+  push_doubles(L, a.q.nx, a.x);
+  push_doubles(L, a.q.ne, residual);
   lua_pushboolean(L, converged);
   return 3;
 }
 
-/* are_smooth({equation}, {unknown}, {name}, {leaf}, {value}, {box}, as functions of the data too?) -> boolean */
+/* are_smooth{equations, ..., box, data = as functions of the data, too?} -> boolean */
 static int are_smooth(lua_State *L) {
-  lua_settop(L, 7);
-  ambit_equations q = equations(L, 1);
-  const ambit_interval *box = boxes(L, 6, q.nx);
+  question a = read_question(L, 1, "are_smooth");
+  need(L, "are_smooth", "box", a.r.box);
   bool smooth;
   ambit_failure f = { 0 };
-  if (ambit_equations_are_smooth(&q, AMBIT_LUA(L)->registry, box, lua_toboolean(L, 7), &smooth, &f) != AMBIT_OK)
-    ambit_lua_raise(L, &f);
+  if (ambit_equations_are_smooth(&a.q, a.r.registry, a.r.box, a.data, &smooth, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
   lua_pushboolean(L, smooth);
   return 1;
 }
 
 /* -- matrices of enclosures, by rows */
 
+static ambit_interval *boxes(lua_State *L, int idx, size_t n) {
+  ambit_interval *box = lua_newuserdatauv(L, (n + 1) * sizeof *box, 0);
+  for (size_t i = 0; i < n; i++) {
+    lua_rawgeti(L, idx, (lua_Integer)i + 1);
+    box[i] = ((const ambit_lua_enclosure *)luaL_checkudata(L, -1, AMBIT_TYPE_ENCLOSURE))->x;
+    lua_pop(L, 1);
+  }
+  return box;
+}
+
 static void push_eigenvalues(lua_State *L, size_t n, const ambit_eigenvalue *value) {
+  static const ambit_lua_field field[] = { AMBIT_LUA_ONE(ambit_eigenvalue, "re", AMBIT_LUA_ENCLOSURE, 0, re),
+    AMBIT_LUA_ONE(ambit_eigenvalue, "im", AMBIT_LUA_ENCLOSURE, 0, im),
+    AMBIT_LUA_ONE(ambit_eigenvalue, "count", AMBIT_LUA_COUNT, 0, count) };
+  static const ambit_lua_fields fields = AMBIT_LUA_FIELDS(ambit_eigenvalue, field);
   lua_createtable(L, (int)n, 0);
   for (size_t i = 0; i < n; i++) {
-    lua_createtable(L, 0, 3);
-    ambit_lua_push_enclosure(L, value[i].re, 0);
-    lua_setfield(L, -2, "re");
-    ambit_lua_push_enclosure(L, value[i].im, 0);
-    lua_setfield(L, -2, "im");
-    ambit_lua_set_count(L, "count", value[i].count);
+    ambit_lua_push(L, &fields, &value[i]);
     lua_rawseti(L, -2, (lua_Integer)i + 1);
   }
 }

@@ -37,9 +37,9 @@ return function(q, point)
       for _, x in ipairs(q.symbols) do entries[#entries + 1] = core.derivative(f, x) end
     end
     for i, f in ipairs(list) do entries[n * n + i] = -core.derivative(f, p) end
-    local smooth = core.are_smooth(list, q.symbols, q.names, {}, {}, place, true)
+    local smooth = core.are_smooth { equations = list, unknowns = q.symbols, names = q.names, box = place, data = true }
     if not smooth then return nil end -- a jump or a kink, maybe along the data alone
-    local found = core.evaluate("interval", {}, entries, leaves, values)
+    local found = core.evaluate { expressions = entries, leaves = leaves, values = values }
     for _, x in ipairs(found) do
       if x.partial or not x:is_bounded() then return nil end
     end

@@ -40,7 +40,7 @@ function uncertain.are_points_starts(q)
   local leaves, values = { core.time() }, { core.expression(q.times[1]) }
   table.move(q.system.symbols, 1, #q.system.symbols, 2, leaves)
   table.move(q.initial, 1, #q.initial, 2, values)
-  for _, x in ipairs(core.evaluate("interval", {}, invariants, leaves, values)) do
+  for _, x in ipairs(core.evaluate { expressions = invariants, leaves = leaves, values = values }) do
     if x.lo ~= 0 or x.hi ~= 0 then return false end
   end
   return true

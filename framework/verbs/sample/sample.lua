@@ -6,6 +6,7 @@ local check = require "ambit.check"
 local core = require "ambit.core"
 local instant = require "ambit.run.instant"
 local evaluate = require "ambit.evaluate"
+local flow = require "ambit.run.flow"
 local mechanism = require "ambit.mechanism"
 local ode = require "ambit.ode"
 local option = require "ambit.option"
@@ -42,8 +43,9 @@ local function sequence(t)
 end
 
 local function plan_of(t)
-  return { points = sequence(t), corners = flag(t, "corners"), polish = flag(t, "polish"),
-    threads = simulate.threads(t, "sample") }
+  local draws, seed = draws_and_seed(t)
+  return { draws = draws, seed = seed, points = sequence(t), no_corners = not flag(t, "corners"),
+    polish = flag(t, "polish"), threads = simulate.threads(t, "sample") }
 end
 
 -- An error allowed in a step; text is the decimal it says.
@@ -65,8 +67,8 @@ local function judge(facts, failed, why, allowed)
   return partial.judge(facts, failed > 0 and what or nil, allowed)
 end
 
-local function settings_of(draws, seed, facts, ...)
-  local list = { "draws", draws, "seed", seed, "points", facts.points, "failed", facts.failed, "polished",
+local function settings_of(plan, facts, ...)
+  local list = { "draws", plan.draws, "seed", plan.seed, "points", facts.points, "failed", facts.failed, "polished",
     facts.polished, "threads", facts.threads, ... }
   if facts.points_reason then list[#list + 1], list[#list + 2] = "points_reason", facts.points_reason end
   return list
@@ -84,20 +86,20 @@ end
 
 local function of_expressions(t)
   check.keys(t, { "at", "arithmetic", table.unpack(own_keys) }, "sample", #t)
-  local draws, seed = draws_and_seed(t)
+  local plan = plan_of(t)
   local allowed = partial.read(t, "sample")
   local expressions, paths, rebuild = shape.flatten(evaluate.subject(t, "sample"), "sample")
   local leaves, values = binding.resolve(t.at, expressions, "sample")
   local name, options = option.arithmetic(t.arithmetic == nil and "real" or t.arithmetic, "sample: arithmetic")
-  local results, defined, report, facts = core.sample_expressions(name, options, expressions, leaves, values, draws,
-    seed, plan_of(t))
+  local results, defined, report, facts = core.sample_expressions({ arithmetic = name, options = options,
+    expressions = expressions, leaves = leaves, values = values }, plan)
   facts.defined, facts.report, facts.sample_error = defined, report, facts.errors
   facts.error = rebuild(facts.errors)
   local undefined = 0
   for i in ipairs(results) do undefined = math.max(undefined, facts.draws - defined[i]) end
   judge(facts, undefined, "have no value", allowed)
   write_values(paths, results, facts.errors)
-  session.finish("sample", facts, report, settings_of(draws, seed, facts, "arithmetic", name))
+  session.finish("sample", facts, report, settings_of(plan, facts, "arithmetic", name))
   return evaluate.with_status(rebuild(results), facts)
 end
 
@@ -153,20 +155,18 @@ local function without_varying(q)
   return q
 end
 
-local function solve(q, draws, seed, plan)
+local function solve(q, plan)
   q = without_varying(q)
-  local values, facts, report = core.sample_system(q.system.system, q.solver or "", q.arithmetic, q.options or {},
-    q.arithmetic_options, q.initial, q.times, draws, seed, plan)
+  local values, facts, report = core.sample_system(flow(q, { solver = q.solver or "" }), plan)
   facts.values, facts.states, facts.t, facts.report = values, q.system.states, q.times, report
   facts.start = q.times.start
   return setmetatable(facts, Sample), report
 end
 
 local function of_system(t)
-  local draws, seed = draws_and_seed(t)
+  local plan = plan_of(t)
   local allowed = partial.read(t, "sample")
   local q, in_lanes = request_of(t)
-  local plan = plan_of(t)
   if in_lanes then plan.relative, plan.absolute = tolerance(t, "relative"), tolerance(t, "absolute") end
   if plan.relative == 0 and (plan.absolute or 0) == 0 then
     check.fail("sample: one of relative and absolute must be greater than 0")
@@ -175,14 +175,14 @@ local function of_system(t)
     q.times[#q.times] = nil
     q.times[math.max(2, #q.times)] = q.times.final.near
   end
-  local result, report = solve(q, draws, seed, plan)
+  local result, report = solve(q, plan)
   local k = #q.times
   result.x, result.error = named(result, k, result.values), named(result, k, result.errors)
   local last = (k - 1) * #result.states
   judge(result, result.failed, "did not reach the end" .. (result.reason and ": " .. result.reason or ""), allowed)
   write_values(result.states, table.move(result.values, last + 1, last + #result.states, 1, {}),
     table.move(result.errors, last + 1, last + #result.states, 1, {}))
-  session.finish("sample", result, report, settings_of(draws, seed, result, "solver", report.solver))
+  session.finish("sample", result, report, settings_of(plan, result, "solver", report.solver))
   return result
 end
 
@@ -225,15 +225,15 @@ local function inner_of(facts, times, values, width)
     status = facts.status, reason = facts.reason, points = facts.points, cpu_seconds = facts.cpu_seconds }
 end
 
-local function inner_of_system(q, n, seed, plan)
-  local times = plan.t or dense_times(q.times)
-  local asked = { system = q.system, initial = q.initial, times = times, arithmetic_options = {} }
-  local result = solve(asked, n, seed, plan)
+local function inner_of_system(q, plan, times)
+  times = times or dense_times(q.times)
+  local result = solve({ system = q.system, initial = q.initial, times = times }, plan)
   return inner_of(result, times, result.values, #q.system.states)
 end
 
-local function inner_of_expressions(q, n, seed, plan)
-  local x, defined, _, facts = core.sample_expressions("real", {}, q.expressions, q.leaves, q.values, n, seed, plan)
+local function inner_of_expressions(q, plan)
+  local x, defined, _, facts = core.sample_expressions({ expressions = q.expressions, leaves = q.leaves,
+    values = q.values }, plan)
   for i in ipairs(x) do facts.failed = math.max(facts.failed, facts.draws - defined[i]) end
   return inner_of(facts, { 0 }, x, #x)
 end
@@ -245,9 +245,10 @@ end
 -- after which it ends with what it has, threads, t = { times of its own instead of those of the request and 49 between
 -- }, points.
 function verb.inner(q, n, seed, options)
-  local plan = { polish = true }
-  for _, key in ipairs { "cpu", "threads", "t", "points" } do plan[key] = options and options[key] end
-  local good, inner = pcall(q.system and inner_of_system or inner_of_expressions, q, n or 1000, seed or 1, plan)
+  local own = options or {}
+  local plan = { draws = n or 1000, seed = seed or 1, polish = true, cpu = own.cpu, threads = own.threads,
+    points = own.points }
+  local good, inner = pcall(q.system and inner_of_system or inner_of_expressions, q, plan, own.t)
   if good then return inner end
   return nil, tostring(inner)
 end

@@ -1,5 +1,5 @@
 /* sample_lua.c -- the verb sample: Lua tables -> kernel requests -> Lua values. */
-#include "script/core.h"
+#include "script/fields.h"
 #include "script/receiver.h"
 #include "script/request.h"
 #include "verbs/sample/sampled_lua.h"
@@ -7,43 +7,23 @@
 #include "verbs/sample/sample.h"
 #include <math.h>
 
-/* What the plan { points, corners, polish, threads, relative, absolute, cpu } at idx says; nil: nothing. cpu: s of CPU
-** time, after which the sample is stopped. */
+/* The plan of a sample. cpu: s of CPU time, after which it is stopped; 0: never. */
 typedef struct wishes {
   ambit_sample_plan plan;
   double cpu;
 } wishes;
 
-static double number_field(lua_State *L, int idx, const char *key) {
-  lua_getfield(L, idx, key);
-  double value = luaL_optnumber(L, -1, 0);
-  lua_pop(L, 1);
-  return value;
-}
-
-/* of a flag that is nil: `fallback` */
-static bool flag_field(lua_State *L, int idx, const char *key, bool fallback) {
-  bool value = lua_getfield(L, idx, key) == LUA_TNIL ? fallback : lua_toboolean(L, -1);
-  lua_pop(L, 1);
-  return value;
-}
-
-/* draws, seed, plan at idx, idx + 1, idx + 2 */
-static wishes read_wishes(lua_State *L, int idx) {
-  wishes w = { .plan = {
-                   .draws = (size_t)luaL_checkinteger(L, idx), .seed = (uint64_t)luaL_checkinteger(L, idx + 1) } };
-  idx += 2;
-  if (lua_isnoneornil(L, idx)) return w;
-  luaL_checktype(L, idx, LUA_TTABLE);
-  lua_getfield(L, idx, "points");
-  w.plan.points = luaL_optstring(L, -1, NULL); /* the table keeps it */
-  lua_pop(L, 1);
-  w.plan.no_corners = !flag_field(L, idx, "corners", true);
-  w.plan.polish = flag_field(L, idx, "polish", false);
-  w.plan.threads = (uint32_t)number_field(L, idx, "threads");
-  w.plan.relative = number_field(L, idx, "relative");
-  w.plan.absolute = number_field(L, idx, "absolute");
-  w.cpu = number_field(L, idx, "cpu");
+static wishes read_wishes(lua_State *L, int idx, const char *what) {
+#define ONE(key, kind, flags, member) AMBIT_LUA_ONE(wishes, key, kind, flags, member)
+  static const ambit_lua_field field[] = { ONE("draws", AMBIT_LUA_SIZE, AMBIT_LUA_NEEDED, plan.draws),
+    ONE("seed", AMBIT_LUA_WORK, AMBIT_LUA_NEEDED, plan.seed), ONE("points", AMBIT_LUA_TEXT, 0, plan.points),
+    ONE("no_corners", AMBIT_LUA_FLAG, 0, plan.no_corners), ONE("polish", AMBIT_LUA_FLAG, 0, plan.polish),
+    ONE("threads", AMBIT_LUA_COUNT, 0, plan.threads), ONE("relative", AMBIT_LUA_NUMBER, 0, plan.relative),
+    ONE("absolute", AMBIT_LUA_NUMBER, 0, plan.absolute), ONE("cpu", AMBIT_LUA_NUMBER, 0, cpu) };
+#undef ONE
+  static const ambit_lua_fields fields = AMBIT_LUA_FIELDS(wishes, field);
+  wishes w = { 0 };
+  ambit_lua_read(L, idx, what, &fields, &w);
   return w;
 }
 
@@ -53,11 +33,6 @@ static void begin(lua_State *L, ambit_receiver *to, wishes *w) {
   ambit_receiver_begin(L, to);
   double own = ambit_context_seconds() + w->cpu;
   if (w->cpu > 0 && (to->deadline <= 0 || own < to->deadline)) to->deadline = own;
-}
-
-static void set_size(lua_State *L, const char *key, size_t value) {
-  lua_pushinteger(L, (lua_Integer)value);
-  lua_setfield(L, -2, key);
 }
 
 static void push_numbers(lua_State *L, size_t n, const double *x) {
@@ -70,20 +45,17 @@ static void push_numbers(lua_State *L, size_t n, const double *x) {
 
 /* error [n]: of the bounds; NaN: not known */
 static void push_facts(lua_State *L, const ambit_sample_result *r, size_t n, const double *error) {
-  lua_createtable(L, 0, 14);
+#define ONE(key, kind, member) AMBIT_LUA_ONE(ambit_sample_result, key, kind, 0, member)
+  static const ambit_lua_field field[] = { ONE("reason", AMBIT_LUA_BUFFER, reason),
+    ONE("points", AMBIT_LUA_BUFFER, points), ONE("points_reason", AMBIT_LUA_BUFFER, why),
+    ONE("method", AMBIT_LUA_BUFFER, method), ONE("draws", AMBIT_LUA_SIZE, draws), ONE("failed", AMBIT_LUA_SIZE, failed),
+    ONE("off", AMBIT_LUA_SIZE, off), ONE("polished", AMBIT_LUA_SIZE, polished),
+    ONE("one_by_one", AMBIT_LUA_SIZE, one_by_one), ONE("threads", AMBIT_LUA_COUNT, threads),
+    ONE("cpu_seconds", AMBIT_LUA_NUMBER, cpu_seconds), ONE("wall_seconds", AMBIT_LUA_NUMBER, wall_seconds) };
+#undef ONE
+  static const ambit_lua_fields fields = AMBIT_LUA_FIELDS(ambit_sample_result, field);
+  ambit_lua_push(L, &fields, r);
   ambit_lua_set_text(L, "status", r->status == AMBIT_OK ? "complete" : "stopped");
-  if (r->reason[0]) ambit_lua_set_text(L, "reason", r->reason);
-  ambit_lua_set_text(L, "points", r->points);
-  if (r->why[0]) ambit_lua_set_text(L, "points_reason", r->why);
-  if (r->method[0]) ambit_lua_set_text(L, "method", r->method);
-  set_size(L, "draws", r->draws);
-  set_size(L, "failed", r->failed);
-  set_size(L, "off", r->off);
-  set_size(L, "polished", r->polished);
-  set_size(L, "one_by_one", r->one_by_one);
-  set_size(L, "threads", r->threads);
-  ambit_lua_set_number(L, "cpu_seconds", r->cpu_seconds);
-  ambit_lua_set_number(L, "wall_seconds", r->wall_seconds);
   push_numbers(L, n, error);
   lua_setfield(L, -2, "errors");
 }
@@ -96,11 +68,10 @@ static void mark_partial(lua_State *L, lua_Integer i) {
   lua_pop(L, 1);
 }
 
-/* sample_expressions(arithmetic, options, {expression}, {leaf}, {value}, draws, seed, plan or nil) -> {sampled},
-** {defined draws}, report, facts */
+/* sample_expressions(question: arithmetic nil is real, plan) -> {sampled}, {defined draws}, report, facts */
 static int sample_expressions(lua_State *L) {
-  wishes w = read_wishes(L, 6);
-  ambit_evaluate_request q = ambit_lua_evaluate_request(L);
+  wishes w = read_wishes(L, 2, "sample_expressions");
+  ambit_evaluate_request q = ambit_lua_read_question(L, 1, "sample_expressions");
   ambit_interval *hull = lua_newuserdatauv(L, (q.nexpr + 1) * sizeof *hull, 0);
   double *error = lua_newuserdatauv(L, (q.nexpr + 1) * sizeof *error, 0);
   size_t *defined = lua_newuserdatauv(L, (q.nexpr + 1) * sizeof *defined, 0);
@@ -125,11 +96,10 @@ static int sample_expressions(lua_State *L) {
   return 4;
 }
 
-/* sample_system(as simulate, draws, seed, plan or nil) -> {sampled} by instant and state, facts, report. Solver "":
-** lanes. */
+/* sample_system(flow, plan) -> {sampled} by instant and state, facts, report. Solver "": lanes. */
 static int sample_system(lua_State *L) {
-  wishes w = read_wishes(L, 8);
-  ambit_simulate_request q = ambit_lua_simulate_request(L);
+  wishes w = read_wishes(L, 2, "sample_system");
+  ambit_simulate_request q = ambit_lua_read_flow(L, 1, "sample_system");
   if (q.solver && !q.solver[0]) q.solver = NULL;
   size_t n = q.ntime * q.system->nx;
   ambit_interval *hull = lua_newuserdatauv(L, (n + 1) * sizeof *hull, 0);

@@ -1,6 +1,7 @@
 -- simulate/choice_reason.lua -- what is said where no solver came to the end: who was asked besides, and how much
 -- narrower the data would have to be. Nothing is advised that was not tried.
 local core = require "ambit.core"
+local flow = require "ambit.run.flow"
 local uncertain = require "ambit.run.uncertain"
 
 local reason = {}
@@ -22,8 +23,7 @@ local function completes(q, solver, part, data)
     local mid, half = 0.5 * a + 0.5 * b, 0.5 * part * (b - a)
     lo[j], hi[j] = math.max(a, mid - half), math.min(b, mid + half)
   end
-  local _, outcome = core.watch(own.system.system, own.solver, own.arithmetic, own.options, own.arithmetic_options,
-    own.initial, own.times, {}, {}, {}, data.unknowns, lo, hi, 0)
+  local _, outcome = core.watch(flow(own), { unknowns = data.unknowns, lo = lo, hi = hi })
   return outcome.status == "complete"
 end
 

@@ -4,6 +4,7 @@ local assemble_data = require "ambit.assemble.data"
 local check = require "ambit.check"
 local core = require "ambit.core"
 local event = require "ambit.event"
+local flow = require "ambit.run.flow"
 local instant = require "ambit.run.instant"
 local loops = require "ambit.loops"
 local mechanism = require "ambit.mechanism"
@@ -137,7 +138,7 @@ end
 
 local function initial_enclosures(q)
   return function()
-    local x, named = core.evaluate("interval", {}, q.initial, {}, {}), {}
+    local x, named = core.evaluate { expressions = q.initial }, {}
     for i, name in ipairs(q.system.states) do named[name] = x[i] end
     return named
   end
@@ -152,7 +153,7 @@ local function check_loops(q)
   local leaves, values = { core.time() }, { core.expression(q.times[1]) }
   table.move(q.system.symbols, 1, #q.system.symbols, 2, leaves)
   table.move(q.initial, 1, #q.initial, 2, values)
-  for i, x in ipairs(core.evaluate("interval", {}, invariants, leaves, values)) do
+  for i, x in ipairs(core.evaluate { expressions = invariants, leaves = leaves, values = values }) do
     if not (x:mig() <= TORN) then
       check.fail("simulate: initial: the constraint `%s` is off by %s at the start; m:assemble finds values that fit",
         names[i], x)
@@ -164,9 +165,7 @@ end
 function verb.solve(q)
   check_loops(q)
   core.record_shift(q.times.shift and core.interval(q.times.shift) or 0)
-  local track, facts, report = core.simulate(q.system.system, q.solver, q.arithmetic, q.options, q.arithmetic_options,
-    q.initial,
-    q.times, q.watch, q.run_options)
+  local track, facts, report = core.simulate(flow(q), q.watch, q.run_options)
   facts.track, facts.states, facts.report = track, q.system.states, report
   facts.solver, facts.arithmetic, facts.t_start, facts.initial = q.solver, report.arithmetic, q.times[1],
     initial_enclosures(q)

@@ -4,6 +4,7 @@
 -- used; docs/plugins.md has the scale. No solver is loaded to be asked.
 local check = require "ambit.check"
 local core = require "ambit.core"
+local flow = require "ambit.run.flow"
 local option = require "ambit.option"
 
 local suggest = {}
@@ -118,7 +119,7 @@ end
 -- q: system, initial, times of a request; fitting: of candidates() -> { solver, reason, facts, others }: `others` are
 -- the next best ones, in order.
 function suggest.solver(q, fitting)
-  local facts, problem = core.look(q.system.system, "", nil, {}, {}, q.initial, q.times)
+  local facts, problem = core.look(flow(q, { solver = "" }))
   if not facts then return { solver = fitting[1], reason = problem, others = {} } end -- the run itself will say so
   local list = ranked(facts, fitting)
   local first, others = list[1], {}

@@ -69,10 +69,11 @@ end
 function split.read(value, q, what)
   if value == nil then return {} end
   local data, all, names = named_data(q)
-  local fields = { unknown = {}, name = {}, parts = {} }
+  local fields, cut = { cuts = {} }, {}
   local function add(unknown, name, parts)
-    local n, i = #fields.unknown + 1, index_of(all, unknown)
-    fields.unknown[n], fields.name[n], fields.parts[n] = unknown, i and names[i] or name, parts
+    local i = index_of(all, unknown)
+    cut[#cut + 1] = unknown
+    fields.cuts[#cut] = { unknown = unknown, name = i and names[i] or name, parts = parts }
   end
   if type(value) == "table" and next(value) ~= nil then
     for _, key in ipairs(check.sorted(value)) do
@@ -86,7 +87,7 @@ function split.read(value, q, what)
       type(value) == "table" and "an empty table" or check.kind(value))
   end
   for i, datum in ipairs(all) do -- names for the others
-    if not index_of(fields.unknown, datum) then add(datum, names[i], 0) end
+    if not index_of(cut, datum) then add(datum, names[i], 0) end
   end
   return fields
 end

@@ -45,12 +45,13 @@ end
 
 -- Enclosures, or nil if one is not bounded or not defined all over the box.
 local function enclose(list, leaves, values)
-  local found = core.evaluate("interval", {}, list, leaves, values)
+  local found = core.evaluate { expressions = list, leaves = leaves, values = values }
   for _, x in ipairs(found) do
     if x:is_empty() or not x:is_bounded() or x.partial then return nil end
   end
   if #uncertain(list, values) == 0 then return found end
-  for i, x in ipairs(core.evaluate("affine", {}, list, leaves, values)) do found[i] = found[i]:intersect(x) end
+  local other = core.evaluate { arithmetic = "affine", expressions = list, leaves = leaves, values = values }
+  for i, x in ipairs(other) do found[i] = found[i]:intersect(x) end
   return found
 end
 
@@ -90,7 +91,8 @@ local function are_smooth(self, point, list)
   for i, leaf in ipairs(bound) do
     if leaf then leaves[#leaves + 1], values[#values + 1] = leaf, self.values[i] end
   end
-  return core.are_smooth(list, self.system.symbols, names, leaves, values, box, false)
+  return core.are_smooth { equations = list, unknowns = self.system.symbols, names = names, leaves = leaves,
+    values = values, box = box }
 end
 
 -- -- by the eigenvalues of the linearised system
@@ -277,7 +279,7 @@ function stability.eigenvalues(t)
   local entries = shape.flatten(table.move(t, 1, n, 1, {}), "eigenvalues")
   if #entries ~= n * n then check.fail("eigenvalues: expected %d rows of %d entries and nothing else", n, n) end
   local start = core.cpu()
-  local matrix, _, blame = core.evaluate("interval", {}, entries, {}, {})
+  local matrix, _, blame = core.evaluate { expressions = entries }
   local values, verdict, by = core.spectrum(n, matrix)
   local facts = { status = values and "complete" or "unable", code = values and "ok" or "unable.eigenvalues",
     stability = verdict, stability_by = by, cpu_seconds = core.cpu() - start,

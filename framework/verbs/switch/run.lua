@@ -18,7 +18,7 @@ end
 
 function switch_run.new(q)
   local start = {}
-  for i, x in ipairs(core.evaluate("interval", {}, q.initial, {}, {})) do start[q.system.states[i]] = x end
+  for i, x in ipairs(core.evaluate { expressions = q.initial }) do start[q.system.states[i]] = x end
   return setmetatable({ parts = {}, events = {}, modes = {}, list = {}, t_start = q.times[1], t_reached = q.times[1],
     x = start, initial = start, solver = q.solver, times = q.times }, Run)
 end

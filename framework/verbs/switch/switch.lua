@@ -172,7 +172,7 @@ end
 
 -- Why the new mode cannot be entered with these values; nil: it can.
 local function gap(states, x)
-  for i, value in ipairs(core.evaluate("interval", {}, x, {}, {})) do
+  for i, value in ipairs(core.evaluate { expressions = x }) do
     if value.partial or value:is_empty() or not value:is_bounded() then
       return ("the reset gives the state `%s` no finite value for all solutions: %s"):format(states[i], tostring(value))
     end

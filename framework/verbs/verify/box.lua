@@ -7,6 +7,7 @@
 -- { runs = number } or { seconds = number }, runs, start.
 local code = require "ambit.code"
 local core = require "ambit.core"
+local flow = require "ambit.run.flow"
 
 local box = {}
 
@@ -15,16 +16,16 @@ local CUTS = 64 -- in time, for a condition in a step of a run
 
 -- What a run watches: each condition and, where it is carried as a state, that state behind all of them.
 local function watched(job)
-  local g, names, kinds, of = {}, {}, {}, {}
+  local list, of = {}, {}
   local function add(expression, k)
-    local n = #g + 1
-    g[n], names[n], kinds[n], of[n] = expression, job.conditions[k].name, job.conditions[k].kind, k
+    list[#list + 1] = { g = expression, name = job.conditions[k].name, kind = job.conditions[k].kind }
+    of[#list] = k
   end
   for k, condition in ipairs(job.conditions) do add(condition.g, k) end
   for k in ipairs(job.conditions) do
     if job.outputs[k] then add(job.outputs[k], k) end
   end
-  return g, names, kinds, of
+  return list, of
 end
 
 -- Two findings of the same condition: both are true.
@@ -46,10 +47,10 @@ end
 function box.run(job, b)
   local q = job.request
   job.runs = job.runs + 1
-  local g, names, kinds, of = watched(job)
-  local findings, outcome, report = core.watch(q.system.system, q.solver, q.arithmetic, q.options,
-    q.arithmetic_options, q.initial, job.times, g, names, kinds, job.unknowns, b.lo, b.hi, CUTS, nil, nil, nil,
-    job.asked.times.last, #job.others > 0 and PATIENCE or nil)
+  local conditions, of = watched(job)
+  local findings, outcome, report = core.watch(flow(q, { times = job.times }), { conditions = conditions, cuts = CUTS,
+    unknowns = job.unknowns, lo = b.lo, hi = b.hi, last = job.asked.times.last,
+    patience = #job.others > 0 and PATIENCE or nil })
   job.report = job.report or report
   code.refuse_broken(outcome)
   job.stopped = outcome.status == "stopped"

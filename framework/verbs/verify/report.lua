@@ -16,7 +16,8 @@ local methods = {}
 
 -- What an expression of the data is for this choice.
 function methods:value(expression)
-  return core.evaluate("interval", {}, { core.expression(expression) }, self.unknowns, self.values)[1]
+  return core.evaluate { expressions = { core.expression(expression) }, leaves = self.unknowns,
+    values = self.values }[1]
 end
 
 check.methods(methods, Counterexample)

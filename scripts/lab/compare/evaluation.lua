@@ -42,7 +42,8 @@ end
 -- In the child: one combination -> what its row is to hold.
 local function measure(request, c, settings, names)
   local function run()
-    return core.evaluate(c.arithmetic, c.options, request.expressions, request.leaves, request.values)
+    return core.evaluate { arithmetic = c.arithmetic, options = c.options, expressions = request.expressions,
+      leaves = request.leaves, values = request.values }
   end
   local row, began = { widths = {}, width = 0 }, core.cpu()
   local x, report = run()

@@ -1,6 +1,7 @@
 -- compare/simulation.lua -- the same simulation by each combination of solver, arithmetic and options.
 local agree = require "ambit.compare.agree"
 local core = require "ambit.core"
+local flow = require "ambit.run.flow"
 local course = require "ambit.compare.course"
 local event = require "ambit.event"
 local judge = require "ambit.compare.judge"
@@ -91,7 +92,7 @@ end
 
 -- How many uncertain data there are; nil: the system is such that only a run can tell.
 local function unknowns_of(q)
-  local facts = core.look(q.system.system, "", nil, {}, {}, q.initial, q.times)
+  local facts = core.look(flow(q, { solver = "" }))
   return facts and facts.unknowns
 end
 

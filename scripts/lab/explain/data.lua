@@ -44,7 +44,7 @@ local function add(found, label, expression)
     found.of[leaf.number] = found.of[leaf.number] or datum
   end
   if kind == "uncertain" then
-    local good, range = pcall(core.evaluate, "interval", {}, { expression }, {}, {})
+    local good, range = pcall(core.evaluate, { expressions = { expression } })
     datum.range = good and range[1] or nil
   end
 end

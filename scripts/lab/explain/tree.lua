@@ -22,7 +22,7 @@ end
 -- The range of a datum; nil: it varies.
 local function range_of(expression)
   if core.is_constant(expression) then return core.interval(expression) end
-  local good, results = pcall(core.evaluate, "interval", {}, { expression }, {}, {})
+  local good, results = pcall(core.evaluate, { expressions = { expression } })
   return good and results[1] or nil
 end
 

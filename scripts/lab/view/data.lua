@@ -56,7 +56,8 @@ end
 
 function Batch:run(t, values)
   local leaves, set = bindings(self.leaves, t, values)
-  return core.evaluate(self.arithmetic, self.options, self.expressions, leaves, set)
+  return core.evaluate { arithmetic = self.arithmetic, options = self.options, expressions = self.expressions,
+    leaves = leaves, values = set }
 end
 
 -- -- the drawing

@@ -99,7 +99,7 @@ local function value_over(e, t)
     if entry.kind == "time" then leaf = entry.expression end
   end
   if not leaf then return e end
-  return core.evaluate("interval", {}, { e }, { leaf }, { core.expression(t) })[1]
+  return core.evaluate { expressions = { e }, leaves = { leaf }, values = { core.expression(t) } }[1]
 end
 
 local function put(values, given, t)

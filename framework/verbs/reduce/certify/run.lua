@@ -5,6 +5,7 @@
 -- may be cut into boxes: the bound is the greatest over them.
 local carry = require "ambit.verify.carry"
 local core = require "ambit.core"
+local flow_of = require "ambit.reduce.certify.flow"
 local code = require "ambit.code"
 local refine = require "ambit.reduce.certify.refine"
 local uncertain = require "ambit.run.uncertain"
@@ -30,8 +31,8 @@ local function parts_of(unknowns, fields)
   local parts, left = {}, (fields.pieces or 1) > 0 and fields.pieces or 1
   for j, unknown in ipairs(unknowns) do
     parts[j] = 1
-    for k, named in ipairs(fields.unknown or {}) do
-      if named == unknown then parts[j] = math.max(1, fields.parts[k]) end
+    for _, cut in ipairs(fields.cuts or {}) do
+      if cut.unknown == unknown then parts[j] = math.max(1, cut.parts) end
     end
   end
   local j = 1
@@ -92,11 +93,12 @@ end
 
 -- For each output g, carried as c: both behind each other, in the order of core.watch.
 local function watched(q, states, limits)
-  local w = { g = {}, name = {}, kind = {}, limit = {}, rivals = {}, of = {} }
+  local w = { conditions = {}, of = {} }
   local function add(k, expression, rivals)
-    local n = #w.g + 1
-    w.g[n], w.name[n], w.kind[n], w.of[n] = expression, ("output %d"):format(k), "most", k
-    w.limit[n], w.rivals[n] = limits and limits[k] or 0, rivals
+    local n = #w.of + 1
+    w.conditions[n] = { g = expression, name = ("output %d"):format(k), kind = "most",
+      limit = limits and limits[k] or 0, rivals = rivals }
+    w.of[n] = k
   end
   for k, g in ipairs(q.outputs) do
     add(k, g, states[k] and 1 or 0)
@@ -105,19 +107,17 @@ local function watched(q, states, limits)
   return w
 end
 
-local function options_of(how) return how.options or {} end
-
 local function watch(q, w, how, unknowns, box)
-  local findings, outcome, report = core.watch(q.system.system, how.solver or "lohner", how.arithmetic, options_of(how),
-    how.arithmetic_options or {}, q.initial, q.times, w.g, w.name, w.kind, unknowns, box.lo, box.hi, CUTS, w.limit,
-    w.rivals, how.run_options and how.run_options.threads, q.times.last)
+  local findings, outcome, report = core.watch(flow_of(q, how), { conditions = w.conditions, cuts = CUTS,
+    unknowns = unknowns, lo = box.lo, hi = box.hi, threads = how.run_options and how.run_options.threads,
+    last = q.times.last })
   if how.report then work.add(how.report, report) end
   return findings, outcome, report
 end
 
 -- A run for its own sake: how far it gets.
 function run.alone(q, how, unknowns, box)
-  local nothing = { g = {}, name = {}, kind = {}, limit = {}, rivals = {} }
+  local nothing = { conditions = {} }
   local _, outcome, report = watch(q, nothing, how, unknowns, box)
   return outcome, report
 end

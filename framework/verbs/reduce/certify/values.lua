@@ -4,6 +4,7 @@
 local bracket = require "ambit.run.bracket"
 local code = require "ambit.code"
 local core = require "ambit.core"
+local flow_of = require "ambit.reduce.certify.flow"
 local instant = require "ambit.run.instant"
 local ode = require "ambit.ode"
 local run = require "ambit.reduce.certify.run"
@@ -43,7 +44,7 @@ end
 local function states_at_end(q, track, t)
   local function initial()
     local named = {}
-    for k, x in ipairs(core.evaluate("interval", {}, q.initial, {}, {})) do named[q.system.states[k]] = x end
+    for k, x in ipairs(core.evaluate { expressions = q.initial }) do named[q.system.states[k]] = x end
     return named
   end
   return bracket.values({ track = track, states = q.system.states, system = q.system, times = q.times, rigorous = true,
@@ -53,7 +54,7 @@ end
 -- The enclosures of all states at an instant; nil: the run did not get there.
 local function states_at(q, track, t)
   if q.times.last and t == q.times[#q.times] then return states_at_end(q, track, t) end
-  if t == q.times[1] then return core.evaluate("interval", {}, q.initial, {}, {}) end
+  if t == q.times[1] then return core.evaluate { expressions = q.initial } end
   local i, is_end = core.track_find(track, t)
   if not i then return nil end
   local list = {}
@@ -74,7 +75,7 @@ local function outputs_at(q, states, x, t)
   local data = { core.expression(when(q, t)) }
   for k, value in ipairs(x) do data[k + 1] = core.expression(value) end
   local leaves = table.move(q.system.symbols, 1, #q.system.symbols, 2, { core.time() })
-  local list = core.evaluate("interval", {}, q.outputs, leaves, data)
+  local list = core.evaluate { expressions = q.outputs, leaves = leaves, values = data }
   for k, value in ipairs(list) do
     local carried
     for i, symbol in ipairs(q.system.symbols) do
@@ -86,8 +87,7 @@ local function outputs_at(q, states, x, t)
 end
 
 local function solve(q, how)
-  local track, facts, report = core.simulate(q.system.system, how.solver or "lohner", how.arithmetic,
-    how.options or {}, how.arithmetic_options or {}, q.initial, q.times, nil,
+  local track, facts, report = core.simulate(flow_of(q, how), nil,
     { dense = true, silent = true, threads = how.run_options and how.run_options.threads })
   facts.steps = report.steps
   if how.report then work.add(how.report, report) end
