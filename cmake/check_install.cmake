@@ -50,6 +50,7 @@ list(GET libs 0 lib)
 get_filename_component(libdir ${lib} DIRECTORY)
 run(${CMAKE_COMMAND} -E env AMBIT_PATH=${WORK}/build/plugins:${libdir}/ambit ${WORK}/build/host middle)
 run(${CMAKE_COMMAND} -E env AMBIT_PATH=${libdir}/ambit ${WORK}/build/host interval)
+run(${CMAKE_COMMAND} -E env AMBIT_PATH= ${WORK}/build/hinge)
 
 find_program(PKG_CONFIG pkg-config REQUIRED)
 run(${CMAKE_COMMAND} -E env PKG_CONFIG_PATH=${libdir}/pkgconfig ${PKG_CONFIG} --cflags --libs ambit)

@@ -46,19 +46,20 @@ add_custom_command(OUTPUT ${embedded_source}
 
 file(GLOB_RECURSE lua_sources CONFIGURE_DEPENDS ${framework}/script/*.c ${framework}/models/*_lua.c ${framework}/verbs/*_lua.c)
 add_library(ambit_lua OBJECT ${lua_sources} ${embedded_source})
-target_include_directories(ambit_lua PRIVATE ${framework}/kernel ${framework} ${LUA_INCLUDE_DIRS} ${FFI_INCLUDE_DIRS})
+target_include_directories(ambit_lua PRIVATE ${framework}/api ${framework}/kernel ${framework} ${LUA_INCLUDE_DIRS} ${FFI_INCLUDE_DIRS})
 target_compile_definitions(ambit_lua PRIVATE AMBIT_VERSION="${PROJECT_VERSION}")
 target_link_libraries(ambit_lua PRIVATE ambit_flags)
 
 add_executable(ambit ${framework}/main.c $<TARGET_OBJECTS:ambit_lua>)
-target_include_directories(ambit PRIVATE ${framework}/kernel ${framework})
-target_link_libraries(ambit PRIVATE ambit_flags libambit PkgConfig::LUA PkgConfig::FFI ${CMAKE_DL_LIBS} m)
+ambit_from(ambit ${CMAKE_INSTALL_BINDIR})
+target_link_libraries(ambit PRIVATE ambit_flags ambit_inside PkgConfig::LUA PkgConfig::FFI ${CMAKE_DL_LIBS} m)
 set_target_properties(ambit PROPERTIES ENABLE_EXPORTS ON)
 ambit_place(ambit ${CMAKE_INSTALL_BINDIR} RUNTIME_OUTPUT_DIRECTORY)
 add_custom_command(TARGET ambit POST_BUILD
   COMMAND ln -sf ${CMAKE_INSTALL_BINDIR}/ambit ${PROJECT_BINARY_DIR}/ambit VERBATIM)
 
 add_library(ambit_module MODULE $<TARGET_OBJECTS:ambit_lua>)
-target_link_libraries(ambit_module PRIVATE ambit_flags libambit PkgConfig::FFI ${CMAKE_DL_LIBS} m)
+ambit_from(ambit_module ${AMBIT_LUA_DIR})
+target_link_libraries(ambit_module PRIVATE ambit_flags ambit_inside PkgConfig::FFI ${CMAKE_DL_LIBS} m)
 set_target_properties(ambit_module PROPERTIES PREFIX "" OUTPUT_NAME ambit)
 ambit_place(ambit_module ${AMBIT_LUA_DIR} LIBRARY_OUTPUT_DIRECTORY)

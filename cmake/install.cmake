@@ -1,5 +1,4 @@
-# What a user of the installed tree gets: the command, libambit with headers for hosts (ambit-kernel/) and plugins (ambit/), find_package(Ambit),
-# ambit.pc, the plugins (cmake/plugins.cmake), the Lua module, the scenes.
+# What a user of the installed tree gets: the command, libambit, its C API and the headers for plugins (ambit/...), find_package(Ambit), ambit.pc, the plugins (cmake/plugins.cmake), the Lua module, the scenes.
 include(CMakePackageConfigHelpers)
 include(cmake/kit.cmake)
 
@@ -11,11 +10,7 @@ install(TARGETS libambit EXPORT AmbitTargets LIBRARY DESTINATION ${CMAKE_INSTALL
 install(TARGETS ambit RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS ambit_module LIBRARY DESTINATION ${AMBIT_LUA_DIR})
 
-install(DIRECTORY framework/kernel/abi/ambit DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
-foreach(room kernel/base kernel/num kernel/graph kernel/host algebra mechanics models verbs)
-  install(DIRECTORY framework/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/ambit-kernel
-    FILES_MATCHING PATTERN "*.h" PATTERN "*_lua.h" EXCLUDE)
-endforeach()
+install(DIRECTORY framework/kernel/abi/ambit framework/api/ambit DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 
 # Plugins need headers only: Ambit::sdk; hosts link Ambit::kernel.
 add_library(ambit_sdk INTERFACE)

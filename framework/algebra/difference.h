@@ -14,7 +14,7 @@
 */
 #ifndef AMBIT_DIFFERENCE_H
 #define AMBIT_DIFFERENCE_H
-#include "graph/graph.h"
+#include <ambit/graph.h>
 
 /* out[i] := u[i](leaf) - w[i](leaf - delta), i < n; all from one memory, so that what they share is shared. INVALID: an
 ** argument that is no expression, or a `leaf` that is none. */

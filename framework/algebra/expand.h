@@ -8,7 +8,7 @@
 */
 #ifndef AMBIT_EXPAND_H
 #define AMBIT_EXPAND_H
-#include "graph/graph.h"
+#include <ambit/graph.h>
 
 /* e written out as far as it has at most `limit` summands then: its summands are taken from left to right, and one that
 ** would make too many stays as it is; so does a factor that would alone. e itself if there is nothing to write out, or

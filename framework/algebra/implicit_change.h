@@ -1,7 +1,7 @@
 /* implicit_change.h -- the implicit form of a system that was made of another one: leaves replaced, states added. */
 #ifndef AMBIT_IMPLICIT_CHANGE_H
 #define AMBIT_IMPLICIT_CHANGE_H
-#include "graph/system.h"
+#include <ambit/system.h>
 
 /* The new system is `of` with leaf[n] (data, time; no states, no unknowns of the form) replaced by value[n], and with
 ** further states y_k = g_k(x, t) behind those of `of`, in terms of its leaves before they are replaced: y_k' is written

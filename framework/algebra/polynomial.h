@@ -7,7 +7,7 @@
 */
 #ifndef AMBIT_POLYNOMIAL_H
 #define AMBIT_POLYNOMIAL_H
-#include "graph/graph.h"
+#include <ambit/graph.h>
 
 #define AMBIT_LOST_MAX 64u
 

@@ -11,7 +11,7 @@
 */
 #ifndef AMBIT_TERM_TREE_H
 #define AMBIT_TERM_TREE_H
-#include "graph/graph.h"
+#include <ambit/graph.h>
 
 #define AMBIT_NO_TERM UINT32_MAX
 #define AMBIT_TERM_TREE_MAX 100000u /* terms; sums of sums can have very many */

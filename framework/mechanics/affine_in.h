@@ -10,7 +10,7 @@
 */
 #ifndef AMBIT_AFFINE_IN_H
 #define AMBIT_AFFINE_IN_H
-#include "graph/graph.h"
+#include <ambit/graph.h>
 
 typedef struct ambit_affine ambit_affine;
 

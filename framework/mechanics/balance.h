@@ -4,18 +4,15 @@
 #ifndef AMBIT_BALANCE_H
 #define AMBIT_BALANCE_H
 #include "mechanics/affine_in.h"
-#include "mechanics/mechanism.h"
+#include <ambit/dynamics.h>
 #include <string.h>
-
-typedef struct ambit_variables {
-  size_t ncoordinate, n;
-  const ambit_coordinate *coordinate; /* [ncoordinate] */
-  const ambit_speed *speed;           /* [n], one for each degree of freedom */
-  const ambit_expr *u, *du, *zero;    /* [n] symbols of the speeds, of their time derivatives; zeros */
-} ambit_variables;
 
 /* INVALID: an element fails; nothing moves. */
 ambit_status ambit_variables_read(ambit_mechanism *m, ambit_arena *arena, ambit_variables *v, ambit_failure *f);
+/* A system without right-hand sides, of these variables: states q, then u: names "beta1", "beta2", "beta1'",
+** "beta2'" */
+ambit_status ambit_dynamics_states(
+    ambit_graph *g, const ambit_variables *v, ambit_arena *arena, ambit_system *system, ambit_failure *f);
 /* Number of speed `index` of the part among v->speed; v->n: it is not a variable. */
 size_t ambit_variables_find(const ambit_variables *v, uint32_t part, uint32_t index);
 /* balance[n]: r(q, u, u'), the power of all wrenches and efforts along each speed per unit of it. A joint whose

@@ -9,15 +9,11 @@
 */
 #ifndef AMBIT_CONSTRAINED_H
 #define AMBIT_CONSTRAINED_H
-#include "mechanics/dynamics.h"
+#include "mechanics/balance.h"
 #include "mechanics/loops.h"
 
-/* The system of a mechanism, with constraints or without; form: AMBIT_FORM_*, for mechanisms without loops. */
-ambit_status ambit_constrained_system(
-    ambit_mechanism *m, uint32_t form, ambit_arena *arena, ambit_system *system, ambit_failure *f);
-
-/* The same without right-hand sides, which are written when they are asked for: what is wrong with them is said
-** then. */
+/* ambit_constrained_system without right-hand sides, which are written when they are asked for: what is wrong with
+** them is said then. */
 ambit_status ambit_constrained_outline(
     ambit_mechanism *m, uint32_t form, ambit_arena *arena, ambit_system *system, ambit_failure *f);
 /* They alone, (*rate)[nx]; loops: those of the outline, or NULL */

@@ -6,7 +6,7 @@
 */
 #ifndef AMBIT_CONSTRAINTS_H
 #define AMBIT_CONSTRAINTS_H
-#include "mechanics/mechanism.h"
+#include <ambit/mechanism.h>
 
 typedef struct ambit_constraint {
   const char *loop;     /* the element */

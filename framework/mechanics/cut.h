@@ -6,7 +6,7 @@
 */
 #ifndef AMBIT_CUT_H
 #define AMBIT_CUT_H
-#include "mechanics/mechanism.h"
+#include <ambit/mechanism.h>
 
 typedef struct ambit_cut ambit_cut;
 ambit_cut *ambit_cut_open(ambit_mechanism *m); /* NULL: out of memory; no part may be added until close */

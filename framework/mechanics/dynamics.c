@@ -3,7 +3,7 @@
 ** Balances r (balance.h) are affine in u': M = -dr/du', h = r at u' = 0. M is symmetric, and positive definite for
 ** physical masses.
 */
-#include "mechanics/dynamics.h"
+#include "mechanics/balance.h"
 #include "mechanics/constraints.h"
 #include "mechanics/affine_in.h"
 #include "mechanics/factor.h"

@@ -5,7 +5,7 @@
 */
 #ifndef AMBIT_FACTOR_H
 #define AMBIT_FACTOR_H
-#include "graph/graph.h"
+#include <ambit/graph.h>
 
 typedef struct ambit_factor {
   ambit_graph *g;

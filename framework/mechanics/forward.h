@@ -8,7 +8,7 @@
 */
 #ifndef AMBIT_FORWARD_H
 #define AMBIT_FORWARD_H
-#include "mechanics/dynamics.h"
+#include "mechanics/balance.h"
 
 typedef struct ambit_forward {
   ambit_variables variables;

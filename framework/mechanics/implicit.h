@@ -8,7 +8,7 @@
 */
 #ifndef AMBIT_MECHANISM_IMPLICIT_H
 #define AMBIT_MECHANISM_IMPLICIT_H
-#include "graph/system.h"
+#include <ambit/system.h>
 #include "mechanics/loops.h"
 
 /* Lets `system`, the equations of motion of m, be written in implicit form later, and its right-hand sides if it has

@@ -5,7 +5,7 @@
 ** 2008, ch. 5). Of gravity: r is affine in the field, which the world frame feels as its acceleration; the part of -r
 ** that is linear in it, at rest, is what weights ask for.
 */
-#include "mechanics/inverse.h"
+#include "mechanics/balance.h"
 #include "mechanics/affine_in.h"
 #include "mechanics/cut.h"
 

@@ -8,7 +8,7 @@
 */
 #ifndef AMBIT_LOOP_SOLVER_H
 #define AMBIT_LOOP_SOLVER_H
-#include "graph/graph.h"
+#include <ambit/graph.h>
 #include "mechanics/partition.h"
 
 #define AMBIT_CRAMER 6u

@@ -1,5 +1,5 @@
 /* mechanism.c -- what a mechanism consists of: parts and their connections. */
-#include "mechanics/mechanism.h"
+#include <ambit/mechanism.h>
 #include "base/vector.h"
 #include "mechanics/parts.h"
 #include <stdio.h>

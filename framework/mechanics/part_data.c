@@ -1,6 +1,7 @@
 /* part_data.c -- the parameters of a part: what the user gave, else what the declaration says. */
+#include "host/params.h"
 #include "graph/name.h"
-#include "host/registry.h"
+#include <ambit/registry.h>
 #include "mechanics/parts.h"
 #include <stdio.h>
 #include <string.h>

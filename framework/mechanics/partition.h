@@ -12,8 +12,8 @@
 */
 #ifndef AMBIT_PARTITION_H
 #define AMBIT_PARTITION_H
-#include "base/arena.h"
-#include "base/status.h"
+#include <ambit/arena.h>
+#include <ambit/status.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>

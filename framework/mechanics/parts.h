@@ -7,7 +7,7 @@
 #ifndef AMBIT_PARTS_H
 #define AMBIT_PARTS_H
 #include "graph/collect.h"
-#include "mechanics/mechanism.h"
+#include <ambit/mechanism.h>
 #include "graph/name.h"
 
 #define AMBIT_CELL_EMPTY 0u

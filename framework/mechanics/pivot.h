@@ -1,7 +1,7 @@
 /* pivot.h -- what is wrong with the mass felt along a speed, and how to say so. */
 #ifndef AMBIT_PIVOT_H
 #define AMBIT_PIVOT_H
-#include "mechanics/mechanism.h"
+#include <ambit/mechanism.h>
 
 /* INVALID if a pivot is negative, or vanishes everywhere: its enclosures at random points all contain 0 (or say
 ** nothing), but for an event of probability 0 or a matrix too ill-conditioned to be solved. The first such one is

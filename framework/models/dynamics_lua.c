@@ -4,7 +4,7 @@
 #include "models/system_lua.h"
 #include "mechanics/constrained.h"
 #include "mechanics/forward.h"
-#include "mechanics/inverse.h"
+#include <ambit/dynamics.h>
 
 /* Scratch memory that Lua frees. */
 static ambit_arena *scratch(lua_State *L) { return ambit_lua_push_system(L)->arena; }

@@ -1,4 +1,5 @@
 /* mechanism_lua.c -- mechanisms as Lua values: adding parts, pulling quantities, the variables. */
+#include "host/params.h"
 #include "models/mechanism_lua.h"
 #include "graph/kink.h"
 #include "script/core.h"

@@ -2,7 +2,7 @@
 #ifndef AMBIT_LUA_SYSTEM_H
 #define AMBIT_LUA_SYSTEM_H
 #include "script/core.h"
-#include "graph/system.h"
+#include <ambit/system.h>
 
 typedef struct ambit_lua_system {
   ambit_holder holder; /* of the expressions of `system` */

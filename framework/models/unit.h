@@ -6,7 +6,7 @@
 */
 #ifndef AMBIT_UNIT_H
 #define AMBIT_UNIT_H
-#include "graph/graph.h"
+#include <ambit/graph.h>
 #include "models/dimension.h"
 
 /* numerator / denominator * pi^pi * 10^decimal, exactly; the integers >= 1, without a common divisor */

@@ -10,14 +10,14 @@
 */
 #ifndef AMBIT_LUA_CORE_H
 #define AMBIT_LUA_CORE_H
-#include "base/arena.h"
-#include "base/status.h"
+#include <ambit/arena.h>
+#include <ambit/status.h>
 #include "graph/collect.h"
-#include "graph/graph.h"
-#include "host/registry.h"
+#include <ambit/graph.h>
+#include <ambit/registry.h>
 #include "verbs/run/records.h"
 #include "models/unit.h"
-#include "num/interval.h"
+#include <ambit/interval.h>
 #include <lauxlib.h>
 #include <lua.h>
 
@@ -156,5 +156,5 @@ int ambit_lua_retire(lua_State *L);
 void ambit_lua_set_functions(lua_State *L, ambit_lua *core, const luaL_Reg *functions);
 
 int luaopen_ambit_core(lua_State *L);
-int luaopen_ambit(lua_State *L);
+AMBIT_EXPORT int luaopen_ambit(lua_State *L);
 #endif

@@ -10,6 +10,7 @@
 #include "script/core.h"
 #include "verbs/evaluate/tight.h"
 #include "num/decimal.h"
+#include "num/interval.h"
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>

@@ -5,6 +5,7 @@
 ** correlated.
 */
 #include "script/core.h"
+#include "num/interval.h"
 #include <ctype.h>
 #include <string.h>
 

@@ -4,7 +4,7 @@
 #ifndef AMBIT_LUA_HELD_SET_H
 #define AMBIT_LUA_HELD_SET_H
 #include "graph/collect.h"
-#include "graph/graph.h"
+#include <ambit/graph.h>
 #include <ambit/solver.h>
 #include <stdbool.h>
 

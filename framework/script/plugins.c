@@ -1,4 +1,6 @@
 /* plugins.c -- plugins as Lua tables: the listing, and what each declares about itself (ports, parameters, options). */
+#include "host/load.h"
+#include "host/params.h"
 #include "script/core.h"
 #include "base/names.h"
 #include "script/provenance.h"
@@ -153,8 +155,8 @@ static void add_folder(void *user, const char *folder) {
   lua_rawseti(L, -2, luaL_len(L, -2) + 1);
 }
 
-/* provenance() -> the plugins that are loaded, each { kind, name, version, file, sha256, shadows }, and folders that
-** are trusted */
+/* provenance() -> the plugins that are loaded, each { kind, name, version, file, sha256, shadows }, the folders that
+** are trusted, and whether plugins may take names of Ambit's own */
 static int provenance(lua_State *L) {
   ambit_registry *r = AMBIT_LUA(L)->registry;
   ambit_failure f = { 0 };
@@ -173,7 +175,8 @@ static int provenance(lua_State *L) {
   }
   lua_newtable(L);
   ambit_trust_each(add_folder, L);
-  return 2;
+  lua_pushboolean(L, ambit_trust_has_shadows());
+  return 3;
 }
 
 /* loaded() -> "kind.name" of each plugin that is loaded */

@@ -6,7 +6,8 @@
 */
 #ifndef AMBIT_PROVENANCE_H
 #define AMBIT_PROVENANCE_H
-#include "host/registry.h"
+#include "host/load.h"
+#include <ambit/registry.h>
 #include <ambit/digest.h>
 #include <stdbool.h>
 

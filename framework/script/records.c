@@ -1,4 +1,5 @@
 /* records.c -- JSON lines from Lua: values and results; the steps of a run are written by its sink. */
+#include "host/load.h"
 #include "script/core.h"
 #include "script/limit.h"
 #include "script/provenance.h"

@@ -3,9 +3,9 @@
 #ifndef AMBIT_LUA_REQUEST_H
 #define AMBIT_LUA_REQUEST_H
 #include "script/core.h"
-#include "verbs/evaluate/evaluate.h"
-#include "verbs/run/report.h"
-#include "verbs/simulate/simulate.h"
+#include <ambit/evaluate.h>
+#include <ambit/report.h>
+#include <ambit/simulate.h>
 
 ambit_option *ambit_lua_options(lua_State *L, int idx, size_t *n); /* {name, text, name, text, ...} */
 double *ambit_lua_numbers(lua_State *L, int idx, size_t *n);       /* {x, ...} */

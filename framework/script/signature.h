@@ -1,8 +1,8 @@
 /* signature.h -- "d(Ddd)" of ambit/export.h as a libffi call interface. */
 #ifndef AMBIT_LUA_SIGNATURE_H
 #define AMBIT_LUA_SIGNATURE_H
-#include "base/arena.h"
-#include "base/status.h"
+#include <ambit/arena.h>
+#include <ambit/status.h>
 #include <ffi.h>
 
 #define AMBIT_SIGNATURE_MAX 16 /* arguments as Lua counts them */

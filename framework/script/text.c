@@ -9,6 +9,7 @@
 */
 #include "script/core.h"
 #include "num/decimal.h"
+#include "num/interval.h"
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,6 +1,7 @@
 /* value.c -- Lua values as kernel values. A number is the exact double it is; text is the decimal it says. */
 #include "script/core.h"
 #include "num/decimal.h"
+#include "num/interval.h"
 #include <ctype.h>
 #include <stddef.h>
 #include <stdio.h>

@@ -3,8 +3,8 @@
 #include "script/receiver.h"
 #include "script/request.h"
 #include "verbs/event/events_lua.h"
-#include "verbs/evaluate/evaluate.h"
-#include "verbs/simulate/simulate.h"
+#include <ambit/evaluate.h>
+#include <ambit/simulate.h>
 #include "verbs/simulate/suggest.h"
 #include <string.h>
 

@@ -142,6 +142,9 @@ function command.run(words)
     io.stderr:write("ambit: ", tostring(kit), "\n")
     return 1
   end
+  local _, trusted, shadows = core.provenance() -- the kit has a kernel of its own, which knows nothing of these
+  for _, folder in ipairs(trusted) do kit.fn.trust(folder) end
+  if shadows then kit.fn.allow_shadow() end
   local rounds, seed = options.rounds or options.long and 20 or 1, math.tointeger(options.seed or 1)
   local report = reporter(options)
   io.stdout:flush() -- the child has a copy of what is not written yet

@@ -11,17 +11,17 @@ end
 local num = { "^num%.", "^plugins%.arithmetic_interval" }
 
 return {
-  { name = "num", share = 50, files = { "^framework/kernel/num/(%w+_?%w*)%.c$" }, target = "libambit", tests = num },
-  { name = "num headers", share = 15, target = "libambit", tests = num,
+  { name = "num", share = 50, files = { "^framework/kernel/num/(%w+_?%w*)%.c$" }, target = "ambit_inside", tests = num },
+  { name = "num headers", share = 15, target = "ambit_inside", tests = num,
     files = { "^framework/kernel/num/(interval|rounding|elementary_kernel|power_kernel|product_kernel)%.h$" } },
-  { name = "graph", share = 65, target = "libambit",
+  { name = "graph", share = 65, target = "ambit_inside",
     files = {
       "^framework/kernel/graph/(contract|derivative|fold%w*|fold_%w+|hull|interpreter|inverse|inverse_angle|jet_%w+|kink|tail_%w+|tape)%.c$",
       "^framework/algebra/(difference|difference_rule|expand|polynomial|simplify|summands)%.c$" },
     tests = { "^graph%.", "^algebra%.", "^plugins%.arithmetic_interval_jets", "^plugins%.solver_valencia", "^mechanics%.",
       "^plugins%.solver_reduction" },
     specs = { "expression", "source" } },
-  { name = "verbs", share = 30, target = "libambit",
+  { name = "verbs", share = 30, target = "ambit_inside",
     files = { "^framework/verbs/%w+/(event%w*|event_%w+|watch|watch_most|guard|monotone|bound|merge|dense|split|solve|spectrum|definite)%.c$" },
     tests = { "^verbs%." },
     specs = { "event", "verify", "poincare", "hybrid", "split", "gradient" } },

@@ -1,5 +1,6 @@
-# Every header of the SDK compiles alone, as C17 and as C++17.
-file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/framework/kernel/abi/ambit/*.h)
+# Every header of the SDK and of the C API compiles alone, as C17 and as C++17.
+enable_language(CXX)
+file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/framework/kernel/abi/ambit/*.h ${PROJECT_SOURCE_DIR}/framework/api/ambit/*.h)
 set(units "")
 foreach(header ${headers})
   get_filename_component(name ${header} NAME_WE)
@@ -10,5 +11,5 @@ foreach(header ${headers})
   endforeach()
 endforeach()
 add_library(sdk_headers OBJECT ${units})
-target_include_directories(sdk_headers PRIVATE ${PROJECT_SOURCE_DIR}/framework/kernel/abi)
+target_include_directories(sdk_headers PRIVATE ${PROJECT_SOURCE_DIR}/framework/kernel/abi ${PROJECT_SOURCE_DIR}/framework/api)
 target_compile_options(sdk_headers PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Werror)

@@ -3,6 +3,7 @@
 #include "graph/hull.h"
 #include "graph/tape.h"
 #include "graph/sampler.h"
+#include <ambit/arithmetic.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

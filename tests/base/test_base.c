@@ -1,7 +1,7 @@
 /* Arena, failures, nearest names, growing arrays. */
-#include "base/arena.h"
+#include <ambit/arena.h>
 #include "base/names.h"
-#include "base/status.h"
+#include <ambit/status.h>
 #include "base/vector.h"
 #include <setjmp.h>
 #include <stdarg.h>

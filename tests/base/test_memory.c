@@ -1,5 +1,5 @@
 /* Requests beyond the memory that is there are refused before anything is taken. */
-#include "base/arena.h"
+#include <ambit/arena.h>
 #include "base/memory.h"
 #include <setjmp.h>
 #include <stdarg.h>

@@ -4,7 +4,7 @@
 */
 #include "graph/tape.h"
 #include "verbs/run/context.h"
-#include "verbs/evaluate/evaluate.h"
+#include <ambit/evaluate.h>
 #include "plugin.h"
 #include <math.h>
 

@@ -2,7 +2,7 @@
 #ifndef AMBIT_BENCH_PLUGIN_H
 #define AMBIT_BENCH_PLUGIN_H
 #include "graph/interpreter.h"
-#include "host/registry.h"
+#include <ambit/registry.h>
 #include "host/services.h"
 #include <stdio.h>
 #include <stdlib.h>

@@ -6,7 +6,7 @@
 ** the system of that name, with options of the solver.
 */
 #define _POSIX_C_SOURCE 200809L
-#include "verbs/roots/roots.h"
+#include <ambit/roots.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

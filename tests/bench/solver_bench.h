@@ -1,7 +1,7 @@
 /* solver_bench.h -- what the benches of solvers share: their arguments, and the fastest of several runs. */
 #ifndef SOLVER_BENCH_H
 #define SOLVER_BENCH_H
-#include "verbs/simulate/simulate.h"
+#include <ambit/simulate.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

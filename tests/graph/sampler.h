@@ -4,7 +4,7 @@
 */
 #ifndef AMBIT_TEST_SAMPLER_H
 #define AMBIT_TEST_SAMPLER_H
-#include "graph/graph.h"
+#include <ambit/graph.h>
 #include "oracle.h"
 #include <stdlib.h>
 #include <string.h>

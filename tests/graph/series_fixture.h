@@ -5,10 +5,11 @@
 */
 #ifndef AMBIT_TEST_SERIES_FIXTURE_H
 #define AMBIT_TEST_SERIES_FIXTURE_H
-#include "base/arena.h"
+#include <ambit/arena.h>
 #include "graph/interpreter.h"
 #include "graph/jet.h"
 #include "oracle.h"
+#include "num/interval.h"
 #include <complex.h>
 #include <stdarg.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 /* How operations that were asked for are answered: by new nodes, by nodes that were there, by folding. */
-#include "graph/graph.h"
+#include <ambit/graph.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

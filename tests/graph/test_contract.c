@@ -1,9 +1,10 @@
 /* Inverse operations and HC4-revise keep every solution (random operands, points in them, nasty bounds) and narrow
 ** where they can. */
 #include "graph/contract.h"
-#include "graph/graph.h"
+#include <ambit/graph.h>
 #include "graph/tape.h"
 #include "host/services.h"
+#include "num/interval.h"
 #include <float.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,5 +1,6 @@
 /* The interpreter: filled-in operations against the kernel's intervals, constants, blocks, refusals. */
 #include "graph/series_fixture.h"
+#include "num/interval.h"
 #include <setjmp.h>
 #include <stddef.h>
 #include <cmocka.h>

@@ -1,5 +1,6 @@
 /* Taylor coefficients and slopes: closed forms, points of boxes against the judge, solving, refusals. */
 #include "graph/series_scene.h"
+#include "num/interval.h"
 #include <setjmp.h>
 #include <stddef.h>
 #include <cmocka.h>

@@ -1,6 +1,6 @@
 /* test_object.c -- files that are no plugin: truncated at many lengths, text, empty, a directory, another machine.
 ** Each must be an error, not a crash of the loader. */
-#include "host/registry.h"
+#include <ambit/registry.h>
 #include <elf.h>
 #include <setjmp.h>
 #include <stdarg.h>

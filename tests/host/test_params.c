@@ -1,5 +1,6 @@
 /* test_params.c -- options by name: every shape, every fallback, and what wrong input is told. */
-#include "host/registry.h"
+#include "host/params.h"
+#include <ambit/registry.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

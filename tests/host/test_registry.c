@@ -1,6 +1,6 @@
 /* test_registry.c -- plugins by name, with plugins that are broken in every way we could think of
 ** (tests/host/broken). */
-#include "host/registry.h"
+#include <ambit/registry.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>

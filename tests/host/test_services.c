@@ -3,7 +3,7 @@
 #include "host/trust.h"
 #include "host/services.h"
 #include "graph/jet.h"
-#include "host/registry.h"
+#include <ambit/registry.h>
 #include "num/interval.h"
 #include "num/service.h"
 #include <link.h>

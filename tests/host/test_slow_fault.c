@@ -1,7 +1,7 @@
 /* test_slow_fault.c -- a slow path of the elementary functions that gives reversed bounds: what is computed stays
 ** sound, and it is said who is broken. */
 #include "host/trust.h"
-#include "host/registry.h"
+#include <ambit/registry.h>
 #include "host/slow.h"
 #include "num/interval.h"
 #include <setjmp.h>

@@ -1,7 +1,7 @@
 /* host.c -- a C program that hosts Ambit: encloses x^2 - 2x for x in [0, 2] in the arithmetic named by its argument. */
-#include "graph/graph.h"
-#include "host/registry.h"
-#include "verbs/evaluate/evaluate.h"
+#include <ambit/graph.h>
+#include <ambit/registry.h>
+#include <ambit/evaluate.h>
 #include <stdio.h>
 
 int main(int argc, char **argv) {

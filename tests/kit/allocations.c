@@ -1,6 +1,6 @@
 /* allocations.c -- malloc and its relatives in front of glibc's own, which they call.
 **
-** Linked into a test, it counts. Linked into libambit (AMBIT_COUNT_ALLOCATIONS), it makes every run abort that
+** Linked into a test, it counts. Linked into the kernel (AMBIT_COUNT_ALLOCATIONS), it makes every run abort that
 ** allocates between its first and its last record. Needs glibc; not for sanitizer builds, which bring a malloc of
 ** their own.
 */

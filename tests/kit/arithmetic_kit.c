@@ -1,4 +1,5 @@
 /* arithmetic_kit.c -- the order of the sections, findings, random operands. */
+#include "host/params.h"
 #include "kit/arithmetic_kit_inside.h"
 #include <fenv.h>
 #include <float.h>

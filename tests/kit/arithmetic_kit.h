@@ -16,7 +16,7 @@
 */
 #ifndef AMBIT_ARITHMETIC_KIT_H
 #define AMBIT_ARITHMETIC_KIT_H
-#include "host/registry.h"
+#include <ambit/registry.h>
 #include <ambit/arithmetic.h>
 #include <stdbool.h>
 

@@ -2,6 +2,7 @@
 **
 ** No function that changes the environment computes with doubles: compilers move such operations across the change.
 */
+#include "host/params.h"
 #include "kit/arithmetic_kit_inside.h"
 #include "kit/conduct.h"
 #include <fenv.h>

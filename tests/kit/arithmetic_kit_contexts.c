@@ -1,5 +1,6 @@
 /* arithmetic_kit_contexts.c -- other callers: rounding modes and flush-to-zero, several contexts, threads, no memory,
 ** and other options. */
+#include "host/params.h"
 #include "kit/arithmetic_kit_inside.h"
 #include <fenv.h>
 #include <math.h>

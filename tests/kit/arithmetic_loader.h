@@ -1,8 +1,9 @@
 /* arithmetic_loader.h -- an arithmetic plugin for a test, straight from its file. */
 #ifndef AMBIT_ARITHMETIC_LOADER_H
 #define AMBIT_ARITHMETIC_LOADER_H
+#include "host/params.h"
 #include "graph/interpreter.h"
-#include "host/registry.h"
+#include <ambit/registry.h>
 #include "host/services.h"
 #include <dlfcn.h>
 #include <stdio.h>

@@ -1,4 +1,5 @@
 /* conformance.c -- loads a plugin and finds the kit for it. */
+#include "host/params.h"
 #include "kit/conformance.h"
 #include "host/services.h"
 #include "kit/arithmetic_kit.h"

@@ -2,7 +2,7 @@
 ** the kit of its kind. */
 #ifndef AMBIT_CONFORMANCE_H
 #define AMBIT_CONFORMANCE_H
-#include "host/registry.h"
+#include <ambit/registry.h>
 #include <stdbool.h>
 
 enum { CONFORMS = 0, NOT_LOADED = 1, BROKEN = 3 }; /* verdicts; also the exit codes of the command */

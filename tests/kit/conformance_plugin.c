@@ -1,6 +1,6 @@
 /* conformance_plugin.c -- the conformance kits as a service plugin, which `ambit check` loads and nothing else.
 **
-** It is a host program in the shape of a plugin: it links libambit, because checking plugins means loading them.
+** It is a host program in the shape of a plugin: checking plugins means loading them, by a kernel of its own.
 */
 #include "kit/conformance.h"
 #include <ambit/export.h>
@@ -54,7 +54,11 @@ static int32_t check(const char *file, const char *options, double seed, double 
   return verdict;
 }
 
+static void trust(const char *folder) { ambit_trust_folder(folder, NULL); }
+
 static const ambit_function functions[] = {
+  { "trust", "v(s)", (void (*)(void))trust, "plugins may be loaded from FOLDER whoever may write there" },
+  { "allow_shadow", "v()", ambit_trust_shadows, "a plugin may take a name of Ambit's own" },
   { "check", "i(ssdddi(v(sss)))", (void (*)(void))check,
       "runs the kit on FILE with OPTIONS (lines name=value), seed, effort, patience in s, and flags (1: "
       "isotonicity is demanded, 2: end at the first broken promise); tells what happens; 0 conforms, 1 cannot be "

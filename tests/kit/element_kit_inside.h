@@ -1,10 +1,10 @@
 /* element_kit_inside.h -- what the files of the element kit share: the stage, and what must vanish on it. */
 #ifndef AMBIT_ELEMENT_KIT_INSIDE_H
 #define AMBIT_ELEMENT_KIT_INSIDE_H
-#include "graph/graph.h"
+#include <ambit/graph.h>
 #include "kit/element_kit.h"
 #include "kit/element_stage.h"
-#include "mechanics/mechanism.h"
+#include <ambit/mechanism.h>
 #include "num/random.h"
 
 #define ELEMENT_KIT_PORTS 8u

@@ -1,5 +1,6 @@
 /* element_kit_stage.c -- the stage around the element under test (element_kit.h). */
-#include "host/registry.h"
+#include "host/params.h"
+#include <ambit/registry.h>
 #include "kit/element_kit_inside.h"
 #include <math.h>
 #include <stdio.h>

@@ -12,7 +12,7 @@ ambit_example_arithmetic(skeleton scripts/skeleton/arithmetic/skeleton.c tests/p
 file(GLOB arithmetic_kit_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/kit/arithmetic_kit*.c ${PROJECT_SOURCE_DIR}/tests/kit/conduct*.c)
 add_library(arithmetic_kit STATIC ${arithmetic_kit_sources})
 target_include_directories(arithmetic_kit PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-target_link_libraries(arithmetic_kit PRIVATE ambit_flags PUBLIC libambit PkgConfig::MPFR m)
+target_link_libraries(arithmetic_kit PRIVATE ambit_flags PUBLIC ambit_inside PkgConfig::MPFR m)
 
 # tests/plugins/test_arithmetic_<plugin>[_<topic>].c has the kit at hand, and its plugin is built before it runs
 get_directory_property(targets BUILDSYSTEM_TARGETS)

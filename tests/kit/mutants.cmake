@@ -16,9 +16,7 @@ endforeach()
 add_executable(run_mutants ${PROJECT_SOURCE_DIR}/tests/kit/mutants/run_mutants.c)
 set_target_properties(run_mutants PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
 target_include_directories(run_mutants PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-# the kit is a plugin of a program that has libambit
-target_link_options(run_mutants PRIVATE LINKER:--no-as-needed)
-target_link_libraries(run_mutants PRIVATE ambit_flags libambit ${CMAKE_DL_LIBS})
+target_link_libraries(run_mutants PRIVATE ambit_flags ambit_beside ${CMAKE_DL_LIBS})
 add_dependencies(run_mutants service_conformance_kit)
 # The program with its words, for the test and for `./dev bench`.
 string(REPLACE ";" " " mutant_text "${mutant_words}")

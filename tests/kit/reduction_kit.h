@@ -10,7 +10,7 @@
 */
 #ifndef AMBIT_REDUCTION_KIT_H
 #define AMBIT_REDUCTION_KIT_H
-#include "host/registry.h"
+#include <ambit/registry.h>
 
 typedef struct reduction_kit {
   ambit_registry *registry;

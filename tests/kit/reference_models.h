@@ -2,7 +2,7 @@
 ** Shared by tests and benchmarks. */
 #ifndef AMBIT_REFERENCE_MODELS_H
 #define AMBIT_REFERENCE_MODELS_H
-#include "graph/system.h"
+#include <ambit/system.h>
 
 #define MODEL_STATES 64
 

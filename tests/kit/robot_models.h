@@ -7,8 +7,8 @@
 */
 #ifndef AMBIT_ROBOT_MODELS_H
 #define AMBIT_ROBOT_MODELS_H
-#include "host/registry.h"
-#include "mechanics/mechanism.h"
+#include <ambit/registry.h>
+#include <ambit/mechanism.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

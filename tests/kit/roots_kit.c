@@ -2,7 +2,7 @@
 #include "kit/roots_kit.h"
 #include "kit/conduct.h"
 #include "kit/roots_kit_systems.h"
-#include "verbs/roots/roots.h"
+#include <ambit/roots.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>

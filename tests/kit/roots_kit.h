@@ -10,7 +10,7 @@
 */
 #ifndef AMBIT_ROOTS_KIT_H
 #define AMBIT_ROOTS_KIT_H
-#include "host/registry.h"
+#include <ambit/registry.h>
 
 typedef struct roots_kit {
   ambit_registry *registry;

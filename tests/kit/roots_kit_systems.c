@@ -1,6 +1,7 @@
 /* roots_kit_systems.c -- see roots_kit_systems.h. */
 #include "kit/roots_kit_systems.h"
 #include "num/random.h"
+#include "num/interval.h"
 #include <math.h>
 #include <stdio.h>
 

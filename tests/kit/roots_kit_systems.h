@@ -1,7 +1,7 @@
 /* roots_kit_systems.h -- equations whose roots are known. */
 #ifndef AMBIT_ROOTS_KIT_SYSTEMS_H
 #define AMBIT_ROOTS_KIT_SYSTEMS_H
-#include "graph/graph.h"
+#include <ambit/graph.h>
 
 enum { ROOTS_UNKNOWNS = 6, ROOTS_FACTORS = 3, ROOTS_DATA = 2, ROOTS_ALL = 64 };
 

@@ -1,4 +1,5 @@
 /* solver_kit.c -- runs a solver on every problem, with and without wishes, and stops it. */
+#include "host/params.h"
 #include "kit/conduct.h"
 #include "kit/guarded.h"
 #include "kit/solver_kit_inside.h"

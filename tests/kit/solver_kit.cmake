@@ -2,7 +2,7 @@
 file(GLOB solver_kit_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/kit/solver_kit*.c ${PROJECT_SOURCE_DIR}/tests/kit/conduct*.c)
 add_library(solver_kit STATIC ${solver_kit_sources})
 target_include_directories(solver_kit PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-target_link_libraries(solver_kit PRIVATE ambit_flags PUBLIC libambit m)
+target_link_libraries(solver_kit PRIVATE ambit_flags PUBLIC ambit_inside m)
 foreach(name lohner gsl taylor_model stiff valencia zonotope)
   if(NOT TARGET test.plugins.solver_${name} OR NOT TARGET solver_${name})
     continue()

@@ -12,7 +12,7 @@
 */
 #ifndef AMBIT_SOLVER_KIT_H
 #define AMBIT_SOLVER_KIT_H
-#include "host/registry.h"
+#include <ambit/registry.h>
 #include "host/services.h"
 #include <ambit/solver.h>
 

@@ -1,6 +1,7 @@
 /* solver_kit_problems.c -- small problems, each for one thing that a solver may get wrong. */
 #include "kit/solver_kit_problems.h"
 #include "kit/solver_kit_random.h"
+#include "num/interval.h"
 
 static ambit_expr op(kit_model *m, uint32_t code, ambit_expr a, ambit_expr b) {
   return ambit_graph_op(m->graph, code, a, b);

@@ -2,6 +2,7 @@
 #include "kit/solver_kit_random.h"
 #include "kit/solver_kit_implicit.h"
 #include "num/random.h"
+#include "num/interval.h"
 #include <math.h>
 #include <stdio.h>
 

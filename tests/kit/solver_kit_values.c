@@ -1,5 +1,6 @@
 /* solver_kit_values.c -- polynomials of records, evaluated with intervals. */
 #include "kit/solver_kit_values.h"
+#include "num/interval.h"
 #include <math.h>
 
 static ambit_interval point(double x) { return (ambit_interval) { x, x }; }

@@ -1,7 +1,7 @@
 /* solver_kit_values.h -- what a record says besides its bounds, evaluated: dense enclosures and sets (solver.h). */
 #ifndef AMBIT_SOLVER_KIT_VALUES_H
 #define AMBIT_SOLVER_KIT_VALUES_H
-#include "num/interval.h"
+#include <ambit/interval.h>
 #include <ambit/solver.h>
 
 /* the dense enclosure of state i at t_from + s */

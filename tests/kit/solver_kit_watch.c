@@ -1,6 +1,7 @@
 /* solver_kit_watch.c -- what is checked of each record. */
 #include "kit/solver_kit_inside.h"
 #include "kit/solver_kit_values.h"
+#include "num/interval.h"
 #include <math.h>
 #include <string.h>
 

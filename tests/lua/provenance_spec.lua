@@ -55,7 +55,7 @@ describe("provenance", function()
     local lines = {}
     for line in text:gmatch "[^\n]+" do lines[#lines + 1] = line end
     assert.truthy(lines[1]:find('^{"record":"provenance","ambit":"[%d.]+","command":"run","scene":{"file":"' .. scene
-      .. '","sha256":"%x+"},"kernel":{"file":"[^"]+/libambit%.so[%d.]*","sha256":"%x+"}}$'), lines[1])
+      .. '","sha256":"%x+"},"kernel":{"file":"[^"]+/bin/ambit","sha256":"%x+"}}$'), lines[1])
     assert.truthy(check_hashes(text, in_json) >= 6)
     local seen = {}
     for _, line in ipairs(lines) do

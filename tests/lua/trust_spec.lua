@@ -27,7 +27,7 @@ print(ambit.evaluate { ambit.between(5, 6), arithmetic = "interval" })]])
     local code, output = ambit(build .. "/tests/shadow", "run " .. scene)
     assert.equal(1, code)
     assert.truthy(output:find(build .. "/tests/shadow/arithmetic/interval.so", 1, true), output)
-    assert.truthy(output:find("Ambit's own [^\n]*/ambit/arithmetic/interval%.so"), output)
+    assert.truthy(output:find("Ambit's own [^\n]*/plugins/arithmetic/interval%.so"), output)
   end)
 
   it("speak if that is allowed, by the command or by the program", function()

@@ -2,9 +2,9 @@
 #ifndef AMBIT_TEST_MACHINE_H
 #define AMBIT_TEST_MACHINE_H
 #include "graph/tape.h"
-#include "host/registry.h"
+#include <ambit/registry.h>
 #include "graph/hull.h"
-#include "mechanics/mechanism.h"
+#include <ambit/mechanism.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>

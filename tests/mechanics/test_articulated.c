@@ -5,7 +5,7 @@
 #include "kit/robot_models.h"
 #include "mechanics/forward.h"
 #include "graph/hull.h"
-#include "mechanics/inverse.h"
+#include <ambit/dynamics.h>
 #include "num/random.h"
 #include <math.h>
 #include <setjmp.h>

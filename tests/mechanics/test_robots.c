@@ -2,9 +2,9 @@
 ** intervals around decimal data; both forms of the accelerations.
 */
 #include "kit/robot_models.h"
-#include "verbs/evaluate/evaluate.h"
+#include <ambit/evaluate.h>
 #include "mechanics/forward.h"
-#include "mechanics/inverse.h"
+#include <ambit/dynamics.h>
 #include "mechanics/robot_reference.h"
 #include "num/decimal.h"
 #include <math.h>

@@ -8,7 +8,8 @@
 */
 #ifndef NUM_IMAGE_H
 #define NUM_IMAGE_H
-#include "num/interval.h"
+#include <ambit/tape.h>
+#include <ambit/interval.h>
 #include <float.h>
 #include <mpfr.h>
 #include <stdint.h>

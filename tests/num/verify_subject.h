@@ -2,6 +2,7 @@
 #ifndef NUM_VERIFY_SUBJECT_H
 #define NUM_VERIFY_SUBJECT_H
 #include "kit/arithmetic_loader.h"
+#include "num/interval.h"
 
 #define VERIFY_LANES 64
 

@@ -9,12 +9,13 @@
 */
 #ifndef AMBIT_TEST_AGREEMENT_H
 #define AMBIT_TEST_AGREEMENT_H
+#include "host/params.h"
 #include "expression_oracle.h"
 #include "graph/interpreter.h"
 #include "graph/store.h"
 #include "graph/tape.h"
 #include "verbs/run/context.h"
-#include "verbs/evaluate/evaluate.h"
+#include <ambit/evaluate.h>
 #include <stdio.h>
 #include <time.h>
 

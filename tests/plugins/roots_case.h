@@ -1,7 +1,7 @@
 /* roots_case.h -- equations for tests of root finders, and what a run found. */
 #ifndef ROOTS_CASE_H
 #define ROOTS_CASE_H
-#include "verbs/roots/roots.h"
+#include <ambit/roots.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,6 +1,7 @@
 /* solver_case.h -- the conformance kit of solvers as a cmocka test. */
 #ifndef AMBIT_SOLVER_CASE_H
 #define AMBIT_SOLVER_CASE_H
+#include "host/params.h"
 #include "kit/arithmetic_loader.h"
 #include "kit/solver_kit.h"
 #include <setjmp.h>

@@ -1,6 +1,7 @@
 /* The affine plugin with the passes for each instruction set: conformance, bounds beside the kernel's intervals, what
 ** correlation must achieve, rounding environment, options. */
 #include "affine_truth.h"
+#include "num/interval.h"
 #if defined(__x86_64__)
 #include <xmmintrin.h>
 #endif

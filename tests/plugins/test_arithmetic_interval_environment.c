@@ -3,7 +3,7 @@
 ** the caller must find its environment as it was. */
 #include "kit/arithmetic_loader.h"
 #include "kit/tape_builder.h"
-#include "num/interval.h"
+#include <ambit/interval.h>
 #include "num/service.h"
 #include "oracle.h"
 #include <setjmp.h>

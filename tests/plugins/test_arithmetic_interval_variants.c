@@ -2,7 +2,7 @@
 ** run by run or in one call, whatever the number of lanes. (Series differ in the last bits: fused or not.) */
 #include "kit/arithmetic_loader.h"
 #include "kit/tape_builder.h"
-#include "num/interval.h"
+#include <ambit/interval.h>
 #include "oracle.h"
 #include <setjmp.h>
 #include <stdarg.h>

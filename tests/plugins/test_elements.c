@@ -1,5 +1,5 @@
 /* Every element plugin passes the conformance kit, and the kit finds elements that do not keep the contract. */
-#include "host/registry.h"
+#include <ambit/registry.h>
 #include "kit/element_kit.h"
 #include <ambit/spatial.h>
 #include <setjmp.h>

@@ -1,5 +1,5 @@
 /* The joints of quaternion.h, gear.h and play.h pass the conformance kit. */
-#include "host/registry.h"
+#include <ambit/registry.h>
 #include "kit/element_kit.h"
 #include <setjmp.h>
 #include <stdarg.h>

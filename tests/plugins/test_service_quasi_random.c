@@ -1,6 +1,6 @@
 /* test_service_quasi_random.c -- the service against values that its sequences are known to have, its limits, and
 ** misuse. */
-#include "host/registry.h"
+#include <ambit/registry.h>
 #include <ambit/quasi_random.h>
 #include <math.h>
 #include <setjmp.h>

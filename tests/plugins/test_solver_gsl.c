@@ -1,4 +1,5 @@
 /* The steppers of GSL: every method passes the kit of solvers; bad options and failures are explained. */
+#include "host/params.h"
 #include "solver_case.h"
 
 typedef struct method {

@@ -2,7 +2,7 @@
 ** would notice if the remainder were missing. */
 #include "solver_lies.h"
 #include "kit/reference_models.h"
-#include "verbs/simulate/simulate.h"
+#include <ambit/simulate.h>
 
 static void passes_the_kit(void **unused) {
   (void)unused;

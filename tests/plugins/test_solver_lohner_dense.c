@@ -2,6 +2,7 @@
 ** the unknowns. Judged by solutions in 300-bit arithmetic while records come in. */
 #include "kit/solver_kit_values.h"
 #include "solver_track.h"
+#include "num/interval.h"
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 #define SOLUTIONS 3

@@ -2,7 +2,7 @@
 ** blurred where the flow is linear. */
 #include "solver_case.h"
 #include "kit/reference_models.h"
-#include "verbs/simulate/simulate.h"
+#include <ambit/simulate.h>
 #include <math.h>
 
 typedef struct pacer {

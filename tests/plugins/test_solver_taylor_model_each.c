@@ -1,6 +1,7 @@
 /* The Taylor-model integrator, seen from inside: for EACH value of the uncertain data its own piece's polynomial and
 ** the remainder of its own sub-range contain its solution, in 300-bit arithmetic, through every operation and across
 ** splits. That is thousands to millions of times sharper than the hull; without the remainder it fails. */
+#include "host/params.h"
 #include "kit/reference_models.h"
 #include "kit/solution_oracle.h"
 #include "graph/tape.h"

@@ -3,7 +3,7 @@
 #include "kit/solution_oracle.h"
 #include "graph/tape.h"
 #include "verbs/simulate/problem.h"
-#include "verbs/simulate/simulate.h"
+#include <ambit/simulate.h>
 #include "oracle.h"
 #include <setjmp.h>
 #include <stdarg.h>

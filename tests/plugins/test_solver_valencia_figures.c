@@ -1,7 +1,7 @@
 /* valencia on the paper's double pendulum, and on random systems with and without kinks, against sampled Runge-Kutta
 ** solutions in long double. */
 #include "kit/reference_models.h"
-#include "verbs/simulate/simulate.h"
+#include <ambit/simulate.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

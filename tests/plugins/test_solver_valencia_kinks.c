@@ -1,7 +1,7 @@
 /* valencia where Taylor methods stop: right-hand sides with kinks and such as are only continuous, against closed forms
 ** piece by piece; and stiff or oscillating ones with every kind of exponential enclosure. */
 #include "kit/reference_models.h"
-#include "verbs/simulate/simulate.h"
+#include <ambit/simulate.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,7 +1,7 @@
 /* scene.h -- what the tests of the verbs share: a registry that also finds the test plugins, and a small system. */
 #ifndef AMBIT_TEST_SCENE_H
 #define AMBIT_TEST_SCENE_H
-#include "verbs/simulate/simulate.h"
+#include <ambit/simulate.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* test_environment.c -- a C host that rounds otherwise or flushes subnormal numbers is told so by every verb. */
 #include "num/environment.h"
-#include "verbs/evaluate/evaluate.h"
+#include <ambit/evaluate.h>
 #include "verbs/scene.h"
 #include "num/outward.h"
 #include <setjmp.h>

@@ -1,6 +1,6 @@
 /* test_evaluate.c -- expressions in an arithmetic that has nothing of its own, so that the enclosures are those of
 ** the kernel. */
-#include "verbs/evaluate/evaluate.h"
+#include <ambit/evaluate.h>
 #include "verbs/scene.h"
 #include <math.h>
 #include <setjmp.h>

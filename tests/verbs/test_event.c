@@ -1,6 +1,6 @@
 /* test_event.c -- zero crossings along records whose solutions are known: x(t) = x0 + t, so that the zeros of g(x) are
 ** those of a polynomial with given roots. */
-#include "verbs/event/event.h"
+#include <ambit/event.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

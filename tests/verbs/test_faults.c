@@ -1,6 +1,6 @@
 /* test_faults.c -- arithmetics that say they are rigorous and give what no enclosure can be: the verbs say BROKEN and
 ** whose fault it is, and give nothing out. */
-#include "verbs/evaluate/evaluate.h"
+#include <ambit/evaluate.h>
 #include "verbs/scene.h"
 #include <setjmp.h>
 #include <stdarg.h>

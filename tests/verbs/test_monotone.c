@@ -1,8 +1,8 @@
 /* test_monotone.c -- evaluate with derivatives: hand-made cases with known ranges, and random expressions against dense
 ** sampling at 200 bits.
 */
-#include "graph/graph.h"
-#include "verbs/evaluate/evaluate.h"
+#include <ambit/graph.h>
+#include <ambit/evaluate.h>
 #include "oracle.h"
 #include <setjmp.h>
 #include <stdarg.h>

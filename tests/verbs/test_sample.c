@@ -1,6 +1,6 @@
 /* test_sample.c -- hulls of draws lie inside the true range, come close to it, and are the same for the same seed,
 ** however many threads there are. */
-#include "verbs/sample/sample.h"
+#include <ambit/sample.h>
 #include "verbs/sample/sample_error.h"
 #include "num/random.h"
 #include "verbs/scene.h"

@@ -1,6 +1,6 @@
 /* test_simulate.c -- the verb `simulate` with a mock solver that misbehaves on demand: pairs, times, initial sets,
 ** parameters, outcomes. */
-#include "verbs/simulate/simulate.h"
+#include <ambit/simulate.h>
 #include "verbs/scene.h"
 #include <math.h>
 #include <setjmp.h>

@@ -1,6 +1,6 @@
 /* test_split_solver.c -- `simulate` in pieces with real solvers: closed forms inside, the same bits for any number of
 ** threads, contexts for solvers that want workers, and requests that make no sense. */
-#include "verbs/simulate/simulate.h"
+#include <ambit/simulate.h>
 #include "num/random.h"
 #include <math.h>
 #include <setjmp.h>

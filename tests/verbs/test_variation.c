@@ -1,6 +1,6 @@
 /* Systems with their variational equations: which entries are built, what they are called, and their right-hand sides
 ** against differences of the original ones. */
-#include "verbs/sensitivity/variation.h"
+#include <ambit/variation.h>
 #include "graph/hull.h"
 #include "graph/tape.h"
 #include "num/random.h"

@@ -1,6 +1,6 @@
 /* Watched conditions against sampling: solutions that are polynomials in time plus a constant offset, fed as records
 ** with dense enclosures, tubes or both; and the places where a mean value form must not be used. */
-#include "verbs/verify/watch.h"
+#include <ambit/watch.h>
 #include "num/random.h"
 #include <setjmp.h>
 #include <stdarg.h>

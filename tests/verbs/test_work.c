@@ -5,7 +5,7 @@
 #include "graph/tape.h"
 #include "host/pool.h"
 #include "verbs/run/context.h"
-#include "verbs/evaluate/evaluate.h"
+#include <ambit/evaluate.h>
 #include "verbs/scene.h"
 #include "verbs/run/share.h"
 #include <ambit/block.h>

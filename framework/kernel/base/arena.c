@@ -1,5 +1,5 @@
 /* arena.c -- a chain of blocks; an allocation is a bump of the newest block's fill mark. */
-#include "base/arena.h"
+#include <ambit/arena.h>
 #include "base/memory.h"
 #include <stdint.h>
 #include <stdlib.h>

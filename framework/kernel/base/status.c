@@ -1,5 +1,5 @@
 /* status.c -- outcomes and their messages. */
-#include "base/status.h"
+#include <ambit/status.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>

@@ -9,7 +9,7 @@
 */
 #ifndef AMBIT_COLLECT_H
 #define AMBIT_COLLECT_H
-#include "graph/graph.h"
+#include <ambit/graph.h>
 
 #define AMBIT_COLLECT_LEAST 16384u /* fewer nodes are not worth a collection: about 2 MB */
 

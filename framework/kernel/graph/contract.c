@@ -8,6 +8,7 @@
 ** repeats it while it pays.
 */
 #include "graph/contract.h"
+#include "num/interval.h"
 #include <ambit/work.h>
 #include <float.h>
 #include <math.h>

@@ -2,7 +2,7 @@
 ** operations. */
 #ifndef AMBIT_CONTRACT_TABLE_H
 #define AMBIT_CONTRACT_TABLE_H
-#include "num/interval.h"
+#include <ambit/interval.h>
 #include <ambit/contract.h>
 
 extern const ambit_contract_service ambit_contract_service_v1;

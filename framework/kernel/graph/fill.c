@@ -5,6 +5,7 @@
 ** Elements travel in chunks through arrays on the stack, so that an elementary function sees many at once.
 */
 #include "graph/interpreter.h"
+#include "num/interval.h"
 #include <string.h>
 
 #define CHUNK 64

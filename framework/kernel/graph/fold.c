@@ -5,6 +5,7 @@
 */
 #include "graph/fold.h"
 #include "graph/kink.h"
+#include "num/interval.h"
 
 bool ambit_fold_exact(uint32_t op, double a, double b, double *r) {
   ambit_interval x, p = { a, a }, q = { b, b };

@@ -6,12 +6,13 @@
 ** each call: two enclosures that look alike may stand for different numbers. Literals are the numbers they spell, so
 ** equal text is an equal node. Symbols are known by their names, which are never forgotten (symbols.h).
 */
-#include "graph/graph.h"
+#include <ambit/graph.h>
 #include "base/vector.h"
 #include "graph/fold.h"
 #include "graph/store.h"
 #include "graph/walk.h"
 #include "num/decimal.h"
+#include "num/interval.h"
 #include <float.h>
 #include <stdlib.h>
 #include <string.h>

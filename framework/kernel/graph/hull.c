@@ -1,6 +1,7 @@
 /* hull.c -- natural interval extension (Moore 1966): each operation encloses its image, hence so does their
 ** composition. */
 #include "graph/hull.h"
+#include "num/interval.h"
 #include <string.h>
 
 uint32_t ambit_hull(const ambit_tape *t, const ambit_interval *in, ambit_interval *slot) {

@@ -1,7 +1,8 @@
 /* hull.h -- a tape in the kernel's own intervals. */
 #ifndef AMBIT_HULL_H
 #define AMBIT_HULL_H
-#include "num/interval.h"
+#include <ambit/interval.h>
+#include <ambit/tape.h>
 
 /* slot[nslot] := enclosures of every slot for the inputs in[nin]; returns AMBIT_F_* over all of them. */
 uint32_t ambit_hull(const ambit_tape *t, const ambit_interval *in, ambit_interval *slot);

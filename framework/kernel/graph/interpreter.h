@@ -1,8 +1,8 @@
 /* interpreter.h -- runs tapes in any arithmetic; fills in what a plugin leaves out. */
 #ifndef AMBIT_INTERPRETER_H
 #define AMBIT_INTERPRETER_H
-#include "base/status.h"
-#include "num/interval.h"
+#include <ambit/status.h>
+#include <ambit/interval.h>
 #include <ambit/arithmetic.h>
 
 /* full := the plugin's struct with every NULL run[] replaced by the kernel's "hull, interval function, set". INVALID

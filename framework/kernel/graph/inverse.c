@@ -5,6 +5,7 @@
 ** operands that straddle 0.
 */
 #include "graph/contract.h"
+#include "num/interval.h"
 
 #define POSITIVE ((ambit_interval) { 0, INFINITY })
 #define NEGATIVE ((ambit_interval) { -INFINITY, 0 })

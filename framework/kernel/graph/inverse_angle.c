@@ -6,6 +6,7 @@
 ** of branch k is not above (k+1) pi, so stopping at the first that meets a loses no solution.
 */
 #include "graph/contract.h"
+#include "num/interval.h"
 
 #define FAR 1e9 /* angles beyond: branches are too uncertain to be of use */
 

@@ -7,7 +7,7 @@
 #ifndef AMBIT_JET_GENERAL_H
 #define AMBIT_JET_GENERAL_H
 #include "graph/jet.h"
-#include "num/interval.h"
+#include <ambit/interval.h>
 #include <ambit/meter.h>
 
 #define AMBIT_SERIES_NEW UINT32_MAX /* as a target: the next scratch element */

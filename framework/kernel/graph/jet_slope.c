@@ -9,6 +9,7 @@
 ** docs/numerics/series.md.
 */
 #include "graph/jet_general.h"
+#include "num/interval.h"
 
 #define NEW AMBIT_SERIES_NEW
 

@@ -3,7 +3,7 @@
 */
 #ifndef AMBIT_KINK_H
 #define AMBIT_KINK_H
-#include "graph/graph.h"
+#include <ambit/graph.h>
 
 static inline bool ambit_op_has_kink(uint32_t op) {
   return op == AMBIT_OP_ABS || op == AMBIT_OP_MIN || op == AMBIT_OP_MAX;

@@ -5,7 +5,7 @@
 */
 #ifndef AMBIT_NAME_H
 #define AMBIT_NAME_H
-#include "graph/graph.h"
+#include <ambit/graph.h>
 
 #define AMBIT_DATUM_NAME_MAX 256
 

@@ -1,7 +1,7 @@
 /* series_lowering.h -- expressions in the opcodes that a SERIES tape may hold (ambit/tape.h). */
 #ifndef AMBIT_SERIES_LOWERING_H
 #define AMBIT_SERIES_LOWERING_H
-#include "graph/graph.h"
+#include <ambit/graph.h>
 
 /* Will sealing write the node as a constant? */
 bool ambit_tape_folds(const ambit_graph *g, ambit_expr e);

@@ -9,7 +9,7 @@
 */
 #ifndef AMBIT_SOURCE_H
 #define AMBIT_SOURCE_H
-#include "graph/graph.h"
+#include <ambit/graph.h>
 
 typedef enum ambit_language {
   AMBIT_LANGUAGE_TEXT,

@@ -6,7 +6,7 @@
 #ifndef AMBIT_STORE_H
 #define AMBIT_STORE_H
 #include "graph/collect.h"
-#include "graph/graph.h"
+#include <ambit/graph.h>
 #include "graph/kink.h"
 #include "graph/symbols.h"
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* tape.h -- sealing: from expressions to a straight-line program of just the nodes that the outputs reach. */
 #ifndef AMBIT_TAPE_BUILD_H
 #define AMBIT_TAPE_BUILD_H
-#include "graph/graph.h"
+#include <ambit/graph.h>
 #include <ambit/tape.h>
 
 /* Flags of sealing besides AMBIT_TAPE_SERIES. KEEP: do not fold inexact constants (for arithmetics of higher

@@ -2,6 +2,7 @@
 #ifndef AMBIT_LOAD_H
 #define AMBIT_LOAD_H
 #include "host/path.h"
+#include <ambit/registry.h>
 #include <stdbool.h>
 #include <sys/stat.h>
 
@@ -27,4 +28,8 @@ ambit_status ambit_load_named(ambit_arena *arena, const ambit_path *path, const 
 /* Copies min(own, its size) bytes of a struct that starts with its size into the zeroed `into`; false if it holds
 ** fewer than `required`. */
 bool ambit_load_struct(void *into, size_t own, size_t required, const void *theirs);
+
+/* How many plugins are loaded, and the i-th of them, oldest first. */
+size_t ambit_registry_count(const ambit_registry *r);
+const ambit_loaded *ambit_registry_loaded(const ambit_registry *r, size_t i, const char **kind, const char **name);
 #endif

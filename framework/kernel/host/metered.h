@@ -2,7 +2,7 @@
 ** function (base/meter.h). Results are the same to the bit. */
 #ifndef AMBIT_METERED_H
 #define AMBIT_METERED_H
-#include "base/arena.h"
+#include <ambit/arena.h>
 #include <ambit/arithmetic.h>
 
 /* A copy of the service that measures, or the service itself where it is not one of the kernel's. */

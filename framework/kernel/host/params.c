@@ -1,6 +1,7 @@
 /* params.c -- options by name -> numbers, as the plugin's declaration says. */
+#include "host/params.h"
 #include "base/names.h"
-#include "host/registry.h"
+#include <ambit/registry.h>
 #include "num/decimal.h"
 #include <math.h>
 #include <stdbool.h>

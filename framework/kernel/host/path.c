@@ -37,15 +37,18 @@ static void append_list(ambit_path *path, char *list) {
   }
 }
 
-/* "<where libambit is>/ambit" */
-static char *beside_kernel(ambit_arena *arena) {
+/* The folder of Ambit's own plugins, or NULL. */
+static char *find_own(ambit_arena *arena) {
   char *kernel = ambit_trust_kernel();
   char *slash = kernel ? strrchr(kernel, '/') : NULL;
-  size_t bytes = slash ? (size_t)(slash - kernel) + sizeof "/ambit" : 0;
+  size_t bytes = slash ? (size_t)(slash - kernel) + strlen(ambit_place) + sizeof "/" : 0;
   char *text = slash ? ambit_arena_alloc(arena, bytes) : NULL;
-  if (text) snprintf(text, bytes, "%.*s/ambit", (int)(slash - kernel), kernel);
+  if (text) snprintf(text, bytes, "%.*s/%s", (int)(slash - kernel), kernel, ambit_place);
+  char *real = text ? realpath(text, NULL) : NULL;
+  char *own = real ? ambit_arena_text(arena, real) : NULL;
+  free(real);
   free(kernel);
-  return text;
+  return own;
 }
 
 ambit_status ambit_path_open(ambit_arena *arena, const char *given, ambit_path *path) {
@@ -56,7 +59,7 @@ ambit_status ambit_path_open(ambit_arena *arena, const char *given, ambit_path *
   path->directory = ambit_arena_alloc(arena, (count_parts(given) + 3) * sizeof *path->directory);
   if (!list || !path->directory) return AMBIT_NOMEM;
   append_list(path, list);
-  const char *own = beside_kernel(arena);
+  const char *own = find_own(arena);
   if (own && is_directory(own)) append(path, path->own = own);
   return AMBIT_OK;
 }

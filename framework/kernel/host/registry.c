@@ -1,6 +1,6 @@
 /* registry.c -- loaded plugins and the kernel's completed copies of their interfaces. */
-#include "host/registry.h"
-#include "base/arena.h"
+#include <ambit/registry.h>
+#include <ambit/arena.h>
 #include "base/meter.h"
 #include "graph/interpreter.h"
 #include "host/load.h"

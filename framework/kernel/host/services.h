@@ -1,8 +1,8 @@
 /* services.h -- the ambit_host that plugins see: memory, messages, services by id. */
 #ifndef AMBIT_SERVICES_H
 #define AMBIT_SERVICES_H
-#include "base/arena.h"
-#include "base/status.h"
+#include <ambit/arena.h>
+#include <ambit/status.h>
 #include <ambit/work.h>
 
 /* One host object per opened context or solver; freed together with it. */

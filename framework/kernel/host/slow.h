@@ -3,7 +3,7 @@
 #ifndef AMBIT_SLOW_H
 #define AMBIT_SLOW_H
 #include "host/load.h"
-#include "host/registry.h"
+#include <ambit/registry.h>
 
 /* From now on the plugin service/elementary is looked for on this registry's path (NULL: as for
 ** ambit_registry_open), and a failure is noted through it. Once loaded it stays for the life of the process: any

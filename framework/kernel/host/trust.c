@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 #include <errno.h>
 #include <grp.h>
+#include <link.h>
 #include <pthread.h>
 #include <pwd.h>
 #include <stdio.h>
@@ -65,8 +66,9 @@ void ambit_trust_each(void (*tell)(void *user, const char *folder), void *user) 
 
 char *ambit_trust_kernel(void) {
   Dl_info about;
-  if (!dladdr(&shadows, &about) || !about.dli_fname) return NULL;
-  return realpath(about.dli_fname, NULL);
+  struct link_map *map = NULL; /* its name is empty for the program itself */
+  if (!dladdr1(&shadows, &about, (void **)&map, RTLD_DL_LINKMAP) || !map) return NULL;
+  return realpath(map->l_name[0] ? map->l_name : "/proc/self/exe", NULL);
 }
 
 bool ambit_trust_same(const struct stat *a, const struct stat *b) {

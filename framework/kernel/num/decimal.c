@@ -8,6 +8,7 @@
 #include "num/decimal.h"
 #include "num/decimal_digits.h"
 #include "num/environment.h"
+#include "num/interval.h"
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -8,8 +8,8 @@
 */
 #ifndef AMBIT_DECIMAL_H
 #define AMBIT_DECIMAL_H
-#include "base/status.h"
-#include "num/interval.h"
+#include <ambit/status.h>
+#include <ambit/interval.h>
 
 /* The tightest doubles that enclose what the text says; quotients of other than integers, or of more than 1000
 ** characters, may be wider. INVALID with a message that quotes the text if it is no

@@ -8,7 +8,7 @@
 */
 #ifndef AMBIT_ELEMENTARY_H
 #define AMBIT_ELEMENTARY_H
-#include "num/interval.h"
+#include <ambit/interval.h>
 
 /* r[i] encloses op(a[i]) (ATAN2: op(a[i], b[i])) for op in EXP LOG SIN COS TAN ASIN ACOS ATAN ATAN2 SINH COSH TANH;
 ** structure of arrays. */

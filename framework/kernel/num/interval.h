@@ -5,34 +5,11 @@
 ** domain. Basic operations are the tightest doubles; elementary ones at most 1 ulp wider on each side
 ** (num/elementary.h).
 */
-#ifndef AMBIT_INTERVAL_H
-#define AMBIT_INTERVAL_H
-#include <ambit/tape.h>
+#ifndef AMBIT_NUM_INTERVAL_H
+#define AMBIT_NUM_INTERVAL_H
 #include <ambit/arithmetic.h>
-#include <math.h>
-#include <stdbool.h>
-
-typedef struct ambit_interval {
-  double lo, hi;
-} ambit_interval;
-
-#define AMBIT_EMPTY ((ambit_interval) { INFINITY, -INFINITY })
-#define AMBIT_ENTIRE ((ambit_interval) { -INFINITY, INFINITY })
-
-static inline bool ambit_interval_is_empty(ambit_interval x) { return !(x.lo <= x.hi); }
-static inline bool ambit_interval_is_point(ambit_interval x) { return x.lo == x.hi; }
-static inline bool ambit_interval_is_bounded(ambit_interval x) { return x.lo > -INFINITY && x.hi < INFINITY; }
-static inline bool ambit_interval_contains(ambit_interval x, double v) { return x.lo <= v && v <= x.hi; }
-
-/* Any data made canonical: NaN, reversed or infinite-point bounds become empty. */
-ambit_interval ambit_interval_of(double lo, double hi);
-ambit_interval ambit_interval_hull(ambit_interval a, ambit_interval b);
-ambit_interval ambit_interval_intersect(ambit_interval a, ambit_interval b);
-double ambit_interval_mid(ambit_interval x);   /* a finite double inside; 0 for entire; NaN only for empty */
-double ambit_interval_rad(ambit_interval x);   /* up: x is within mid(x) +- rad(x) */
-double ambit_interval_width(ambit_interval x); /* up; 0 for empty */
-double ambit_interval_mag(ambit_interval x);   /* max |v|; 0 for empty */
-double ambit_interval_mig(ambit_interval x);   /* min |v| */
+#include <ambit/interval.h>
+#include <ambit/tape.h>
 
 /* r := op(a, b) for AMBIT_OP_*; b ignored when unary. POWN is ambit_interval_pown. */
 uint32_t ambit_interval_op(uint32_t op, ambit_interval *r, ambit_interval a, ambit_interval b);

@@ -1,6 +1,6 @@
 /* power.c -- integer powers over arrays: the floating-point environment and the choice of the variant. */
 #include "num/power.h"
-#include "num/interval.h"
+#include <ambit/interval.h>
 #include "num/power_variant.h"
 #include "num/rounding.h"
 

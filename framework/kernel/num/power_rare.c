@@ -6,7 +6,7 @@
 ** [w, w + 2^33] 2^e, and its inverse within 2^34 units of the quotient. The bounds are the tightest doubles unless one
 ** lies within this span, 2^-222 relative, of a power that is not exact; then the bound is 1 ulp further out.
 */
-#include "num/interval.h"
+#include <ambit/interval.h>
 #include "num/power_variant.h"
 #include <float.h>
 

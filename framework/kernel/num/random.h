@@ -1,7 +1,7 @@
 /* random.h -- reproducible draws: SplitMix64 (Steele, Lea & Flood 2014), the same numbers on every machine. */
 #ifndef AMBIT_RANDOM_H
 #define AMBIT_RANDOM_H
-#include "num/interval.h"
+#include <ambit/interval.h>
 #include <stdbool.h>
 
 typedef struct ambit_random {

@@ -1,5 +1,6 @@
 /* regular.c -- Neumann's test with the midpoint's inverse, and determinants by expansion. */
 #include "num/regular.h"
+#include "num/interval.h"
 #include <math.h>
 #include <stdint.h>
 

@@ -6,7 +6,7 @@
 */
 #ifndef AMBIT_REGULAR_H
 #define AMBIT_REGULAR_H
-#include "num/interval.h"
+#include <ambit/interval.h>
 #include <stddef.h>
 
 #define AMBIT_SINGULAR_MAX 8u

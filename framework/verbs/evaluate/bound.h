@@ -1,7 +1,7 @@
 /* bound.h -- expressions with the values of `at` put in, and the unknowns that are left. */
 #ifndef AMBIT_BOUND_H
 #define AMBIT_BOUND_H
-#include "verbs/evaluate/evaluate.h"
+#include <ambit/evaluate.h>
 
 typedef struct ambit_bound {
   ambit_expr *expr; /* [nexpr] */

@@ -5,7 +5,7 @@
 ** proves nothing and says so. Where the arithmetic tells derivatives, results are narrowed by monotonicity
 ** (monotone.h).
 */
-#include "verbs/evaluate/evaluate.h"
+#include <ambit/evaluate.h>
 #include "graph/interpreter.h"
 #include "graph/tape.h"
 #include "verbs/evaluate/bound.h"

@@ -1,7 +1,7 @@
 /* monotone.h -- tighter bounds where an expression is proved monotone in some of its unknowns. */
 #ifndef AMBIT_MONOTONE_H
 #define AMBIT_MONOTONE_H
-#include "graph/graph.h"
+#include <ambit/graph.h>
 #include "verbs/run/context.h"
 
 /* The expression over a box of unknowns, in an arithmetic that offers `gradient`. */

@@ -1,6 +1,6 @@
 /* tight.c -- constant expressions with more and more digits. */
 #include "verbs/evaluate/tight.h"
-#include "verbs/evaluate/evaluate.h"
+#include <ambit/evaluate.h>
 #include <math.h>
 
 #define ENOUGH 0x1p-48 /* width per magnitude that sums of a few literals stay below: no plugin is loaded for them */

@@ -6,8 +6,8 @@
 */
 #ifndef AMBIT_TIGHT_H
 #define AMBIT_TIGHT_H
-#include "graph/graph.h"
-#include "host/registry.h"
+#include <ambit/graph.h>
+#include <ambit/registry.h>
 
 /* Encloses the constant expression e. Where the graph's range is wide the arithmetic `mpfr` evaluates e; without that
 ** plugin, or where 8192 bits do not suffice, what is known stays as wide as it is. Never loaded for literals. */

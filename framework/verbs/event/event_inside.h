@@ -4,7 +4,7 @@
 #define AMBIT_EVENT_INSIDE_H
 #include "graph/contract.h"
 #include "host/services.h"
-#include "verbs/event/event.h"
+#include <ambit/event.h>
 
 typedef struct watched {
   ambit_event event;

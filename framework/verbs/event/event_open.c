@@ -1,5 +1,5 @@
 /* event_open.c -- opening a watch: g and g' of every event and f as tapes over states, unknowns and time. */
-#include "base/arena.h"
+#include <ambit/arena.h>
 #include "graph/hull.h"
 #include "graph/tape.h"
 #include "verbs/event/event_inside.h"

@@ -6,6 +6,7 @@
 ** not settle may contain a zero.
 */
 #include "verbs/event/event_inside.h"
+#include "num/interval.h"
 
 #define DEPTH 30          /* 1e-9 of a step */
 #define DEPTH_AT_LEAST 6  /* once the evaluations of a step are used up */

@@ -7,6 +7,7 @@
 #include "graph/hull.h"
 #include "verbs/run/dense.h"
 #include "verbs/event/event_inside.h"
+#include "num/interval.h"
 
 static ambit_interval part(double a, double b) {
   return a <= b ? (ambit_interval) { a, b } : (ambit_interval) { b, a };

@@ -3,8 +3,8 @@
 #ifndef AMBIT_LUA_EVENTS_H
 #define AMBIT_LUA_EVENTS_H
 #include "script/receiver.h"
-#include "verbs/event/event.h"
-#include "verbs/simulate/simulate.h"
+#include <ambit/event.h>
+#include <ambit/simulate.h>
 
 #define AMBIT_TYPE_EVENTS "ambit.events"
 

@@ -6,9 +6,9 @@
 */
 #ifndef AMBIT_MODEL_REDUCTION_H
 #define AMBIT_MODEL_REDUCTION_H
-#include "graph/graph.h"
-#include "host/registry.h"
-#include "verbs/run/report.h"
+#include <ambit/graph.h>
+#include <ambit/registry.h>
+#include <ambit/report.h>
 #include <ambit/solver.h>
 
 /* A solution of the detailed model, in ordinary doubles. */

@@ -1,7 +1,7 @@
 /* equations.h -- equations made ready for evaluation: bindings put in, uncertain data found, tapes sealed. */
 #ifndef AMBIT_EQUATIONS_H
 #define AMBIT_EQUATIONS_H
-#include "verbs/roots/roots.h"
+#include <ambit/roots.h>
 
 typedef struct ambit_ready {
   ambit_graph *graph;

@@ -5,7 +5,7 @@
 ** independent at the centre, and the others as further equations: each root of all is one of the chosen ones, and boxes
 ** where a further one cannot vanish hold none; but that a further one vanishes exactly is beyond enclosures.
 */
-#include "verbs/roots/roots.h"
+#include <ambit/roots.h>
 #include "graph/tape.h"
 #include "verbs/run/allocation.h"
 #include "verbs/run/context.h"

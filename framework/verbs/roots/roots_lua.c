@@ -4,7 +4,7 @@
 #include "script/request.h"
 #include "verbs/stability/eigen.h"
 #include "verbs/roots/equations.h"
-#include "verbs/roots/roots.h"
+#include <ambit/roots.h>
 #include "verbs/roots/solve.h"
 #include <string.h>
 

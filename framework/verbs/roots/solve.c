@@ -1,6 +1,7 @@
 /* solve.c -- the approximate inverse's solution and its distance from the true ones. */
 #include "verbs/roots/solve.h"
 #include "num/regular.h"
+#include "num/interval.h"
 #include <math.h>
 
 typedef ambit_interval interval;

@@ -6,7 +6,7 @@
 */
 #ifndef AMBIT_SOLVE_H
 #define AMBIT_SOLVE_H
-#include "num/interval.h"
+#include <ambit/interval.h>
 #include <stddef.h>
 
 /* x [n] := an enclosure of all B^-1 c, B in a [n x n] by rows, c in b [n]. scratch [2*n*n]. false: A is not proved

@@ -1,4 +1,5 @@
 /* context.c -- opening an arithmetic. */
+#include "host/params.h"
 #include "verbs/run/context.h"
 #include "base/clock.h"
 #include "base/meter.h"

@@ -1,7 +1,7 @@
 /* context.h -- an arithmetic opened with its options: what a verb needs before it can compute. */
 #ifndef AMBIT_CONTEXT_H
 #define AMBIT_CONTEXT_H
-#include "host/registry.h"
+#include <ambit/registry.h>
 #include "host/services.h"
 
 typedef struct ambit_context {

@@ -1,5 +1,6 @@
 /* dense.c -- Horner's scheme in intervals: coefficients are points but for their radii, which are summed apart. */
 #include "verbs/run/dense.h"
+#include "num/interval.h"
 
 static ambit_interval point(double x) { return (ambit_interval) { x, x }; }
 

@@ -5,7 +5,7 @@
 */
 #ifndef AMBIT_GUARD_H
 #define AMBIT_GUARD_H
-#include "base/status.h"
+#include <ambit/status.h>
 #include <ambit/solver.h>
 #include <stdbool.h>
 

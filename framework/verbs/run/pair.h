@@ -1,7 +1,7 @@
 /* pair.h -- which arithmetic goes with which solver. */
 #ifndef AMBIT_PAIR_H
 #define AMBIT_PAIR_H
-#include "host/registry.h"
+#include <ambit/registry.h>
 
 #define AMBIT_NAME_MAX 64
 

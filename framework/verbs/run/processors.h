@@ -1,7 +1,7 @@
 /* processors.h -- how many threads a verb uses when nobody says. */
 #ifndef AMBIT_PROCESSORS_H
 #define AMBIT_PROCESSORS_H
-#include "base/status.h"
+#include <ambit/status.h>
 
 #define AMBIT_THREADS_MAX 256
 

@@ -4,6 +4,7 @@
 ** UTF-8 gets U+FFFD for every bad byte, because a line that no reader takes is worse than a wrong letter in a name. */
 #include "verbs/run/records.h"
 #include "num/decimal.h"
+#include "num/interval.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>

@@ -8,8 +8,8 @@
 */
 #ifndef AMBIT_RECORDS_H
 #define AMBIT_RECORDS_H
-#include "base/status.h"
-#include "num/interval.h"
+#include <ambit/status.h>
+#include <ambit/interval.h>
 #include <ambit/solver.h>
 #include <stdbool.h>
 #include <stdio.h>

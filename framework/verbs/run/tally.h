@@ -6,9 +6,9 @@
 #ifndef AMBIT_TALLY_H
 #define AMBIT_TALLY_H
 #include "base/meter.h"
-#include "graph/graph.h"
+#include <ambit/graph.h>
 #include "verbs/run/context.h"
-#include "verbs/run/report.h"
+#include <ambit/report.h>
 
 typedef struct ambit_tally {
   const ambit_graph *graph;

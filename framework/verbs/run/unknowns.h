@@ -1,7 +1,7 @@
 /* unknowns.h -- the uncertain data that expressions reach: only these become variables of an arithmetic or a solver. */
 #ifndef AMBIT_UNKNOWNS_H
 #define AMBIT_UNKNOWNS_H
-#include "graph/graph.h"
+#include <ambit/graph.h>
 
 /* The leaves of e[0..ne) in the arena, in the order in which they were made. */
 ambit_status ambit_unknowns_leaves(const ambit_graph *g, ambit_arena *arena, size_t ne, const ambit_expr *e, size_t *n,

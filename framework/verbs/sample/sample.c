@@ -1,5 +1,5 @@
 /* sample.c -- draws of expressions: blocks of lanes on the threads of a pool. */
-#include "verbs/sample/sample.h"
+#include <ambit/sample.h>
 #include "verbs/sample/batch.h"
 #include "graph/hull.h"
 #include "graph/tape.h"

@@ -1,4 +1,5 @@
 /* sample_draws.c -- one draw: the data's point, the start as its hull, a run of the solver into a collecting sink. */
+#include "host/params.h"
 #include "verbs/sample/sample_draws.h"
 #include "graph/hull.h"
 #include "verbs/run/context.h"

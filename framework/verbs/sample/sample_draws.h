@@ -3,7 +3,7 @@
 */
 #ifndef AMBIT_SAMPLE_DRAWS_H
 #define AMBIT_SAMPLE_DRAWS_H
-#include "verbs/simulate/simulate.h"
+#include <ambit/simulate.h>
 #include <stdbool.h>
 
 typedef struct ambit_draws ambit_draws;

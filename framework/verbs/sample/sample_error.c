@@ -1,5 +1,6 @@
 /* sample_error.c -- the same draws with two tolerances, in lanes and one by one. */
 #include "verbs/sample/sample_error.h"
+#include "num/interval.h"
 #include <math.h>
 
 #define TIGHTER 0.01      /* tolerances of the second run */

@@ -1,7 +1,7 @@
 /* sample_extremes.h -- the least and the greatest value seen of each of several quantities, and where they were. */
 #ifndef AMBIT_SAMPLE_EXTREMES_H
 #define AMBIT_SAMPLE_EXTREMES_H
-#include "base/arena.h"
+#include <ambit/arena.h>
 #include <stdbool.h>
 
 enum { AMBIT_LEAST, AMBIT_GREATEST, AMBIT_SIDES };

@@ -4,7 +4,7 @@
 */
 #ifndef AMBIT_SAMPLE_FLOW_H
 #define AMBIT_SAMPLE_FLOW_H
-#include "verbs/sample/sample.h"
+#include <ambit/sample.h>
 #include "verbs/sample/sample_draws.h"
 
 #define AMBIT_FLOW_LANES 128u

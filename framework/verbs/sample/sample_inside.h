@@ -1,7 +1,7 @@
 /* sample_inside.h -- what sampling expressions and sampling systems share. */
 #ifndef AMBIT_SAMPLE_INSIDE_H
 #define AMBIT_SAMPLE_INSIDE_H
-#include "verbs/sample/sample.h"
+#include <ambit/sample.h>
 #include "graph/name.h"
 #include "verbs/sample/sample_points.h"
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* sample_lanes.c -- steps of all lanes, as long as the worst one allows. */
 #include "verbs/sample/sample_lanes.h"
-#include "base/arena.h"
+#include <ambit/arena.h>
 #include "verbs/sample/batch.h"
 #include "verbs/sample/sample_tableau.h"
 #include <math.h>

@@ -8,7 +8,7 @@
 */
 #ifndef AMBIT_SAMPLE_LANES_H
 #define AMBIT_SAMPLE_LANES_H
-#include "base/status.h"
+#include <ambit/status.h>
 #include <ambit/solver.h>
 #include <ambit/work.h>
 #include <stdbool.h>

@@ -4,7 +4,7 @@
 #include "script/request.h"
 #include "verbs/sample/sampled_lua.h"
 #include "verbs/run/context.h"
-#include "verbs/sample/sample.h"
+#include <ambit/sample.h>
 #include <math.h>
 
 /* The plan of a sample. cpu: s of CPU time, after which it is stopped; 0: never. */

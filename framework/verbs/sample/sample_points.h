@@ -10,8 +10,8 @@
 */
 #ifndef AMBIT_SAMPLE_POINTS_H
 #define AMBIT_SAMPLE_POINTS_H
-#include "host/registry.h"
-#include "num/interval.h"
+#include <ambit/registry.h>
+#include <ambit/interval.h>
 #include <stdbool.h>
 
 typedef struct ambit_sample_points_request {

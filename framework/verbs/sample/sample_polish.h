@@ -8,9 +8,9 @@
 */
 #ifndef AMBIT_SAMPLE_POLISH_H
 #define AMBIT_SAMPLE_POLISH_H
-#include "base/status.h"
+#include <ambit/status.h>
 #include "verbs/sample/sample_extremes.h"
-#include "num/interval.h"
+#include <ambit/interval.h>
 
 typedef struct ambit_polish {
   const ambit_interval *range; /* [n] */

@@ -4,7 +4,7 @@
 ** derivative, nor have a forcing, nor are reached through nonzero entries of A from such a row: there S = 0 solves the
 ** linear equations, and solutions are unique.
 */
-#include "verbs/sensitivity/variation.h"
+#include <ambit/variation.h>
 #include "verbs/run/unknowns.h"
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #include "script/core.h"
 #include "script/request.h"
 #include "models/system_lua.h"
-#include "verbs/sensitivity/variation.h"
+#include <ambit/variation.h>
 #include <string.h>
 
 /* The unit of a datum as it was written, or NULL: not known. */

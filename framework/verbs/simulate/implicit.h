@@ -1,7 +1,7 @@
 /* implicit.h -- a system in implicit form, as a solver gets it. */
 #ifndef AMBIT_MODEL_IMPLICIT_H
 #define AMBIT_MODEL_IMPLICIT_H
-#include "graph/system.h"
+#include <ambit/system.h>
 #include <ambit/solver.h>
 
 typedef struct ambit_implicit_request {

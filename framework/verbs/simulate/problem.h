@@ -2,7 +2,7 @@
 ** else. */
 #ifndef AMBIT_PROBLEM_H
 #define AMBIT_PROBLEM_H
-#include "graph/system.h"
+#include <ambit/system.h>
 #include <ambit/solver.h>
 
 typedef struct ambit_problem_request {

@@ -1,7 +1,7 @@
 /* simulate.c -- checks the pair, builds the problem, runs the solver behind a sink that watches it: once, or once for
 ** each piece of a split.
 */
-#include "verbs/simulate/simulate.h"
+#include <ambit/simulate.h>
 #include "graph/tape.h"
 #include "verbs/run/processors.h"
 #include "verbs/run/allocation.h"
@@ -10,6 +10,7 @@
 #include "verbs/run/pair.h"
 #include "verbs/simulate/problem.h"
 #include "verbs/run/share.h"
+#include "verbs/split/split_plan.h"
 #include "verbs/split/split.h"
 #include "verbs/run/tally.h"
 #include <stdbool.h>

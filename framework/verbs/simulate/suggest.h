@@ -5,7 +5,7 @@
 */
 #ifndef AMBIT_SUGGEST_H
 #define AMBIT_SUGGEST_H
-#include "verbs/simulate/simulate.h"
+#include <ambit/simulate.h>
 
 typedef struct ambit_suggest_facts {
   uint32_t states, parameters, unknowns, invariants, kinks; /* kinks: operations that are not smooth, crossed or not */

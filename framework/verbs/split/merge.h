@@ -4,8 +4,8 @@
 */
 #ifndef AMBIT_MERGE_H
 #define AMBIT_MERGE_H
-#include "base/arena.h"
-#include "base/status.h"
+#include <ambit/arena.h>
+#include <ambit/status.h>
 #include <ambit/solver.h>
 #include <stdbool.h>
 

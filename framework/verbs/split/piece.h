@@ -4,7 +4,7 @@
 #include "verbs/run/guard.h"
 #include "verbs/split/merge.h"
 #include "verbs/split/split.h"
-#include "num/interval.h"
+#include <ambit/interval.h>
 
 /* What one thread needs to run pieces, one after another. */
 typedef struct ambit_piece {

@@ -3,8 +3,8 @@
 */
 #ifndef AMBIT_PIECES_H
 #define AMBIT_PIECES_H
-#include "base/arena.h"
-#include "base/status.h"
+#include <ambit/arena.h>
+#include <ambit/status.h>
 #include <stdint.h>
 
 #define AMBIT_PIECES_MAX 65536

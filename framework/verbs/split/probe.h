@@ -9,7 +9,7 @@
 */
 #ifndef AMBIT_PROBE_H
 #define AMBIT_PROBE_H
-#include "base/arena.h"
+#include <ambit/arena.h>
 #include <ambit/solver.h>
 #include <stdbool.h>
 

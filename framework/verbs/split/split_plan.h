@@ -1,16 +1,10 @@
 /* split_plan.h -- which data a split cuts, and into how many parts. */
 #ifndef AMBIT_SPLIT_PLAN_H
 #define AMBIT_SPLIT_PLAN_H
-#include "graph/graph.h"
+#include <ambit/cut.h>
+#include <ambit/graph.h>
 #include "verbs/split/pieces.h"
 #include <ambit/solver.h>
-
-/* What is asked for an unknown; parts == 0: nothing, but it has this name, and may be cut by choice. */
-typedef struct ambit_cut {
-  ambit_expr unknown;
-  const char *name;
-  uint32_t parts;
-} ambit_cut;
 
 typedef struct ambit_split_plan {
   ambit_pieces pieces;

@@ -6,6 +6,7 @@
 */
 #include "verbs/stability/spectrum.h"
 #include "num/regular.h"
+#include "num/interval.h"
 #include <math.h>
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* eigen.h -- the eigenvalues of an interval matrix, enclosed, and what they say about x' = A x. */
 #ifndef AMBIT_EIGEN_H
 #define AMBIT_EIGEN_H
-#include "host/registry.h"
+#include <ambit/registry.h>
 #include "verbs/stability/spectrum.h"
 
 typedef enum ambit_stability {

@@ -10,6 +10,7 @@
 */
 #include "verbs/stability/spectrum.h"
 #include "num/regular.h"
+#include "num/interval.h"
 #include <ambit/arithmetic.h>
 #include <math.h>
 

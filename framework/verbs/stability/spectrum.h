@@ -4,8 +4,8 @@
 */
 #ifndef AMBIT_SPECTRUM_H
 #define AMBIT_SPECTRUM_H
-#include "base/arena.h"
-#include "num/interval.h"
+#include <ambit/arena.h>
+#include <ambit/interval.h>
 #include <stddef.h>
 #include <stdint.h>
 

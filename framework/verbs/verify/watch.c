@@ -10,6 +10,7 @@
 #include "graph/tape.h"
 #include "verbs/run/dense.h"
 #include "verbs/run/unknowns.h"
+#include "num/interval.h"
 #include <string.h>
 
 /* -- one part of a step */

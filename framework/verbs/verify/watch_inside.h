@@ -2,7 +2,7 @@
 #ifndef AMBIT_WATCH_INSIDE_H
 #define AMBIT_WATCH_INSIDE_H
 #include "graph/tape.h"
-#include "verbs/verify/watch.h"
+#include <ambit/watch.h>
 
 #define STACK 1200 /* halving an interval of doubles ends before */
 

@@ -1,5 +1,5 @@
 /* watch_lua.c -- one run of a system under watch, for ambit.verify: what is proved of conditions along it. */
-#include "verbs/verify/watch.h"
+#include <ambit/watch.h>
 #include "graph/tape.h"
 #include "script/fields.h"
 #include "script/receiver.h"

@@ -6,6 +6,7 @@
 */
 #include "graph/hull.h"
 #include "verbs/verify/watch_inside.h"
+#include "num/interval.h"
 
 #define SLACK 0x1p-7
 

@@ -1,10 +1,14 @@
 /* roots.h -- the verb `roots`: every root of equations in a box, proved, and a plain Newton iteration to find one. */
 #ifndef AMBIT_ROOTS_H
 #define AMBIT_ROOTS_H
-#include "graph/graph.h"
-#include "host/registry.h"
-#include "verbs/run/report.h"
+#include <ambit/graph.h>
+#include <ambit/registry.h>
+#include <ambit/report.h>
 #include <ambit/solver.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 /* f(x) = 0; unknowns are symbols, all other symbols have a binding (leaf := expression over uncertain data). */
 typedef struct ambit_equations {
@@ -46,12 +50,16 @@ typedef struct ambit_roots_result {
 
 /* Returns INVALID or NOMEM for requests that cannot start, else OK with the outcome in `result`. Equations that are 0 =
 ** 0 are left out. */
-ambit_status ambit_roots(
+AMBIT_EXPORT ambit_status ambit_roots(
     const ambit_roots_request *q, ambit_roots_result *result, ambit_report *report, ambit_failure *f);
 
 /* Levenberg's damped Gauss-Newton iteration from x [nx], at the middle of uncertain data; proves nothing. On return x
 ** is where it ended and residual [ne] what is left of each equation there. *converged: Newton's next step would be
 ** negligible. UNABLE: it left the domain of the equations at the start. */
-ambit_status ambit_roots_approach(
+AMBIT_EXPORT ambit_status ambit_roots_approach(
     const ambit_equations *q, double *x, double *residual, bool *converged, ambit_failure *f);
+
+#ifdef __cplusplus
+}
+#endif
 #endif

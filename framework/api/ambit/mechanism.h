@@ -6,8 +6,12 @@
 */
 #ifndef AMBIT_MECHANISM_H
 #define AMBIT_MECHANISM_H
-#include "graph/graph.h"
+#include <ambit/graph.h>
 #include <ambit/element.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 typedef struct ambit_mechanism ambit_mechanism;
 typedef struct ambit_frame {
@@ -27,21 +31,23 @@ typedef struct ambit_part_spec {
   const char *unit; /* of coordinates whose unit the element leaves to the scene; NULL: "1" */
 } ambit_part_spec;
 
-ambit_mechanism *ambit_mechanism_open(ambit_graph *g, const char *name);
-void ambit_mechanism_close(ambit_mechanism *m);
-ambit_graph *ambit_mechanism_graph(ambit_mechanism *m);
+AMBIT_EXPORT ambit_mechanism *ambit_mechanism_open(ambit_graph *g, const char *name);
+AMBIT_EXPORT void ambit_mechanism_close(ambit_mechanism *m);
+AMBIT_EXPORT ambit_graph *ambit_mechanism_graph(ambit_mechanism *m);
 /* INVALID: a name used twice, a missing connection, a joint port connected to no joint. */
-ambit_status ambit_mechanism_add(ambit_mechanism *m, const ambit_part_spec *spec, uint32_t *part, ambit_failure *f);
-uint32_t ambit_mechanism_count(const ambit_mechanism *m);
-const char *ambit_mechanism_part_name(const ambit_mechanism *m, uint32_t part);
-const ambit_element *ambit_mechanism_part_element(const ambit_mechanism *m, uint32_t part);
+AMBIT_EXPORT ambit_status ambit_mechanism_add(
+    ambit_mechanism *m, const ambit_part_spec *spec, uint32_t *part, ambit_failure *f);
+AMBIT_EXPORT uint32_t ambit_mechanism_count(const ambit_mechanism *m);
+AMBIT_EXPORT const char *ambit_mechanism_part_name(const ambit_mechanism *m, uint32_t part);
+AMBIT_EXPORT const ambit_element *ambit_mechanism_part_element(const ambit_mechanism *m, uint32_t part);
 
 /* The quantity at an OUT frame or joint port: motion is that of the frame; AMBIT_WRENCH, AMBIT_EFFORT: the sum over
 ** all attached elements; frame AMBIT_NOWHERE: of the mechanism (AMBIT_FIELD, AMBIT_ENERGY, AMBIT_POWER, ...). The
 ** pointer stays valid. NULL: the failure says which element and why; a loop of elements is named part by part. */
-const ambit_expr *ambit_mechanism_pull(ambit_mechanism *m, ambit_frame frame, uint32_t quantity, ambit_failure *f);
+AMBIT_EXPORT const ambit_expr *ambit_mechanism_pull(
+    ambit_mechanism *m, ambit_frame frame, uint32_t quantity, ambit_failure *f);
 /* how often express() was called, of how many (part, port, quantity) that exist: "leave out" in numbers */
-void ambit_mechanism_pulled(const ambit_mechanism *m, size_t *pulled, size_t *available);
+AMBIT_EXPORT void ambit_mechanism_pulled(const ambit_mechanism *m, size_t *pulled, size_t *available);
 /* The quantities of one part, part < count: those of its ports, then those of the part as a whole (port
 ** AMBIT_NO_PORT). Returns their number and writes at most `room`. */
 typedef struct ambit_part_quantity {
@@ -49,7 +55,8 @@ typedef struct ambit_part_quantity {
   uint32_t port;
   bool pulled; /* was it asked for? */
 } ambit_part_quantity;
-size_t ambit_mechanism_part_quantities(const ambit_mechanism *m, uint32_t part, size_t room, ambit_part_quantity *out);
+AMBIT_EXPORT size_t ambit_mechanism_part_quantities(
+    const ambit_mechanism *m, uint32_t part, size_t room, ambit_part_quantity *out);
 
 /* The coordinates that elements have made, in the order of the parts. */
 typedef struct ambit_coordinate {
@@ -76,9 +83,13 @@ typedef struct ambit_multiplier {
 } ambit_multiplier;
 /* Each returns their number and writes at most `room`; multipliers: of those whose wrench has been pulled. A failure of
 ** pulling leaves the joint out; pull it yourself to hear why. */
-size_t ambit_mechanism_coordinates(ambit_mechanism *m, size_t room, ambit_coordinate *out);
+AMBIT_EXPORT size_t ambit_mechanism_coordinates(ambit_mechanism *m, size_t room, ambit_coordinate *out);
 /* unit of a coordinate that has been made; NULL: q is none. Pulls nothing. */
-const char *ambit_mechanism_coordinate_unit(const ambit_mechanism *m, ambit_expr q);
-size_t ambit_mechanism_speeds(ambit_mechanism *m, size_t room, ambit_speed *out);
-size_t ambit_mechanism_multipliers(ambit_mechanism *m, size_t room, ambit_multiplier *out);
+AMBIT_EXPORT const char *ambit_mechanism_coordinate_unit(const ambit_mechanism *m, ambit_expr q);
+AMBIT_EXPORT size_t ambit_mechanism_speeds(ambit_mechanism *m, size_t room, ambit_speed *out);
+AMBIT_EXPORT size_t ambit_mechanism_multipliers(ambit_mechanism *m, size_t room, ambit_multiplier *out);
+
+#ifdef __cplusplus
+}
+#endif
 #endif

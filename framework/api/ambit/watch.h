@@ -8,9 +8,13 @@
 */
 #ifndef AMBIT_WATCH_H
 #define AMBIT_WATCH_H
-#include "base/arena.h"
-#include "graph/system.h"
+#include <ambit/arena.h>
+#include <ambit/system.h>
 #include <ambit/solver.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 /* When g <= 0 is wanted. */
 #define AMBIT_WATCH_ALWAYS 0u /* at all times */
@@ -57,10 +61,15 @@ typedef struct ambit_watch_finding {
 typedef struct ambit_watch ambit_watch;
 
 /* INVALID: a condition depends on something that is neither a state nor an uncertain datum nor time (named). */
-ambit_status ambit_watch_open(const ambit_watch_request *q, ambit_arena *arena, ambit_watch **watch, ambit_failure *f);
-ambit_sink *ambit_watch_sink(ambit_watch *w);
+AMBIT_EXPORT ambit_status ambit_watch_open(
+    const ambit_watch_request *q, ambit_arena *arena, ambit_watch **watch, ambit_failure *f);
+AMBIT_EXPORT ambit_sink *ambit_watch_sink(ambit_watch *w);
 /* Was the run given up because of a limit? */
-bool ambit_watch_gave_up(const ambit_watch *w);
+AMBIT_EXPORT bool ambit_watch_gave_up(const ambit_watch *w);
 /* After the run: complete, if it reached its end. finding [ncondition] */
-void ambit_watch_end(ambit_watch *w, bool complete, ambit_watch_finding *finding);
+AMBIT_EXPORT void ambit_watch_end(ambit_watch *w, bool complete, ambit_watch_finding *finding);
+
+#ifdef __cplusplus
+}
+#endif
 #endif

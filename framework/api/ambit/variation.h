@@ -7,8 +7,12 @@
 */
 #ifndef AMBIT_VARIATION_H
 #define AMBIT_VARIATION_H
-#include "base/arena.h"
-#include "graph/system.h"
+#include <ambit/arena.h>
+#include <ambit/system.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 #define AMBIT_VARIATION_ZERO UINT32_MAX
 
@@ -37,6 +41,10 @@ typedef struct ambit_variation {
 /* All in the arena. INVALID, and f says what is wrong: a right-hand side or an initial value without a derivative, a
 ** datum that is not one, or a quantity that moves the start off an invariant (closed loops): a derivative of the states
 ** along the manifold is then not determined by the initial values. */
-ambit_status ambit_variation_build(
+AMBIT_EXPORT ambit_status ambit_variation_build(
     const ambit_variation_request *q, ambit_arena *arena, ambit_variation *v, ambit_failure *f);
+
+#ifdef __cplusplus
+}
+#endif
 #endif

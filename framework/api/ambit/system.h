@@ -5,7 +5,11 @@
 */
 #ifndef AMBIT_SYSTEM_H
 #define AMBIT_SYSTEM_H
-#include "graph/graph.h"
+#include <ambit/graph.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 /* The same system with further unknowns a: along its solutions R(x, a, t) = 0 and x' = F(x, a, t), solved for in
 ** stages. What holds of them: ambit_implicit in <ambit/solver.h>. */
@@ -65,4 +69,8 @@ static inline ambit_status ambit_system_implicit(
   if (status == AMBIT_OK && source->form.na) *form = &source->form;
   return status;
 }
+
+#ifdef __cplusplus
+}
+#endif
 #endif

@@ -7,9 +7,13 @@
 */
 #ifndef AMBIT_SAMPLE_H
 #define AMBIT_SAMPLE_H
-#include "verbs/evaluate/evaluate.h"
-#include "verbs/simulate/simulate.h"
+#include <ambit/evaluate.h>
+#include <ambit/simulate.h>
 #include <stdbool.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 typedef struct ambit_sample_plan {
   size_t draws;
@@ -37,7 +41,7 @@ typedef struct ambit_sample_result {
 /* Expressions, in the arithmetic of the request (NULL: "real"). hull [nexpr]: of the finite values, empty if there was
 ** none; error [nexpr]: how far its ends are off the true values there, proved (0 if it is empty, inf if unknown);
 ** defined [nexpr]: how many draws gave a value. error, defined, report may be NULL. */
-ambit_status ambit_sample_expressions(const ambit_evaluate_request *q, const ambit_sample_plan *plan,
+AMBIT_EXPORT ambit_status ambit_sample_expressions(const ambit_evaluate_request *q, const ambit_sample_plan *plan,
     ambit_interval *hull, double *error, size_t *defined, ambit_sample_result *result, ambit_report *report,
     ambit_failure *f);
 
@@ -46,6 +50,10 @@ ambit_status ambit_sample_expressions(const ambit_evaluate_request *q, const amb
 ** request's sink, threads, cuts and wishes are not looked at. hull [ntime * nx]: of state i at time[k] at k * nx + i,
 ** empty if no draw reached it; error [ntime * nx] (or NULL): ten times what a hundredth of the tolerances changes in
 ** the extreme draws, an estimate; NaN where that is not known. */
-ambit_status ambit_sample_system(const ambit_simulate_request *q, const ambit_sample_plan *plan, ambit_interval *hull,
-    double *error, ambit_sample_result *result, ambit_report *report, ambit_failure *f);
+AMBIT_EXPORT ambit_status ambit_sample_system(const ambit_simulate_request *q, const ambit_sample_plan *plan,
+    ambit_interval *hull, double *error, ambit_sample_result *result, ambit_report *report, ambit_failure *f);
+
+#ifdef __cplusplus
+}
+#endif
 #endif

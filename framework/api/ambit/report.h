@@ -4,6 +4,10 @@
 #include <ambit/tape.h>
 #include <ambit/work.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef struct ambit_report {
   char arithmetic[32], solver[32];
   uint32_t expressions; /* asked for */
@@ -28,4 +32,8 @@ static inline void ambit_report_count(ambit_report *report, const ambit_tape *t)
   report->tape_runs += t->nrun;
   for (uint32_t i = 0; i < t->nslot; i++) report->constant_slots += t->degree[i] == 0;
 }
+
+#ifdef __cplusplus
+}
+#endif
 #endif

@@ -1,11 +1,15 @@
 /* simulate.h -- the verb `simulate`: from a system and its uncertain initial state to a stream of records. */
 #ifndef AMBIT_SIMULATE_H
 #define AMBIT_SIMULATE_H
-#include "host/registry.h"
-#include "verbs/run/report.h"
-#include "verbs/split/split_plan.h"
-#include "graph/system.h"
+#include <ambit/cut.h>
+#include <ambit/registry.h>
+#include <ambit/report.h>
+#include <ambit/system.h>
 #include <ambit/solver.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 typedef struct ambit_simulate_request {
   const ambit_system *system;
@@ -17,8 +21,8 @@ typedef struct ambit_simulate_request {
   const ambit_expr *initial; /* [nx] over unknowns; every state */
   size_t ntime;              /* >= 2 */
   const double *time;
-  uint32_t threads;     /* at most; 0: as verbs/run/processors.h says */
-  size_t ncut;          /* uncertain data to cut (split.h), or names of others */
+  uint32_t threads;     /* at most; 0: as many as the machine has for this process */
+  size_t ncut;          /* uncertain data to cut, or names of others */
   const ambit_cut *cut; /* without cuts and `pieces` the run is one */
   uint32_t pieces;      /* at most so many by choice of the data to cut; 0: only those of `cut` */
   uint32_t wish;        /* AMBIT_WISH_*: what the sink would like besides */
@@ -44,6 +48,10 @@ typedef struct ambit_simulate_result {
 
 /* Returns INVALID or NOMEM for requests that cannot start (f explains: pairs that do not fit are refused by name with
 ** the list of what fits), otherwise OK with the outcome in `result`. Builds only what the solver wants. */
-ambit_status ambit_simulate(
+AMBIT_EXPORT ambit_status ambit_simulate(
     const ambit_simulate_request *q, ambit_simulate_result *result, ambit_report *report, ambit_failure *f);
+
+#ifdef __cplusplus
+}
+#endif
 #endif

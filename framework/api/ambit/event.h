@@ -11,8 +11,12 @@
 */
 #ifndef AMBIT_EVENT_H
 #define AMBIT_EVENT_H
-#include "graph/system.h"
+#include <ambit/system.h>
 #include <ambit/solver.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 typedef struct ambit_event {
   const char *name;    /* for messages */
@@ -51,21 +55,27 @@ typedef struct ambit_event_watch_request {
 typedef struct ambit_event_watch ambit_event_watch;
 
 /* All memory is taken here. INVALID: f names the event and what is wrong with it. */
-ambit_status ambit_event_watch_open(const ambit_event_watch_request *q, ambit_event_watch **w, ambit_failure *f);
-void ambit_event_watch_close(ambit_event_watch *w); /* NULL is allowed */
+AMBIT_EXPORT ambit_status ambit_event_watch_open(
+    const ambit_event_watch_request *q, ambit_event_watch **w, ambit_failure *f);
+AMBIT_EXPORT void ambit_event_watch_close(ambit_event_watch *w); /* NULL is allowed */
 
 /* The sink to run the solver with (AMBIT_WISH_DENSE makes it tight); everything goes on to `outer`, which may be
 ** NULL. One run per watch. */
-ambit_sink *ambit_event_watch_sink(ambit_event_watch *w, ambit_sink *outer);
+AMBIT_EXPORT ambit_sink *ambit_event_watch_sink(ambit_event_watch *w, ambit_sink *outer);
 /* After the run: decides what is still undecided. */
-void ambit_event_watch_end(ambit_event_watch *w);
+AMBIT_EXPORT void ambit_event_watch_end(ambit_event_watch *w);
 
-size_t ambit_event_watch_count(const ambit_event_watch *w);
-const ambit_event_found *ambit_event_watch_found(const ambit_event_watch *w, size_t i); /* in the order of the run */
+AMBIT_EXPORT size_t ambit_event_watch_count(const ambit_event_watch *w);
+AMBIT_EXPORT const ambit_event_found *ambit_event_watch_found(
+    const ambit_event_watch *w, size_t i); /* in the order of the run */
 /* Index of the found event that ended the run, or SIZE_MAX. */
-size_t ambit_event_watch_stopped_by(const ambit_event_watch *w);
-bool ambit_event_watch_is_full(
+AMBIT_EXPORT size_t ambit_event_watch_stopped_by(const ambit_event_watch *w);
+AMBIT_EXPORT bool ambit_event_watch_is_full(
     const ambit_event_watch *w); /* did the run end because there were more events than room? */
 /* Up to the end of the step last passed on: may there be a zero that has not been decided on? */
-bool ambit_event_watch_is_open(const ambit_event_watch *w);
+AMBIT_EXPORT bool ambit_event_watch_is_open(const ambit_event_watch *w);
+
+#ifdef __cplusplus
+}
+#endif
 #endif

@@ -1,9 +1,13 @@
 /* evaluate.h -- the verb `evaluate`: enclosures of expressions in a chosen arithmetic. */
 #ifndef AMBIT_EVALUATE_H
 #define AMBIT_EVALUATE_H
-#include "graph/graph.h"
-#include "host/registry.h"
-#include "verbs/run/report.h"
+#include <ambit/graph.h>
+#include <ambit/registry.h>
+#include <ambit/report.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 typedef struct ambit_evaluate_request {
   ambit_graph *graph;
@@ -24,6 +28,10 @@ typedef struct ambit_evaluate_request {
 /* out [nexpr]; flags: AMBIT_F_*. Only uncertain data become variables of the arithmetic. A symbol without a value is
 ** INVALID and named. If the arithmetic tells derivatives, bounds are also sought at faces where a result is
 ** monotone. */
-ambit_status ambit_evaluate(
+AMBIT_EXPORT ambit_status ambit_evaluate(
     const ambit_evaluate_request *q, ambit_interval *out, uint32_t *flags, ambit_report *report, ambit_failure *f);
+
+#ifdef __cplusplus
+}
+#endif
 #endif
