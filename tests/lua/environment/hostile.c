@@ -27,7 +27,7 @@ static int hostile(lua_State *L) {
   return 0;
 }
 
-int luaopen_hostile(lua_State *L); /* found by its name */
+__attribute__((visibility("default"))) int luaopen_hostile(lua_State *L); /* found by its name */
 
 int luaopen_hostile(lua_State *L) {
   lua_pushcfunction(L, hostile);
