@@ -1,8 +1,8 @@
--- double_pendulum.lua DATA-FOLDER: the data of the picture in the README, for docs/picture/double_pendulum.gp
--- boxes.dat: t_from t_to lo hi of beta1, then of beta2, over each step; samples.dat: t beta1 beta2 of simulated
--- pendulums
+-- double_pendulum.lua FILE: the picture in the README: what is proved of the angles, over each step, and some simulated
+-- pendulums.
 local ambit = require "ambit"
-local folder = arg[1] or "."
+local axis = require "ambit.report.axis"
+local svg = require "ambit.report.svg"
 local around, pi = ambit.around, ambit.pi
 
 local m = ambit.mechanism { "double pendulum", gravity = { 0, "-9.81", 0 } }
@@ -22,22 +22,56 @@ for k = 0, PARTS do times[k + 1] = END * k / PARTS end
 local run = ambit.simulate {
   m:dynamics(), initial = start(around(3 * pi / 4, "1%")), t = times, solver = "taylor_model", order = 12,
 }
-local boxes = assert(io.open(folder .. "/boxes.dat", "w"))
-for step in run:steps() do
-  local a, b = step.tube.beta1, step.tube.beta2
-  boxes:write(("%.17g %.17g %.17g %.17g %.17g %.17g\n"):format(step.t_from, step.t, a.lo, a.hi, b.lo, b.hi))
-end
-boxes:close()
+-- -- the frame
 
-local samples = assert(io.open(folder .. "/samples.dat", "w"))
+local WIDTH, HEIGHT = 860, 420
+local frame = { left = 64, right = WIDTH - 18, top = 16, bottom = HEIGHT - 52 }
+local x, y = axis.linear(0, END), axis.linear(-11, 3)
+local function across(t) return axis.pixel(x, t, frame.left, frame.right) end
+local function up(angle) return axis.pixel(y, angle, frame.bottom, frame.top) end
+
+local canvas = svg.canvas(WIDTH, HEIGHT, "angles of a double pendulum: proved and simulated")
+for _, v in ipairs(x.ticks) do
+  canvas:rule(across(v), frame.top, across(v), frame.bottom, "grid")
+  canvas:text(across(v), frame.bottom + 20, ("%g"):format(v), 60, { anchor = "middle" })
+end
+for _, v in ipairs(y.ticks) do
+  canvas:rule(frame.left, up(v), frame.right, up(v), "grid")
+  canvas:text(frame.left - 8, up(v) + 4, ("%g"):format(v), 60, { anchor = "end" })
+end
+canvas:rule(frame.left, frame.top, frame.left, frame.bottom, "axis")
+canvas:rule(frame.left, frame.bottom, frame.right, frame.bottom, "axis")
+canvas:text((frame.left + frame.right) / 2, HEIGHT - 12, "time, s", 200, { anchor = "middle" })
+canvas:text(22, (frame.top + frame.bottom) / 2, "angle, rad", 200, { anchor = "middle", turned = true })
+
+-- -- what is proved, and what is simulated
+
+local angles = { { "beta1", svg.colours[1], "first angle, proved" },
+  { "beta2", svg.colours[2], "second angle, proved" } }
+for step in run:steps() do
+  for _, angle in ipairs(angles) do
+    local range = step.tube[angle[1]]
+    canvas:box(across(step.t_from), up(range.lo), across(step.t), up(range.hi), angle[2])
+  end
+end
+
 for i = -3, 3 do
   local first = 3 * math.pi / 4 * (1 + i / 300)
   local sample = ambit.simulate { m:dynamics(), initial = start(first), t = times, solver = "gsl" }
   for _, t in ipairs(times) do
     if t > 0 then
-      local x = sample:at(t)
-      samples:write(("%.17g %.17g %.17g\n"):format(t, x.beta1:mid(), x.beta2:mid()))
+      for _, angle in ipairs(angles) do canvas:dot(across(t), up(sample:at(t)[angle[1]]:mid()), 0.7, "#7788aa") end
     end
   end
 end
-samples:close()
+
+for i, angle in ipairs(angles) do
+  canvas:box(frame.left + 14, HEIGHT - 132 + 20 * i, frame.left + 38, HEIGHT - 120 + 20 * i, angle[2])
+  canvas:text(frame.left + 46, HEIGHT - 121 + 20 * i, angle[3], 300)
+end
+canvas:dot(frame.left + 26, HEIGHT - 66, 2, "#7788aa")
+canvas:text(frame.left + 46, HEIGHT - 61, "simulated pendulums", 300)
+
+local file = assert(io.open(arg[1], "w"))
+file:write(canvas:finish())
+file:close()

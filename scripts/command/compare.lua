@@ -23,7 +23,7 @@ ambit.compare { solvers = { "lohner", { "taylor_model", order = { 8, 12 } } }, a
   --html FILE      a page with work-precision diagrams and enclosures over time
   --csv FILE       one line for each combination and result
   --json FILE      one object per line; `-` is standard output (the tables then go to standard error)
-  --svg FILE       error or width against run time, drawn by gnuplot
+  --svg FILE       error or width against run time
   --repeat N       runs of each combination after one to warm up, of which the fastest counts (default 5)
   --limit SECONDS  of CPU time for each combination (default 4); after one that takes longer, higher orders of the same
                    method are skipped

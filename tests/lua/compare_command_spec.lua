@@ -79,9 +79,8 @@ describe("ambit compare on what a scene simulates", function()
 
   it("writes a line of CSV for each combination and state, records, a picture, a page", function()
     local csv, html, svg, json = os.tmpname(), os.tmpname(), os.tmpname(), os.tmpname()
-    local drawn = os.execute "command -v gnuplot >/dev/null"
     local code, _, stderr = scene(head .. grid .. "ambit.simulate { f, initial = { x = 1 }, t = { 0, 1 } }",
-      ("--quick --csv %s --html %s --json %s%s"):format(csv, html, json, drawn and " --svg " .. svg or ""))
+      ("--quick --csv %s --html %s --json %s --svg %s"):format(csv, html, json, svg))
     assert.equal(0, code, stderr)
     local text = read(csv)
     assert.equal(1 + 3, count(text:gsub("#[^\n]*\n", ""), "\r\n"))
@@ -91,7 +90,7 @@ describe("ambit compare on what a scene simulates", function()
     assert.equal(4, count(text:gsub('{"record":"p[rl][ou][vg][^\n]*\n', ""), "\n")) -- without provenance, plugins
     has(text, '"solver":"lohner"', '"error":', '"t_reached":1', '"verb":"compare"')
     text = read(svg)
-    if drawn then has(text, "<svg", "largest distance from the reference", "lohner, by order") end
+    has(text, "<svg", "largest distance from the reference", "lohner, by order")
   end)
 
   it("compares what was asked before os.exit, before an error, and inside a callback", function()

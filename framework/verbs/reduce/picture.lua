@@ -3,12 +3,12 @@
 -- axis.
 local axis = require "ambit.report.axis"
 local check = require "ambit.check"
-local compare_picture = require "ambit.compare.picture"
 local json = require "ambit.reduce.json"
 local number = require "ambit.report.number"
 local provenance = require "ambit.provenance"
 local proof = require "ambit.reduce.certify.proof"
 local sample = require "ambit.reduce.sample"
+local report_svg = require "ambit.report.svg"
 local svg = require "ambit.reduce.picture_svg"
 
 local picture = {}
@@ -16,7 +16,7 @@ local picture = {}
 local DECADES = 8   -- at most, below the greatest value: an error starts at zero
 local DOTS = 60     -- sampled errors of an output in a scenario
 
-local function colour_of(k) return compare_picture.colours[(k - 1) % #compare_picture.colours + 1] end
+local function colour_of(k) return report_svg.colours[(k - 1) % #report_svg.colours + 1] end
 
 -- A logarithmic axis of parts of a bound, with the bound on it.
 local function share_axis(series)

@@ -40,28 +40,13 @@ end
 
 -- -- picture and page
 
-local no_gnuplot = [[
-the picture needs gnuplot, which is not on the PATH (Debian, Ubuntu: apt install gnuplot-nox); all else is written]]
-
-local function draw(script)
-  local source = os.tmpname()
-  outputs.write(source, script)
-  local pipe = assert(io.popen(("gnuplot '%s'"):format(source)))
-  local text = pipe:read "a"
-  local drawn = pipe:close()
-  os.remove(source)
-  if not drawn or text == "" then error("gnuplot could not draw the picture", 0) end
-  return text
-end
-
 local function write_svg(list, name, file)
-  if not os.execute "command -v gnuplot >/dev/null 2>&1" then error(no_gnuplot, 0) end
   local title = ("%s: %s against run time"):format(file:match "[^/]*$", picture.subject(list))
-  local script, left_out = picture.script(list, title)
+  local text, left_out = picture.text(list, title)
   if left_out > 0 then
     io.stderr:write(("note: the picture shows the first %d comparisons of %d\n"):format(#list - left_out, #list))
   end
-  outputs.write(name, provenance.svg(draw(script)))
+  outputs.write(name, provenance.svg(text))
 end
 
 local function write_html(list, name, file) outputs.write(name, require "ambit.page.compare".of(list, file)) end

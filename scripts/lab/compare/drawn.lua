@@ -2,14 +2,14 @@
 -- is said of those that cannot be drawn (failures, widths that are zero, infinite or beyond the axis).
 local compare_axis = require "ambit.report.axis"
 local compare_table = require "ambit.compare.table"
+local colours = require "ambit.report.svg".colours
 local judge = require "ambit.compare.judge"
 
 local drawn = {}
 
 local notes_at_most = 12
 
-drawn.colours = { "#4477aa", "#ee6677", "#228833", "#aa3377", "#ccaa22", "#33aacc", "#885522", "#555555" }
-local markers = { 7, 5, 9, 13, 11, 15, 4, 6 }
+local markers = { "circle", "square", "up", "diamond", "down", "pentagon", "open square", "open circle" }
 
 local function of_simulation(comparison)
   local key, inner = judge.telling(comparison.rows, comparison.measure, { "width_max", "over_sample_max" }), 0
@@ -61,11 +61,11 @@ function drawn.styles(comparisons)
         local method = row.solver or row.arithmetic
         local base = methods[method]
         if not base then
-          base = { number = count % #drawn.colours + 1, families = 0 }
+          base = { number = count % #colours + 1, families = 0 }
           methods[method], count = base, count + 1
         end
         base.families = base.families + 1
-        styles[row.family] = { colour = drawn.colours[base.number], marker = markers[base.number],
+        styles[row.family] = { colour = colours[base.number], marker = markers[base.number],
           dash = (base.families - 1) % 5 + 1, axis = row.axis,
           name = row.axis and not row.solver and ("%s, by %s"):format(row.family, row.axis) or row.family }
         styles[#styles + 1] = styles[row.family]
