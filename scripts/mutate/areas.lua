@@ -2,8 +2,8 @@
 --
 -- files: patterns of `git ls-files`, (a|b) for either. target: what is built. tests: patterns of the names of test
 -- programs. specs: suites under tests/lua. share: of the mutations that are tried.
-local function solver(name, share, rooms, specs)
-  return { name = name, share = share, files = { "^plugins/solver/" .. name .. "/(" .. rooms .. ")%.[ch]$" },
+local function solver(name, share, rooms, specs, title)
+  return { name = title or name, share = share, files = { "^plugins/solver/" .. name .. "/(" .. rooms .. ")%.[ch]$" },
     target = "solver_" .. name, specs = specs,
     tests = { "^plugins%.solver_" .. name .. "$", "^plugins%.solver_" .. name .. "_", "^plugins%.solver_kit$" } }
 end
@@ -29,7 +29,9 @@ return {
   solver("taylor_model", 35, "cell|dense|functions|kink|pieces|polynomial|proof|range|restrict|rules|series|set|step|tube|zonotope", { "solver" }),
   solver("stiff", 40, "bound|collocation|dd|dense|evaluate|frame|improve|invariant|linear|metzler|metzler_stiff|nodes|poly|prove|refine|series|splitting|spread|step|terms", { "solver" }),
   solver("valencia", 30, "faces|frame|point|series|slope|terms|verify", { "solver" }),
-  solver("zonotope", 50, "basis|close|defect|dense|discs|error|form|functions|implicit|inverse|kernel|map|mixed|range|products|quartic|distance|multiply|row|run|series|set|slope|start|sum|sweep", { "zonotope" }),
+  solver("zonotope", 50, "basis|close|defect|dense|error|form|functions|implicit|inverse|kernel|range|multiply|row|run|series|set|slope|start|sum|sweep", { "zonotope" }),
+  solver("zonotope", 45, "discs|distance|kink|map|mixed|modes|products|quartic|residual|vary", { "zonotope", "varying", "kink" },
+    "zonotope, lumps and discs"),
   solver("krawczyk", 25, "bound|box|branch|cover|evaluate|hull|inverse|newton|prove|solution",
     { "roots", "roots_parameters", "stability", "inverse_kinematics" }),
   { name = "certify", share = 20, files = { "^framework/verbs/reduce/certify/(bound|bounds|couple|curve|proof|values)%.lua$" },
