@@ -72,6 +72,21 @@ describe("what varies in time", function()
     assert.is_true(event.t.lo <= 0.5 and event.t.hi >= 1)
   end)
 
+  it("has no periodic orbit, and nothing rests under it", function()
+    local w = ambit.varying("-0.001", "0.001", "wind")
+    local system = ambit.ode { states = { "x", "y" },
+      equations = function(s) return { x = s.y, y = (1 - s.x ^ 2) * s.y - s.x + w } end }
+    local map = ambit.poincare { system, section = function(s) return s.y end, direction = "falling",
+      initial = { x = ambit.around("2.00862", "0.02"), y = 0 }, t_max = 8 }
+    assert.equal("complete", map.status) -- every solution returns, into the initial set, and no two alike
+    local orbit = map:orbit()
+    assert.is_false(orbit.proved)
+    assert.is_truthy(orbit.reason:find("`wind` varies in time", 1, true))
+    local good, problem = pcall(ambit.equilibria, { system, box = { x = { -3, 3 } } })
+    assert.is_false(good)
+    assert.is_truthy(tostring(problem):find("`wind` varies in time", 1, true))
+  end)
+
   it("is refused where it makes no sense, with the reason", function()
     local w = ambit.varying(-1, 1, "w")
     local function refused(f, text)

@@ -108,7 +108,7 @@ static ambit_expr no_rate(const ambit_graph *g, ambit_expr varying, ambit_failur
   ambit_graph_leaf_name(g, varying, name);
   ambit_fail(f, AMBIT_INVALID,
       "`%s` varies in time in any way within its bounds: what is differentiated by time, such as a position, a length "
-      "or a given motion, may not depend on it; give it bounds of its rate, ambit.varying(lo, hi, { rate = ... })",
+      "or a given motion, may not depend on it; use ambit.between for one unknown constant",
       name);
   return AMBIT_NO_EXPR;
 }

@@ -53,6 +53,16 @@ local function equations(system, speeds)
   return list, leaves, values
 end
 
+-- Nothing rests under what may change at any time, and eigenvalues at single values of it tell nothing of stability.
+local function check_fixed(system)
+  for _, leaf in ipairs(core.leaves(system.rates)) do
+    if leaf.kind == "varying" then
+      check.fail("equilibria: `%s` varies in time, so that nothing stays at rest: use ambit.between for one unknown "
+        .. "constant, or ambit.simulate for what can be reached", leaf.name)
+    end
+  end
+end
+
 local function check_box(names, system, speeds, what)
   local positions = {}
   for _, name in ipairs(system.states) do
@@ -78,6 +88,7 @@ function verb.equilibria(t)
   if t.stability ~= nil and type(t.stability) ~= "boolean" then
     check.fail("equilibria: stability: expected true or false, got %s", check.kind(t.stability))
   end
+  check_fixed(system)
   local speeds = find_speeds(system)
   local units = {}
   for i, name in ipairs(system.states) do units[name] = ode.unit(system, i) end

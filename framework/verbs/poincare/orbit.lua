@@ -73,6 +73,7 @@ function orbit.prove(map)
   if not map.rigorous then return no "the solver proves nothing" end
   for _, leaf in ipairs(core.leaves(q.system.rates)) do
     if leaf.kind == "time" then return no "the system depends on time" end
+    if leaf.kind == "varying" then return no("`%s` varies in time: the next turn is another map", leaf.name) end
   end
   local fixed = fixed_state(q)
   if not fixed then return no "the section does not fix a state" end

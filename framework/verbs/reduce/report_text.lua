@@ -194,7 +194,7 @@ local function errors(self, width)
     { "error", function(row) return row.error and up(row.error) or "not proved" end },
     { "bound", function(row) return row.bound and number.short(row.bound) end },
     { "used", function(row) return row.error and row.bound and number.percent(row.error / row.bound) end },
-    { "worst at", function(row) return where_worst(self, row.name) end, left = true, shrinks = true },
+    { "worst near", function(row) return where_worst(self, row.name) end, left = true, shrinks = true },
   }), width - 2)
 end
 
