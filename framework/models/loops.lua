@@ -20,7 +20,7 @@ end
 
 local function need_loops(self, what)
   if core.has_constraints(self.handle) then return end
-  check.fail("%s: the mechanism `%s` has no closed loops; close_point, close_revolute, ... close them", what,
+  check.fail("%s: the mechanism `%s` has no closed loops; elements whose names begin with `close_` close them", what,
     self.name)
 end
 

@@ -60,7 +60,7 @@ end
 function methods:state(t)
   check.table(t, "state")
   check.keys(t, { "name", "unit", "rate" }, "state", 1)
-  local name, d = read_name(self, t), element.declaration "state"
+  local name, d = read_name(self, t), element.declaration(core.default.state)
   if t.unit ~= nil then
     check.text(t.unit, ("state `%s`: unit"):format(name))
     core.expression("1 " .. t.unit, nil, ("state `%s`: unit"):format(name))

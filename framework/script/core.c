@@ -3,6 +3,7 @@
 #include "script/limit.h"
 #include "base/meter.h"
 #include "num/rounding.h"
+#include "models/default.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -107,9 +108,18 @@ void ambit_lua_new_type(lua_State *L, ambit_lua *core, const char *type, const l
   ambit_lua_set_functions(L, core, functions);
 }
 
+static void set_defaults(lua_State *L) {
+#define SET(name, plugin) lua_pushliteral(L, plugin), lua_setfield(L, -2, #name);
+  lua_newtable(L);
+  AMBIT_DEFAULTS(SET)
+#undef SET
+  lua_setfield(L, -2, "default");
+}
+
 int luaopen_ambit_core(lua_State *L) {
   ambit_lua *core = state_get(L);
   lua_newtable(L);
+  set_defaults(L);
   ambit_lua_open_functions(L, core);
   ambit_lua_open_expression(L, core);
   ambit_lua_open_enclosure(L, core);

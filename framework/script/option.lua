@@ -63,4 +63,15 @@ function option.arithmetic(value, what)
   return value[1], (option.collect(value, declaration))
 end
 
+-- What a solver declares of its options, "order=6,10 tolerance=1e-6" -> { { "order", { "6", "10" } }, ... }
+function option.declared(text)
+  local list = {}
+  for name, values in text:gmatch "([%w_]+)=(%S+)" do
+    local all = {}
+    for value in values:gmatch "[^,]+" do all[#all + 1] = value end
+    list[#list + 1] = { name, all }
+  end
+  return list
+end
+
 return option

@@ -89,6 +89,8 @@ static int plugin(lua_State *L) {
       push_params(L, solver->param);
       lua_setfield(L, -2, "parameters");
       set_text(L, "arithmetics", solver->arithmetics);
+      set_text(L, "compared", solver->compared);
+      set_text(L, "cheap", solver->cheap);
       set_text(L, "verb",
           solver->solves == AMBIT_SOLVES_ROOTS       ? "roots"
           : solver->solves == AMBIT_SOLVES_REDUCTION ? "reduce"

@@ -6,6 +6,7 @@
 #include <ambit/evaluate.h>
 #include <ambit/simulate.h>
 #include "verbs/simulate/suggest.h"
+#include "models/default.h"
 #include <string.h>
 
 void ambit_lua_push_enclosures(lua_State *L, size_t n, const ambit_interval *x, const uint8_t *partial) {
@@ -20,7 +21,7 @@ void ambit_lua_push_enclosures(lua_State *L, size_t n, const ambit_interval *x, 
 ** rigorous? */
 static int evaluate(lua_State *L) {
   ambit_evaluate_request q = ambit_lua_read_question(L, 1, "evaluate");
-  if (!q.arithmetic) q.arithmetic = "interval";
+  if (!q.arithmetic) q.arithmetic = AMBIT_DEFAULT_RANGES;
   ambit_interval *out = lua_newuserdatauv(L, (q.nexpr + 1) * sizeof *out, 0);
   q.partial = lua_newuserdatauv(L, q.nexpr + 1, 0);
   char blame[AMBIT_BLAME_MAX] = "";

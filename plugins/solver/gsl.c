@@ -259,6 +259,7 @@ static const ambit_solver interface = {
   .run = run,
   .close = close,
   .want_for = want_for,
+  .compared = "method=rkf45,rk8pd,msbdf relative=1e-6,1e-9,1e-12",
 };
 
 static const void *get(const char *interface_id) { return strcmp(interface_id, AMBIT_SOLVER) == 0 ? &interface : NULL; }

@@ -57,12 +57,12 @@ static int32_t check(const char *file, const char *options, double seed, double 
 static void trust(const char *folder) { ambit_trust_folder(folder, NULL); }
 
 static const ambit_function functions[] = {
-  { "trust", "v(s)", (void (*)(void))trust, "plugins may be loaded from FOLDER whoever may write there" },
-  { "allow_shadow", "v()", ambit_trust_shadows, "a plugin may take a name of Ambit's own" },
   { "check", "i(ssdddi(v(sss)))", (void (*)(void))check,
       "runs the kit on FILE with OPTIONS (lines name=value), seed, effort, patience in s, and flags (1: "
       "isotonicity is demanded, 2: end at the first broken promise); tells what happens; 0 conforms, 1 cannot be "
       "loaded, 3 broken promises" },
+  { "trust", "v(s)", (void (*)(void))trust, "plugins may be loaded from FOLDER whoever may write there" },
+  { "allow_shadow", "v()", ambit_trust_shadows, "a plugin may take a name of Ambit's own" },
 };
 static const ambit_exports exports = { sizeof exports, sizeof functions / sizeof *functions, functions };
 

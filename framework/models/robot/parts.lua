@@ -9,6 +9,8 @@ local tolerance = require "ambit.robot.tolerance"
 
 local parts = {}
 
+local names = core.default
+
 local zero = core.expression(0)
 
 -- One build: the robot, the mechanism, its tolerances, frames by link and joint objects by joint.
@@ -67,7 +69,7 @@ function Build:origin(joint)
   local at = self.frame[joint.parent]
   for i, link in ipairs(links) do
     local is_joint = joint.kind == "fixed" and i == #links
-    at = self:add(joint.line, who, is_joint and "weld" or "rigid_link", { from = at,
+    at = self:add(joint.line, who, is_joint and names.fixed or names.link, { from = at,
       name = is_joint and joint.name or joint.name .. "." .. link[1],
       offset = link.offset, axis = link.axis, angle = link.angle })
   end
@@ -102,23 +104,23 @@ end
 local kinds = {}
 
 function kinds.revolute(self, joint, at, rest)
-  return add_motion(self, joint, at, { kind = "revolute", axis = joint.axis }, joint.name, rest)
+  return add_motion(self, joint, at, { kind = names.hinge, axis = joint.axis }, joint.name, rest)
 end
 
 kinds.continuous = kinds.revolute
 
 function kinds.prismatic(self, joint, at, rest)
-  return add_motion(self, joint, at, { kind = "prismatic", axis = joint.axis }, joint.name, rest)
+  return add_motion(self, joint, at, { kind = names.slide, axis = joint.axis }, joint.name, rest)
 end
 
 function kinds.planar(self, joint, at)
   local first, second = across(joint.axis)
-  return self:add(joint.line, robot.of_joint(joint), "planar", { from = at, name = joint.name, first = first,
+  return self:add(joint.line, robot.of_joint(joint), names.plane, { from = at, name = joint.name, first = first,
     second = second })
 end
 
 function kinds.floating(self, joint, at)
-  return self:add(joint.line, robot.of_joint(joint), "free_quaternion", { from = at, name = joint.name })
+  return self:add(joint.line, robot.of_joint(joint), names.floating, { from = at, name = joint.name })
 end
 
 -- One motion behind the other: NAME, or NAME.1, NAME.2, ...
@@ -140,11 +142,11 @@ end
 local function add_friction(self, joint, moved)
   local who = robot.of_joint(joint)
   if moved and self.options.damping and joint.damping then
-    self:add(joint.line, who, "joint_damper", { joint = moved, name = joint.name .. ".damping",
+    self:add(joint.line, who, names.damper, { joint = moved, name = joint.name .. ".damping",
       damping = joint.damping })
   end
   if moved and self.options.friction and joint.friction then
-    self:add(joint.line, who, "joint_friction", { joint = moved, name = joint.name .. ".friction",
+    self:add(joint.line, who, names.friction, { joint = moved, name = joint.name .. ".friction",
       coulomb = joint.friction })
   end
 end
@@ -191,7 +193,7 @@ function Build:add_body(link)
   entries = self.tolerances:lay_inertia(self:names(link.name), entries)
   local is_point = true
   for _, entry in ipairs(entries) do is_point = is_point and entry == zero end
-  self:add(body.line, who, "rigid_body", { at = self.frame[link.name], mass = mass, centre = centre,
+  self:add(body.line, who, names.body, { at = self.frame[link.name], mass = mass, centre = centre,
     name = (self.robot.joint[link.name] or link.name == "world") and link.name .. ".body" or link.name,
     inertia = not is_point and turned(entries, rpy) or nil, physical = self.options.physical })
 end

@@ -133,15 +133,15 @@ end
 
 -- -- joints
 
-local function slide(axis) return { kind = "prismatic", axis = axis } end
-local function turn(axis) return { kind = "revolute", axis = axis } end
+local function slide(axis) return { kind = core.default.slide, axis = axis } end
+local function turn(axis) return { kind = core.default.hinge, axis = axis } end
 local x, y, z = { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }
 
 local types = {
   JointTypeFixed = {}, JointTypeRevoluteX = { turn(x) }, JointTypeRevoluteY = { turn(y) },
   JointTypeRevoluteZ = { turn(z) }, JointTypeTranslationXYZ = { slide(x), slide(y), slide(z) },
-  JointTypeSpherical = { { kind = "spherical_quaternion" } },
-  JointTypeFloatingBase = { { kind = "free_quaternion" } }, JointTypeEulerZYX = { turn(z), turn(y), turn(x) },
+  JointTypeSpherical = { { kind = core.default.ball } },
+  JointTypeFloatingBase = { { kind = core.default.floating } }, JointTypeEulerZYX = { turn(z), turn(y), turn(x) },
   JointTypeEulerXYZ = { turn(x), turn(y), turn(z) }, JointTypeEulerYXZ = { turn(y), turn(x), turn(z) },
   JointTypeEulerZXY = { turn(z), turn(x), turn(y) },
 }
@@ -163,7 +163,7 @@ local function motion_of(place, axes, i)
   if math.abs(math.abs(along) - w * s) > 1e-9 * s then
     place.fail("%s: turns about one axis and slides along another: expected one axis", what)
   end
-  return { kind = "screw", axis = rotation, pitch = (along > 0 and 2 or -2) * core.pi() * s }
+  return { kind = core.default.screw, axis = rotation, pitch = (along > 0 and 2 or -2) * core.pi() * s }
 end
 
 local function motions_of(place, joint)

@@ -46,7 +46,7 @@ end
 local function numbers(expressions, leaves, at)
   local values, out = {}, {}
   for i, x in ipairs(at) do values[i] = core.expression(x) end
-  local found = core.evaluate { arithmetic = "real", expressions = expressions, leaves = leaves, values = values }
+  local found = core.evaluate { arithmetic = core.default.points, expressions = expressions, leaves = leaves, values = values }
   for i, x in ipairs(found) do
     out[i] = x:mid()
     if x.partial or not (math.abs(out[i]) < math.huge) then return nil end
@@ -118,7 +118,7 @@ end
 
 -- e in x = y + e; nil: not bounded, or not narrow enough to be worth it. box: enclosures of x.
 local function enclose_rest(p, y, box)
-  local name, options = option.arithmetic({ "taylor_model", order = 2 }, "assemble")
+  local name, options = option.arithmetic({ core.default.polynomials, order = 2 }, "assemble")
   local n, both, values = #y, table.move(y, 1, #y, 1, {}), {}
   table.move(core.substitute(p.list, p.symbols, y), 1, n, n + 1, both)
   local found = core.evaluate { arithmetic = name, options = options, expressions = both }

@@ -1,5 +1,6 @@
 /* tight.c -- constant expressions with more and more digits. */
 #include "verbs/evaluate/tight.h"
+#include "models/default.h"
 #include <ambit/evaluate.h>
 #include <math.h>
 
@@ -18,9 +19,13 @@ ambit_interval ambit_tight(ambit_graph *g, ambit_registry *registry, ambit_expr 
   if (ambit_interval_is_empty(x) || is_narrow(x, ENOUGH)) return x;
   for (size_t i = 0; i < sizeof bits / sizeof *bits && !is_narrow(x, TIGHT); i++) {
     const ambit_option precision = { "precision", bits[i] };
-    const ambit_evaluate_request q = {
-      .graph = g, .registry = registry, .arithmetic = "mpfr", .noption = 1, .option = &precision, .nexpr = 1, .expr = &e
-    };
+    const ambit_evaluate_request q = { .graph = g,
+      .registry = registry,
+      .arithmetic = AMBIT_DEFAULT_DIGITS,
+      .noption = 1,
+      .option = &precision,
+      .nexpr = 1,
+      .expr = &e };
     ambit_interval y;
     uint32_t flags;
     ambit_failure f = { 0 };

@@ -24,7 +24,8 @@ local function part_name(m, part) return core.part_name(m.handle, part) end
 
 local function is_free(m, part) return #m.declared[part].outs == 0 end
 
-local masses = { point_mass = true, rigid_body = true }
+local names = core.default
+local masses = { [names.point_mass] = true, [names.body] = true }
 
 local function new(m, part, kind, more)
   local own = part_name(m, part)
@@ -55,7 +56,8 @@ end
 
 function makers.rigid(m, part)
   if not rest.is_spring(m, part) then
-    return nil, ("it is a %s: expected a joint_spring, spring_damper or bushing"):format(m.declared[part].name)
+    return nil, ("it is a %s: expected a %s, %s or %s"):format(m.declared[part].name, names.spring, names.strut,
+      names.bushing)
   end
   local joint, motions = rest.of(m, part)
   if not joint then return nil, motions end
@@ -92,7 +94,7 @@ function makers.locked(m, part, at)
 end
 
 function makers.inertia(m, part)
-  if m.declared[part].name ~= "rigid_body" then return nil, "it is no rigid_body" end
+  if m.declared[part].name ~= names.body then return nil, "it is no " .. names.body end
   if not copy.values(m, part).inertia then return nil, "it has no moments of inertia" end
   return new(m, part, "inertia")
 end
@@ -212,7 +214,7 @@ end
 
 -- Does a joint lose inertia with it?
 function candidate.is_mass(c)
-  return c.kind == "inertia" or (c.kind == "left" and (masses[c.type] or c.type == "armature"))
+  return c.kind == "inertia" or (c.kind == "left" and (masses[c.type] or c.type == names.rotor))
 end
 
 return candidate

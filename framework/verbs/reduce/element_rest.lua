@@ -103,7 +103,7 @@ end
 
 local kinds = {}
 
-function kinds.joint_spring(m, part)
+kinds[core.default.spring] = function(m, part)
   local joint = connected(m, part, "joint")
   if #rest.coordinates(m, joint) == 0 then return nil, "its joint does not move" end
   return joint, { copy.values(m, part).rest[1] }
@@ -119,14 +119,15 @@ local function point_of(m, part, values, name)
   return (measure.point(m, frame_at(m, part, name), Vector.new(o[1], o[2], o[3]), "reduce"))
 end
 
-local slides, hinges = { prismatic = true }, { revolute = true }
+local slides, hinges = { [core.default.slide] = true }, { [core.default.hinge] = true }
 
-function kinds.spring_damper(m, part)
+kinds[core.default.strut] = function(m, part)
   local joint, problem = joint_between(m, (connected(m, part, "from")), (connected(m, part, "to")))
   if not joint then return nil, problem end
   local type, values = m.declared[joint].name, copy.values(m, part)
   if not slides[type] and not hinges[type] then
-    return nil, ("the joint between its points is a %s: expected revolute or prismatic"):format(type)
+    return nil, ("the joint between its points is a %s: expected %s or %s"):format(type, core.default.hinge,
+      core.default.slide)
   end
   local d = point_of(m, part, values, "to") - point_of(m, part, values, "from")
   local q = rest.coordinates(m, joint)[1].q
@@ -136,7 +137,7 @@ function kinds.spring_damper(m, part)
   return joint, { found }
 end
 
-function kinds.bushing(m, part)
+kinds[core.default.bushing] = function(m, part)
   local joint, problem = joint_between(m, (connected(m, part, "from")), (connected(m, part, "to")))
   if not joint then return nil, problem end
   local zero, leaves = rest.zero(m, joint), {}

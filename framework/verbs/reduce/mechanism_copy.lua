@@ -102,7 +102,7 @@ end
 
 -- A joint of several coordinates, each of them locked at 0: its frames coincide.
 function Copy:weld(part, links)
-  local d = element.declaration "weld"
+  local d = element.declaration(core.default.fixed)
   local values = {}
   for i, param in ipairs(d.parameters) do
     values[i] = param.name == "offset" and { core.expression(0), core.expression(0), core.expression(0) }
@@ -136,7 +136,7 @@ function Copy:carry(part, field)
   for i = 1, 3 do weight[i] = -mass * field[i] end
   local made = element.made(self.from, part)
   local at, port = self:place(made.links[1], made.links[2])
-  element.add(self.to, "applied_force", { at = frame.new(self.to, at, { index = port, kind = "frame" }),
+  element.add(self.to, core.default.force, { at = frame.new(self.to, at, { index = port, kind = "frame" }),
     offset = values.centre, force = weight, name = core.part_name(self.from.handle, part) .. ": weight" })
 end
 

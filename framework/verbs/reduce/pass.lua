@@ -63,7 +63,7 @@ local function request_of(job, found)
   local all = model.expressions(m)
   table.move(effect, 1, #effect, #all + 1, all)
   local data = data_of(all, m.symbols)
-  return { solver = "reduction", states = m.states, symbols = m.symbols, data = data, rates = m.rates,
+  return { solver = core.default.strategy, states = m.states, symbols = m.symbols, data = data, rates = m.rates,
     outputs = names, output_expressions = outputs, bounds = job.bounds, candidates = texts, effect = effect,
     effect_candidate = of, effect_state = state, references = references_of(job.references, m.symbols, data),
     options = job.solver_options }

@@ -5,6 +5,7 @@
 #include "verbs/run/pair.h"
 #include "verbs/reduce/reduction_build.h"
 #include "verbs/run/tally.h"
+#include "models/default.h"
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -72,7 +73,8 @@ static ambit_status find_solver(job *j, ambit_failure *f) {
   const ambit_reduction_request *q = j->q;
   ambit_status status = ambit_registry_solver(q->registry, q->solver, &j->solver, f);
   if (status == AMBIT_OK && j->solver->solves != AMBIT_SOLVES_REDUCTION) status = refuse_solver(q, j->solver, f);
-  if (status == AMBIT_OK) status = ambit_pair_choose(q->registry, q->solver, j->solver, "real", j->arithmetic, f);
+  if (status == AMBIT_OK)
+    status = ambit_pair_choose(q->registry, q->solver, j->solver, AMBIT_DEFAULT_POINTS, j->arithmetic, f);
   if (status == AMBIT_OK) status = ambit_context_lease(q->registry, &j->lease, f);
   if (status != AMBIT_OK) return status;
   ambit_failure own = { 0 };

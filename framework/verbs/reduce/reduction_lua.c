@@ -6,6 +6,7 @@
 #include "script/receiver.h"
 #include "script/request.h"
 #include "verbs/reduce/reduction.h"
+#include "models/default.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -110,7 +111,7 @@ static const ambit_reduction_reference *references(lua_State *L, size_t nx, size
 static ambit_reduction_request request(lua_State *L) {
   ambit_reduction_request q = { .graph = AMBIT_LUA(L)->graph, .registry = AMBIT_LUA(L)->registry };
   size_t n;
-  q.solver = field(L, "solver", LUA_TSTRING) ? lua_tostring(L, -1) : "reduction";
+  q.solver = field(L, "solver", LUA_TSTRING) ? lua_tostring(L, -1) : AMBIT_DEFAULT_STRATEGY;
   q.solver_option = ambit_lua_options(L, list(L, "options", &n), &q.nsolver_option);
   q.state = texts(L, "states", &q.nx);
   q.symbol = expressions(L, "symbols", q.nx);

@@ -57,7 +57,7 @@ end
 -- The states at the nodes, { { x1, x2, ... }, ... }, or nil where the integration ends early.
 local function follow(model, rates, initial, nodes)
   local system = core.system(model.states, model.units, model.symbols, rates)
-  local track, facts = core.simulate({ system = system, solver = "gsl",
+  local track, facts = core.simulate({ system = system, solver = core.default.draws,
     options = reference.options(system, initial, nodes), initial = initial, times = nodes }, nil, { silent = true })
   if facts.status ~= "complete" then return nil end
   local rows = {}
@@ -68,7 +68,7 @@ local function follow(model, rates, initial, nodes)
     end
     rows[k] = row
   end
-  for i, x in ipairs(core.evaluate { arithmetic = "real", expressions = initial }) do rows[1][i] = x:mid() end
+  for i, x in ipairs(core.evaluate { arithmetic = core.default.points, expressions = initial }) do rows[1][i] = x:mid() end
   return rows
 end
 
@@ -164,7 +164,7 @@ function reference.values(r, expressions)
   for k in ipairs(r.t) do
     local row = {}
     local leaves, values = binding(r, k)
-    local list = core.evaluate { arithmetic = "real", expressions = fixed, leaves = leaves, values = values }
+    local list = core.evaluate { arithmetic = core.default.points, expressions = fixed, leaves = leaves, values = values }
     for i, x in ipairs(list) do row[i] = x:mid() end
     rows[k] = row
   end

@@ -114,7 +114,7 @@ local function one(facts, given, t)
   local system, places = coupled(facts.detailed, facts.model, given, facts.criterion)
   local times, n = grid(given.times), #system.states
   local handle = core.system(system.states, system.units, system.symbols, system.rates)
-  local hulls, outcome = core.sample_system({ system = handle, solver = "gsl",
+  local hulls, outcome = core.sample_system({ system = handle, solver = core.default.draws,
     options = reference.options(handle, system.initial, times), initial = system.initial, times = times },
     { draws = t.draws, seed = t.seed, threads = t.threads })
   local found = { name = given.name, t = times, error = {}, when = {}, curve = {}, failed = outcome.failed,

@@ -14,6 +14,7 @@
 #include "verbs/run/pair.h"
 #include "verbs/run/share.h"
 #include "verbs/run/tally.h"
+#include "models/default.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -71,8 +72,8 @@ static ambit_status check_count(const job *j, ambit_failure *f) {
 
 /* Names of the installed solvers that find roots; only for a message. */
 static ambit_status refuse_solver(const ambit_roots_request *q, const ambit_solver *solver, ambit_failure *f) {
-  return ambit_fail(f, AMBIT_INVALID, "solver `%s` %s; it does not find roots (krawczyk does)", q->solver,
-      solver->solves == AMBIT_SOLVES_REDUCTION ? "chooses what ambit.reduce leaves out" : "integrates");
+  return ambit_fail(f, AMBIT_INVALID, "solver `%s` %s; it does not find roots (" AMBIT_DEFAULT_ROOTS " does)",
+      q->solver, solver->solves == AMBIT_SOLVES_REDUCTION ? "chooses what ambit.reduce leaves out" : "integrates");
 }
 
 /* -- which equations */

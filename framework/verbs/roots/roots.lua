@@ -170,7 +170,7 @@ end
 
 -- The solver's name, its options and those of the arithmetic; every other key of t must be among own_keys.
 function verb.settings(t, what, own_keys, positional)
-  local q = { solver = t.solver == nil and "krawczyk" or check.text(t.solver, what .. ": solver"),
+  local q = { solver = t.solver == nil and core.default.roots or check.text(t.solver, what .. ": solver"),
     partial = partial.read(t, what) }
   local declaration = option.declaration("solver", q.solver)
   local known = { "solver", "arithmetic", "partial" }

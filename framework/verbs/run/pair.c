@@ -1,5 +1,6 @@
 /* pair.c -- arithmetic and solver, refused by name when they do not fit. */
 #include "verbs/run/pair.h"
+#include "models/default.h"
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -46,13 +47,18 @@ static ambit_status refuse(
     snprintf(fitting, sizeof fitting, "%s", solver->arithmetics);
   else
     list_rigorous(r, fitting, sizeof fitting);
+  if (solver->arithmetics && !strchr(solver->arithmetics, ' '))
+    return ambit_fail(f, AMBIT_INVALID,
+        "solver `%s` does not work with arithmetic `%s`: it always computes in `%s`, so that another one would have no "
+        "effect",
+        solver_name, name, fitting);
   return ambit_fail(f, AMBIT_INVALID, "solver `%s` does not work with arithmetic `%s`%s; what fits: %s", solver_name,
       name, solver->needs_rigorous ? " (it proves its results)" : "", fitting[0] ? fitting : "none that is installed");
 }
 
 ambit_status ambit_pair_choose(ambit_registry *r, const char *solver_name, const ambit_solver *solver,
     const char *wanted, char name[AMBIT_NAME_MAX], ambit_failure *f) {
-  snprintf(name, AMBIT_NAME_MAX, "%s", wanted ? wanted : "interval");
+  snprintf(name, AMBIT_NAME_MAX, "%s", wanted ? wanted : AMBIT_DEFAULT_RANGES);
   if (!wanted && solver->arithmetics) next_word(solver->arithmetics, name);
   const ambit_arithmetic *a;
   ambit_status status = ambit_registry_arithmetic(r, name, &a, f);

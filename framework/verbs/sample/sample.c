@@ -11,6 +11,7 @@
 #include "verbs/sample/sample_points.h"
 #include "verbs/sample/sample_polish.h"
 #include "verbs/run/tally.h"
+#include "models/default.h"
 #include <math.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -244,7 +245,10 @@ ambit_status ambit_sample_expressions(const ambit_evaluate_request *q, const amb
     ambit_failure *f) {
   *result = (ambit_sample_result) { 0 };
   if (plan->draws == 0) return ambit_fail(f, AMBIT_INVALID, "sample needs at least one draw");
-  job j = { .q = q, .plan = plan, .arithmetic = q->arithmetic ? q->arithmetic : "real", .arena = ambit_arena_open() };
+  job j = { .q = q,
+    .plan = plan,
+    .arithmetic = q->arithmetic ? q->arithmetic : AMBIT_DEFAULT_POINTS,
+    .arena = ambit_arena_open() };
   if (!j.arena) return no_memory(f);
   double start = ambit_context_seconds(), wall = ambit_sample_wall();
   ambit_meter_enter(AMBIT_FRAME_STAGE, "graph");

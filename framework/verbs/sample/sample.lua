@@ -90,7 +90,7 @@ local function of_expressions(t)
   local allowed = partial.read(t, "sample")
   local expressions, paths, rebuild = shape.flatten(evaluate.subject(t, "sample"), "sample")
   local leaves, values = binding.resolve(t.at, expressions, "sample")
-  local name, options = option.arithmetic(t.arithmetic == nil and "real" or t.arithmetic, "sample: arithmetic")
+  local name, options = option.arithmetic(t.arithmetic == nil and core.default.points or t.arithmetic, "sample: arithmetic")
   local results, defined, report, facts = core.sample_expressions({ arithmetic = name, options = options,
     expressions = expressions, leaves = leaves, values = values }, plan)
   facts.defined, facts.report, facts.sample_error = defined, report, facts.errors
@@ -141,7 +141,7 @@ function verb.is(value) return getmetatable(value) == Sample end
 
 -- Without a solver, or an option that only gsl has, the draws go in lanes.
 local function request_of(t)
-  local default = (t.method ~= nil or t.step_max ~= nil) and "gsl" or false
+  local default = (t.method ~= nil or t.step_max ~= nil) and core.default.draws or false
   local in_lanes = t.solver == nil and not default
   local keys = table.move(own_keys, 1, #own_keys, 1, {})
   if in_lanes then table.move({ "relative", "absolute" }, 1, 2, #keys + 1, keys) end

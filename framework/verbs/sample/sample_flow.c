@@ -7,6 +7,7 @@
 #include "verbs/simulate/problem.h"
 #include "verbs/sample/sample_inside.h"
 #include "verbs/sample/sample_lanes.h"
+#include "models/default.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -85,10 +86,11 @@ static ambit_status open_drawer(ambit_flow *flow, drawer *d, ambit_failure *f) {
   d->slot = room(flow, p->invariant ? p->invariant->nslot : 0, sizeof *d->slot);
   if (!d->start || !d->upper || !d->in || !d->slot) return no_memory(f);
   size_t noption = flow->one_by_one ? 0 : q->narithmetic_option;
-  ambit_status status = ambit_context_open(q->registry, flow->one_by_one ? "real" : flow->arithmetic, noption,
-      q->arithmetic_option, (uint32_t)n, &d->context, f);
+  ambit_status status = ambit_context_open(q->registry, flow->one_by_one ? AMBIT_DEFAULT_POINTS : flow->arithmetic,
+      noption, q->arithmetic_option, (uint32_t)n, &d->context, f);
   if (status == AMBIT_OK && d->context.arithmetic->rigorous)
-    return ambit_fail(f, AMBIT_INVALID, "arithmetic `%s` encloses sets; draws are made in `real`", flow->arithmetic);
+    return ambit_fail(f, AMBIT_INVALID, "arithmetic `%s` encloses sets; draws are made in `" AMBIT_DEFAULT_POINTS "`",
+        flow->arithmetic);
   if (status == AMBIT_OK) status = ambit_batch_open(p->initial, d->context.arithmetic, d->context.ctx, &d->initial, f);
   if (status == AMBIT_OK && !flow->one_by_one)
     status = ambit_lanes_open(p, d->context.arithmetic, d->context.ctx, AMBIT_FLOW_LANES, &d->lanes, f);
@@ -115,7 +117,7 @@ static ambit_status prepare(ambit_flow *flow, ambit_failure *f) {
     if (status == AMBIT_OK)
       snprintf(flow->arithmetic, sizeof flow->arithmetic, "%s", ambit_draws_arithmetic(flow->draws));
   } else {
-    snprintf(flow->arithmetic, sizeof flow->arithmetic, "%s", q->arithmetic ? q->arithmetic : "real");
+    snprintf(flow->arithmetic, sizeof flow->arithmetic, "%s", q->arithmetic ? q->arithmetic : AMBIT_DEFAULT_POINTS);
   }
   return status == AMBIT_OK ? open_drawers(flow, f) : status;
 }
@@ -176,23 +178,23 @@ bool ambit_flow_has_draws(const ambit_flow *flow) { return flow->draws != NULL; 
 
 /* -- the way a block goes */
 
-static ambit_status open_gsl(ambit_flow *flow, const char *method, ambit_failure *f) {
+static ambit_status open_draws(ambit_flow *flow, const char *method, ambit_failure *f) {
   char relative[32], absolute[32];
   snprintf(relative, sizeof relative, "%.17g", flow->relative);
   snprintf(absolute, sizeof absolute, "%.17g", flow->absolute);
   const ambit_option option[] = { { "relative", relative }, { "absolute", absolute }, { "method", method } };
   const ambit_draws_request request = {
-    .q = flow->q, .solver = "gsl", .noption = 3, .option = option, .threads = flow->threads
+    .q = flow->q, .solver = AMBIT_DEFAULT_DRAWS, .noption = 3, .option = option, .threads = flow->threads
   };
   return ambit_draws_open(&request, &flow->draws, f);
 }
 
-ambit_status ambit_flow_use_gsl(ambit_flow *flow, bool all, bool stiff, ambit_failure *f) {
+ambit_status ambit_flow_use_draws(ambit_flow *flow, bool all, bool stiff, ambit_failure *f) {
   ambit_draws_close(flow->draws);
   flow->draws = NULL;
   ambit_failure no_jacobian = { 0 };
-  ambit_status status = stiff ? open_gsl(flow, "msbdf", &no_jacobian) : AMBIT_INVALID;
-  if (status != AMBIT_OK) status = open_gsl(flow, "rk8pd", f);
+  ambit_status status = stiff ? open_draws(flow, "msbdf", &no_jacobian) : AMBIT_INVALID;
+  if (status != AMBIT_OK) status = open_draws(flow, "rk8pd", f);
   if (status == AMBIT_OK && all) flow->one_by_one = true;
   return status;
 }

@@ -24,7 +24,7 @@ uint32_t ambit_flow_threads(const ambit_flow *flow);
 
 /* From now on blocks that want `alone` go one by one through "gsl", all blocks if `all`; stiff: by its method msbdf, if
 ** the system has a Jacobian. */
-ambit_status ambit_flow_use_gsl(ambit_flow *flow, bool all, bool stiff, ambit_failure *f);
+ambit_status ambit_flow_use_draws(ambit_flow *flow, bool all, bool stiff, ambit_failure *f);
 bool ambit_flow_is_one_by_one(const ambit_flow *flow);
 bool ambit_flow_has_draws(const ambit_flow *flow); /* can blocks go `alone`? */
 /* From now on with tolerances that are so much tighter, and no fewer steps; false: not possible. */

@@ -7,6 +7,7 @@
 #include "verbs/sample/sample_error.h"
 #include "verbs/sample/sample_job.h"
 #include "verbs/run/tally.h"
+#include "models/default.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -90,7 +91,7 @@ static void tell_result(const ambit_sample_job *j, ambit_sample_result *result) 
   snprintf(result->method, sizeof result->method, "%s",
       j->q->solver ? j->q->solver
       : !alone     ? "Runge-Kutta of order 8 in lanes"
-                   : "gsl, the system being stiff");
+                   : AMBIT_DEFAULT_DRAWS ", the system being stiff");
 }
 
 static void fill_report(
@@ -105,7 +106,7 @@ static void fill_report(
   snprintf(report->arithmetic, sizeof report->arithmetic, "%.31s", ambit_flow_arithmetic(j->flow));
   snprintf(report->solver, sizeof report->solver, "%.31s",
       j->q->solver                        ? j->q->solver
-      : ambit_flow_is_one_by_one(j->flow) ? "gsl"
+      : ambit_flow_is_one_by_one(j->flow) ? AMBIT_DEFAULT_DRAWS
                                           : "lanes");
   report->graph_nodes = ambit_graph_made(j->q->system->graph);
   report->work = ambit_flow_work(j->flow);

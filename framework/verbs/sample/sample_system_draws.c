@@ -140,7 +140,7 @@ static ambit_status try_first(ambit_sample_job *j, ambit_failure *f) {
   j->nlost = 0;
   *j->result = (ambit_sample_result) { 0 };
   j->first_failed = SIZE_MAX;
-  status = ambit_flow_use_gsl(j->flow, true, true, f);
+  status = ambit_flow_use_draws(j->flow, true, true, f);
   if (status != AMBIT_OK) return status;
   ambit_sample_points_close(j->points);
   j->points = NULL;
@@ -157,7 +157,7 @@ static ambit_status draw_all(ambit_sample_job *j, ambit_failure *f) {
 static ambit_status draw_lost(ambit_sample_job *j, ambit_failure *f) {
   if (j->nlost == 0) return AMBIT_OK;
   ambit_failure own = { 0 };
-  ambit_status status = ambit_flow_use_gsl(j->flow, false, atomic_load(&j->stiff), &own);
+  ambit_status status = ambit_flow_use_draws(j->flow, false, atomic_load(&j->stiff), &own);
   j->result->one_by_one = j->nlost;
   if (status == AMBIT_OK) return tell_broken(j, ambit_sample_run_pool(j, j->nlost, make_lost), f);
   j->result->draws += j->nlost;

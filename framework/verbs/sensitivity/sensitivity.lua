@@ -154,22 +154,10 @@ local function refuse_partial(t)
   end
 end
 
--- The solver that suits the system, if its cost allows for the many states of the variational equations; otherwise
--- lohner, unless options were given that it does not have.
-local LARGE = { lohner = true, zonotope = true }
-
-local function chosen(q)
-  if not q.suggestion or LARGE[q.solver] then return q end
-  local good, other = pcall(q.by, "lohner")
-  if not good then return q end
-  other.suggestion = setmetatable({ reason = "sensitivities are linear in themselves" }, { __index = q.suggestion })
-  return other
-end
-
 function verb.sensitivity(t)
   refuse_partial(t)
   local keys = table.move(simulate.run_keys, 1, #simulate.run_keys, 2, { "wrt" })
-  local q = chosen(simulate.request(t, "sensitivity", nil, keys))
+  local q = simulate.request(t, "sensitivity", nil, keys)
   q.run_options = simulate.run_options(t, q)
   local list, names, states, data = quantities(t.wrt, q.system), {}, {}, {}
   for j, by in ipairs(list) do names[j], states[j], data[j] = by.name, by.state, by.datum end

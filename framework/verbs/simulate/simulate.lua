@@ -99,7 +99,7 @@ function verb.request(t, what, default_solver, own_keys)
   q.initial = assemble_data.correlate(q.initial, t.initial, q.system, q.times)
   q.system = verb.on_clock(q.system, q.times.shift)
   if fitting then
-    q.suggestion = suggest.proving(suggest.solver(q, fitting))
+    q.suggestion = suggest.proving(suggest.solver(q, fitting, what))
     q.solver = q.suggestion.solver
     check_options(t, q, known, what)
     q.by = function(solver) -- the same request to another of the fitting solvers

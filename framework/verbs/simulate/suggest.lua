@@ -116,10 +116,11 @@ local function ranked(facts, fitting)
   return list
 end
 
--- q: system, initial, times of a request; fitting: of candidates() -> { solver, reason, facts, others }: `others` are
--- the next best ones, in order.
-function suggest.solver(q, fitting)
+-- q: system, initial, times of a request; fitting: of candidates(); task: the verb that asks -> { solver, reason, facts,
+-- others }: `others` are the next best ones, in order.
+function suggest.solver(q, fitting, task)
   local facts, problem = core.look(flow(q, { solver = "" }))
+  if facts then facts.task = task end
   if not facts then return { solver = fitting[1], reason = problem, others = {} } end -- the run itself will say so
   local list = ranked(facts, fitting)
   local first, others = list[1], {}
@@ -141,12 +142,12 @@ end
 
 -- The arithmetic that a solver takes unless another is named.
 function suggest.arithmetic(solver)
-  return (option.declaration("solver", solver).arithmetics or "interval"):match "%S+"
+  return (option.declaration("solver", solver).arithmetics or core.default.ranges):match "%S+"
 end
 
 -- For a request that named its solver: what would have been chosen without.
 function suggest.advice(q)
-  return suggest.solver(q, suggest.candidates({}, {}, nil, "simulate"))
+  return suggest.solver(q, suggest.candidates({}, {}, nil, "simulate"), "simulate")
 end
 
 return suggest

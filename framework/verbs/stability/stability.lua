@@ -50,7 +50,7 @@ local function enclose(list, leaves, values)
     if x:is_empty() or not x:is_bounded() or x.partial then return nil end
   end
   if #uncertain(list, values) == 0 then return found end
-  local other = core.evaluate { arithmetic = "affine", expressions = list, leaves = leaves, values = values }
+  local other = core.evaluate { arithmetic = core.default.linear, expressions = list, leaves = leaves, values = values }
   for i, x in ipairs(other) do found[i] = found[i]:intersect(x) end
   return found
 end

@@ -38,6 +38,8 @@ static const ambit_solver solver = {
   .open = lohner_open,
   .run = lohner_run,
   .close = lohner_close,
+  .compared = "order=6,10,15,20,30; tolerance=1e-6,1e-10,1e-14",
+  .cheap = "order=8 tolerance=1e-8",
 };
 
 static const void *get(const char *interface_id) { return strcmp(interface_id, AMBIT_SOLVER) == 0 ? &solver : NULL; }

@@ -25,6 +25,8 @@ static const ambit_solver solver = {
   .open = stiff_open,
   .run = stiff_run,
   .close = stiff_close,
+  .compared = "tolerance=1e-8,1e-12,1e-16",
+  .cheap = "nodes=6 tolerance=1e-8",
 };
 
 static const void *get(const char *interface_id) { return strcmp(interface_id, AMBIT_SOLVER) == 0 ? &solver : NULL; }

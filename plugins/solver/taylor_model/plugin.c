@@ -28,10 +28,13 @@ static const ambit_solver solver = {
   .size = sizeof solver,
   .want = AMBIT_WANT_RHS | AMBIT_WANT_SERIES | AMBIT_WANT_INITIAL | AMBIT_WANT_WORKERS,
   .needs_rigorous = 1,
+  .arithmetics = "interval", /* its polynomials are its own */
   .param = param,
   .open = flow_open,
   .run = flow_run,
   .close = flow_close,
+  .compared = "order=4,6,8,12; tolerance=1e-7,1e-9,1e-13",
+  .cheap = "order=2 time_order=8 tolerance=1e-6",
 };
 
 static const void *get(const char *interface_id) { return strcmp(interface_id, AMBIT_SOLVER) == 0 ? &solver : NULL; }

@@ -30,6 +30,8 @@ static const ambit_solver interface = {
   .open = valencia_open,
   .run = valencia_run,
   .close = valencia_close,
+  .compared = "order=6,10,15; tolerance=1e-6,1e-9,1e-14",
+  .cheap = "order=6 tolerance=1e-6",
 };
 
 static const void *get(const char *interface_id) { return strcmp(interface_id, AMBIT_SOLVER) == 0 ? &interface : NULL; }

@@ -6,19 +6,6 @@ local option = require "ambit.option"
 
 local solvers = {}
 
--- What is compared unless the scene says otherwise. Of these, what is installed; what is installed besides runs over
--- what it declares.
-solvers.usual = {
-  { "lohner", order = { 6, 10, 15, 20, 30 } },
-  { "lohner", tolerance = { 1e-6, 1e-10, 1e-14 } },
-  { "taylor_model", order = { 4, 6, 8, 12 } },
-  { "taylor_model", tolerance = { 1e-7, 1e-9, 1e-13 } },
-  { "valencia", order = { 6, 10, 15 } },
-  { "valencia", tolerance = { 1e-6, 1e-9, 1e-14 } },
-  { "stiff", tolerance = { 1e-8, 1e-12, 1e-16 } },
-  { "gsl", method = { "rkf45", "rk8pd", "msbdf" }, relative = { 1e-6, 1e-9, 1e-12 } },
-}
-
 local function default_of(declaration, name)
   for _, param in ipairs(declaration.parameters) do
     local value = param.name == name and tonumber(param.fallback)
@@ -26,8 +13,8 @@ local function default_of(declaration, name)
   end
 end
 
--- A solver that nobody has listed: around the defaults of its `order` and its `tolerance`, or as it is.
-function solvers.declared(name, declaration)
+-- About the defaults of its `order` and its `tolerance`, or as it is.
+local function about_defaults(name, declaration)
   local order, shape = default_of(declaration, "order")
   local tolerance = default_of(declaration, "tolerance")
   local list = {}
@@ -42,21 +29,29 @@ function solvers.declared(name, declaration)
   return #list > 0 and list or { { name } }
 end
 
-local function default_entries()
-  local there, list = {}, {}
-  for _, name in ipairs(grid.installed "solver") do there[name] = true end
-  local listed = {}
-  for _, entry in ipairs(solvers.usual) do
-    if there[entry[1]] then list[#list + 1] = entry end
-    listed[entry[1]] = true
-  end
-  for _, name in ipairs(check.sorted(there)) do
-    if not listed[name] then
-      local good, declaration = pcall(option.declaration, "solver", name)
-      local entries = good and declaration.verb == "simulate" and solvers.declared(name, declaration)
-      if not good then entries = { { name } } end
-      table.move(entries or {}, 1, #(entries or {}), #list + 1, list)
+-- What is compared unless the scene says otherwise: what the solver declares (ambit_solver.compared).
+function solvers.declared(name, declaration)
+  if not declaration.compared then return about_defaults(name, declaration) end
+  local list = {}
+  for part in declaration.compared:gmatch "[^;]+" do
+    local entry = { name }
+    for _, option_values in ipairs(option.declared(part)) do
+      local values = {}
+      for i, text in ipairs(option_values[2]) do values[i] = math.tointeger(tonumber(text)) or tonumber(text) or text end
+      entry[option_values[1]] = values
     end
+    list[#list + 1] = entry
+  end
+  return list
+end
+
+local function default_entries()
+  local list = {}
+  for _, name in ipairs(grid.installed "solver") do
+    local good, declaration = pcall(option.declaration, "solver", name)
+    local entries = good and declaration.verb == "simulate" and solvers.declared(name, declaration) or {}
+    if not good then entries = { { name } } end
+    table.move(entries, 1, #entries, #list + 1, list)
   end
   return list
 end

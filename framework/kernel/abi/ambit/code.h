@@ -47,7 +47,7 @@
   X(UNABLE_INITIAL, "unable.initial", "The initial values are not defined for all their data, or too large.",          \
       "Narrow the ranges of the data in `initial`.")                                                                   \
   X(UNABLE_KINK, "unable.kink", "The set reaches a point where an element's law is not smooth.",                       \
-      "End before it, take a solver for kinks (zonotope, valencia), or put a smooth law in its place.")                \
+      "End before it, leave out `solver` so that one that crosses kinks is taken, or put a smooth law in its place.")  \
   X(UNABLE_VARYING, "unable.varying", "A datum varies in time, and the solver takes data for constants.",              \
       "Leave out `solver`, or name one that takes what varies.")                                                       \
   X(UNABLE_ORIENTATION, "unable.orientation", "An orientation could not be told from its opposite.",                   \

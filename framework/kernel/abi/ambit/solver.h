@@ -141,7 +141,9 @@ struct ambit_sink {
 typedef struct ambit_solver {
   uint32_t size, want;     /* AMBIT_WANT_* */
   uint32_t needs_rigorous; /* 1: refuse an arithmetic that is not; 0: results prove nothing */
-  const char *arithmetics; /* names that fit, blank-separated, the first is the default; NULL: every rigorous one */
+  /* names of those that it computes in, blank-separated, the first is the default: any other would have no effect, and
+  ** is refused; NULL: every rigorous one */
+  const char *arithmetics;
   const ambit_param *param;
   /* [ctx] allocates everything here; `option` in declaration order, shapes flattened */
   ambit_status (*open)(const ambit_host *h, const ambit_problem *p, const double *option, void **self);
@@ -151,5 +153,10 @@ typedef struct ambit_solver {
   void (*close)(void *self);
   uint32_t (*want_for)(const double *option); /* NULL: `want`; else what these options need */
   uint32_t solves;                            /* AMBIT_SOLVES_* */
+  /* Which options `ambit compare` tries: lists, separated by ';', of options, separated by blanks, with their values,
+  ** separated by commas: "order=6,10,15; tolerance=1e-6,1e-10". NULL: about the defaults of `order` and `tolerance`. */
+  const char *compared;
+  const char
+      *cheap; /* options with which a proof costs little and need not be tight: "order=8 tolerance=1e-8", or NULL */
 } ambit_solver;
 #endif

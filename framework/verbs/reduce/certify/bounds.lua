@@ -151,7 +151,7 @@ end
 function bounds.prove(detailed, reduced, s, settings)
   local start = core.cpu()
   local total = { status = "proved", reason = "", t_reached = s.times[#s.times], bound = {}, when = {}, steps = 0,
-    exceeded = false, solver = settings.solver or "lohner", arithmetic = settings.arithmetic }
+    exceeded = false, solver = settings.solver, arithmetic = settings.arithmetic }
   local instants = instants_of(s, settings)
   local a, failed = remembered(detailed, s, settings, instants, total)
   local which = "the detailed model"

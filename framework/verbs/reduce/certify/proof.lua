@@ -6,6 +6,7 @@ local code = require "ambit.code"
 local core = require "ambit.core"
 local couple = require "ambit.reduce.certify.couple"
 local curve = require "ambit.reduce.certify.curve"
+local option = require "ambit.option"
 local run = require "ambit.reduce.certify.run"
 
 local proof = {}
@@ -14,16 +15,11 @@ local ZERO = core.expression(0)
 
 -- -- cheaper, for rankings
 
-local cheap = {
-  lohner = { order = "8", tolerance = "1e-8" },
-  taylor_model = { order = "2", time_order = "8", tolerance = "1e-6" },
-  stiff = { nodes = "6", tolerance = "1e-8" },
-  valencia = { order = "6", tolerance = "1e-6" },
-}
-
--- The settings with the solver's order and tolerance lowered.
+-- The settings with the options that the solver declares for proofs that need not be tight.
 local function lowered(settings)
-  local options, lower = {}, cheap[settings.solver or "lohner"] or {}
+  local options, lower = {}, {}
+  local declared = option.declared(option.declaration("solver", settings.solver).cheap or "")
+  for _, entry in ipairs(declared) do lower[entry[1]] = entry[2][1] end
   for i = 1, #(settings.options or {}), 2 do
     local name = settings.options[i]
     if not lower[name] then options[#options + 1], options[#options + 2] = name, settings.options[i + 1] end
@@ -53,7 +49,7 @@ end
 
 local function exact(q, settings)
   local result = { status = "proved", reason = "", t_reached = q.times[#q.times], bound = {}, when = {}, steps = 0,
-    cpu_seconds = 0, exceeded = false, solver = settings.solver or "lohner", arithmetic = settings.arithmetic }
+    cpu_seconds = 0, exceeded = false, solver = settings.solver, arithmetic = settings.arithmetic }
   for k in ipairs(q.outputs) do result.bound[k], result.when[k] = 0, q.times[1] end
   return result
 end

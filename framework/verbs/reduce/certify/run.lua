@@ -211,7 +211,7 @@ function run.bounds(q, how, goals, gives_up)
   local start, refines = core.cpu(), (how.refine or 0) > 0
   local job = { q = q, how = how, limits = gives_up and goals }
   job.result = { status = "proved", reason = "", t_reached = q.times[#q.times], bound = {}, when = {}, steps = 0,
-    exceeded = false, solver = how.solver or "lohner", arithmetic = how.arithmetic }
+    exceeded = false, solver = how.solver, arithmetic = how.arithmetic }
   local boxes
   job.unknowns, boxes = run.boxes(q)
   job.boxes = #boxes

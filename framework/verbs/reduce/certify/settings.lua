@@ -39,13 +39,9 @@ function settings.read(t, own, what, positional)
   return how
 end
 
--- Lohner's method keeps errors small that depend on the data (nearly) linearly; systems that are stiff for it, or that
--- cross kinks, have their own solvers.
 local function suggested(detailed, s)
   local q = couple.alone(detailed, s)
-  local candidates = suggest.candidates({}, {}, nil, "certify")
-  local name = suggest.solver(q, candidates).solver
-  return (name == "stiff" or name == "valencia") and name or "lohner"
+  return suggest.proving(suggest.solver(q, suggest.candidates({}, {}, nil, "certify"), "certify")).solver
 end
 
 local function check_options(t, how)

@@ -1,0 +1,16 @@
+# solver/dropped: the sources of lohner under another name, with a rule that says that it suits everything.
+file(GLOB dropped_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/plugins/solver/lohner/*.c)
+list(FILTER dropped_sources EXCLUDE REGEX "/plugin\\.c$")
+file(READ ${PROJECT_SOURCE_DIR}/plugins/solver/lohner/plugin.c text)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/plugins/solver/lohner/plugin.c)
+string(REPLACE "\"solver.lohner\"" "\"solver.dropped\"" text "${text}")
+set(dropped ${PROJECT_BINARY_DIR}/tests/dropped)
+file(CONFIGURE OUTPUT ${dropped}/plugin.c CONTENT "${text}" @ONLY)
+file(WRITE ${dropped}/solver/dropped.lua "return function() return 1, \"it was dropped in\" end\n")
+add_library(solver_dropped MODULE ${dropped_sources} ${dropped}/plugin.c)
+target_include_directories(solver_dropped PRIVATE ${PROJECT_SOURCE_DIR}/plugins/solver/lohner ${PROJECT_SOURCE_DIR}/plugins)
+target_link_libraries(solver_dropped PRIVATE ambit_flags m)
+set_target_properties(solver_dropped PROPERTIES PREFIX "" OUTPUT_NAME dropped LIBRARY_OUTPUT_DIRECTORY ${dropped}/solver)
+add_test(NAME lua.dropped_in COMMAND ambit run --quiet ${CMAKE_CURRENT_LIST_DIR}/dropped_in.lua)
+set_tests_properties(lua.dropped_in PROPERTIES TIMEOUT 300 ENVIRONMENT "AMBIT_PATH=${dropped}:${PROJECT_BINARY_DIR}/plugins"
+  PASS_REGULAR_EXPRESSION "dropped in, and treated as shipped")
