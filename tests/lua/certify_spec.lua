@@ -471,8 +471,8 @@ describe("certify", function()
     local t = { t = { 0, 2 }, initial = { x = ambit.between(1, 2) } }
     local a, b = model.of(full, { "x" }, "test"), model.of(less, { "x" }, "test")
     local list = scenario.list(t, a, "test")
-    local normal = proof.prove(a, b, list, {})
-    local lowered = proof.prove(a, b, list, { lowered = true })
+    local normal = proof.prove(a, b, list, { solver = "lohner" })
+    local lowered = proof.prove(a, b, list, { solver = "lohner", lowered = true })
     assert.equal("proved", lowered.status)
     local truth = 0
     for _, x0 in ipairs { 1, 1.5, 2 } do
@@ -481,11 +481,12 @@ describe("certify", function()
     end
     assert_bound(normal.error.x, truth, 1.2)
     assert_bound(lowered.error.x, truth, 1.3)
-    local given_up = proof.prove(a, b, list, { stop_above = { x = truth / 4 } })
+    local given_up = proof.prove(a, b, list, { solver = "lohner", stop_above = { x = truth / 4 } })
     assert.equal("unable", given_up.status)
     assert.is_true(given_up.exceeded)
     assert.is_nil(given_up.error.x)
-    assert.equal("proved", proof.prove(a, b, list, { stop_above = { x = 1.2 * truth } }).status)
+    local in_bounds = proof.prove(a, b, list, { solver = "lohner", stop_above = { x = 1.2 * truth } })
+    assert.equal("proved", in_bounds.status)
   end)
 
   it("says first that the detailed model cannot be proved, and that a reduced one could not", function()

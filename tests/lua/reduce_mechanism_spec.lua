@@ -300,7 +300,8 @@ local function prove(m, elements, names, outputs, t, initial)
   local cut = {}
   for i, name in ipairs(names) do cut[i] = assert(number[name], name) end
   local scenarios = scenario.list({ t = t, initial = initial }, detailed, "reduce")
-  local result = proof.prove(detailed, assert(r:without(cut)), scenarios, { criterion = "difference" })
+  local how = { solver = "lohner", criterion = "difference" }
+  local result = proof.prove(detailed, assert(r:without(cut)), scenarios, how)
   session.worst = "ok"
   assert.equal("proved", result.status, result.reason)
   return result.error
