@@ -149,5 +149,6 @@ int luaopen_ambit_core(lua_State *L) {
   ambit_lua_open_profile(L, core);
   ambit_lua_open_text(L, core);
   ambit_lua_open_foreign(L, core);
+  ambit_lua_open_sandbox(L, core);
   return 1;
 }

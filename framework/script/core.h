@@ -147,6 +147,7 @@ void ambit_lua_open_child(lua_State *L, ambit_lua *core);      /* child.c: funct
 void ambit_lua_open_profile(lua_State *L, ambit_lua *core);    /* profile.c: where the time goes, counted work */
 void ambit_lua_open_text(lua_State *L, ambit_lua *core);       /* text.c: arithmetic on texts */
 void ambit_lua_open_foreign(lua_State *L, ambit_lua *core);    /* foreign.c: plugin exports by libffi */
+void ambit_lua_open_sandbox(lua_State *L, ambit_lua *core);    /* sandbox.c: shuts the process in */
 
 /* A metatable for the named type with the given functions, all with the state as upvalue; left on the stack. */
 void ambit_lua_new_type(lua_State *L, ambit_lua *core, const char *type, const luaL_Reg *functions);

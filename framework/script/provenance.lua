@@ -25,11 +25,12 @@ function provenance.read(name)
   return text
 end
 
--- The function of a scene's file, as loadfile makes it; nil and a message.
-function provenance.load(name)
+-- The function of a scene's file, as loadfile makes it; nil and a message. env: of a scene in a sandbox, its globals.
+function provenance.load(name, env)
   local text, problem = provenance.read(name)
   if not text then return nil, problem end
   text = text:gsub("^\xEF\xBB\xBF", ""):gsub("^#[^\n]*", "")
+  if env then return load(text, "@" .. name, "t", env) end
   return load(text, "@" .. name)
 end
 

@@ -1,13 +1,14 @@
 -- compare.lua -- `ambit compare`: runs a scene once, then everything that it evaluates again in each arithmetic and
 -- everything that it simulates again by each solver.
 local asked = require "ambit.command.compare.asked"
+local limits = require "ambit.command.limits"
+local sandbox = require "ambit.command.sandbox"
 local code = require "ambit.code"
 local compare = require "ambit.compare"
 local compare_engine = require "ambit.compare.engine"
 local compare_files = require "ambit.command.compare.files"
 local compare_table = require "ambit.compare.table"
 local core = require "ambit.core"
-local limits = require "ambit.command.limits"
 local progress = require "ambit.compare.progress"
 local scene = require "ambit.command.scene"
 local session = require "ambit.session"
@@ -28,7 +29,7 @@ ambit.compare { solvers = { "lohner", { "taylor_model", order = { 8, 12 } } }, a
   --limit SECONDS  of CPU time for each combination (default 4); after one that takes longer, higher orders of the same
                    method are skipped
   --quick          the same as --repeat 1 --limit 1
-]] .. limits.usage .. [[
+]] .. sandbox.usage .. "\n" .. limits.usage .. [[
 
 Words behind `--` are the scene's, even if they look like options. Ctrl-C ends the comparison; tables and files hold
 what was done until then.
@@ -114,10 +115,11 @@ local function results(file, options, requests, failed)
 end
 
 function command.run(list)
-  local options, file, words = scene.arguments(list, limits.with { csv = true, svg = true, html = true, json = true,
+  local options, file, words = scene.arguments(list, sandbox.with { csv = true, svg = true, html = true, json = true,
     ["repeat"] = true, limit = true, quick = false }, true)
   if not options then return 2, file end
-  local wrong = scene.prepare(options)
+  local wrong = scene.prepare(options, { scene = file, children = true,
+    outputs = { csv = options.csv, svg = options.svg, html = options.html, json = options.json } })
   if wrong then return 2, wrong end
   local problem = compare_files.problem(options)
   if problem then return complain(problem) or 1 end

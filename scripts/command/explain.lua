@@ -1,7 +1,8 @@
 -- explain.lua -- `ambit explain`: what a scene loads, builds and leaves out, in numbers.
 local core = require "ambit.core"
-local explain_facts = require "ambit.explain.facts"
 local limits = require "ambit.command.limits"
+local sandbox = require "ambit.command.sandbox"
+local explain_facts = require "ambit.explain.facts"
 local outputs = require "ambit.command.outputs"
 local scene = require "ambit.command.scene"
 
@@ -17,12 +18,12 @@ reduction; memory and CPU time; and for every simulation the best-suited solver 
   --dot FILE   also a graph of the scene in the language of Graphviz; what is left out is grey and dashed. `-` is
                standard output (and nothing else is printed)
   --svg FILE   the same as a picture with numbers in tool tips; needs the program `dot` (Debian: graphviz)
-]] .. limits.usage .. [[
+]] .. sandbox.usage .. "\n" .. limits.usage .. [[
 
 exit: 0 done, 1 error in the scene (what was built until then is still explained), 5 a limit was reached, 130
       interrupted]]
 
-local known = limits.with { json = false, dot = true, svg = true }
+local known = sandbox.with { json = false, dot = true, svg = true }
 
 local function complain(message)
   io.stderr:write("ambit: ", message, "\n")
@@ -52,7 +53,10 @@ end
 function command.run(list)
   local options, file, words = scene.arguments(list, known)
   if not options then return 2, file end
-  local wrong = scene.prepare(options)
+  if options.sandbox and options.svg then
+    return 2, "option `--svg` starts Graphviz, which a sandbox does not let it: take --dot"
+  end
+  local wrong = scene.prepare(options, { scene = file, outputs = { options.dot } })
   if wrong then return 2, wrong end
   local unwritable = check_outputs(options)
   if unwritable then return complain(unwritable) end

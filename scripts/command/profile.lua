@@ -1,7 +1,8 @@
 -- profile.lua -- `ambit profile`: where the time of a scene goes.
 local core = require "ambit.core"
-local json = require "ambit.report.json"
 local limits = require "ambit.command.limits"
+local sandbox = require "ambit.command.sandbox"
+local json = require "ambit.report.json"
 local outputs = require "ambit.command.outputs"
 local provenance = require "ambit.provenance"
 local scene = require "ambit.command.scene"
@@ -19,11 +20,11 @@ are measured while the scene runs; what measuring costs is measured too, told, a
 each has the instructions that it alone reaches, and its part of those that it shares.
   --json FILE    also write all of it as JSON; `-` is standard output, instead of the text
   --folded FILE  also write folded stacks (own time in microseconds), which flame graph programs read
-]] .. limits.usage .. [[
+]] .. sandbox.usage .. "\n" .. limits.usage .. [[
 
 exit: 0 the scene ran, 1 it failed: then the profile is of what it did until there, 5 a limit was reached]]
 
-local known = limits.with { json = true, folded = true }
+local known = sandbox.with { json = true, folded = true }
 
 local function complain(message) io.stderr:write("ambit: ", tostring(message), "\n") end
 
@@ -60,7 +61,7 @@ end
 function command.run(list)
   local options, file, words = scene.arguments(list, known)
   if not options then return 2, file end
-  local wrong = scene.prepare(options)
+  local wrong = scene.prepare(options, { scene = file, outputs = { folded = options.folded, json = options.json } })
   if wrong then return 2, wrong end
   scene.note_strays(words, known)
   local refusal = outputs.problem(options, { "json", "folded" }, { json = true, folded = true })

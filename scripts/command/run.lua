@@ -1,7 +1,8 @@
 -- run.lua -- `ambit run`.
 local code = require "ambit.code"
-local core = require "ambit.core"
 local limits = require "ambit.command.limits"
+local sandbox = require "ambit.command.sandbox"
+local core = require "ambit.core"
 local provenance = require "ambit.provenance"
 local scene = require "ambit.command.scene"
 local session = require "ambit.session"
@@ -13,7 +14,7 @@ usage: ambit run [--json FILE|-] [--quiet] [LIMITS] SCENE.lua [ARG ...]
   --json FILE  also write every record as a line of JSON, first whence they come (version, plugins, SHA-256); `-` is
                standard output (what the scene prints then goes to standard error)
   --quiet      no progress bar and no notes
-]] .. limits.usage .. [[
+]] .. sandbox.usage .. "\n" .. limits.usage .. [[
 
 The words behind the scene are in its table `arg`. Ctrl-C ends a simulation with status "stopped" and keeps what was
 recorded.
@@ -61,12 +62,12 @@ local function finish(problem, wish)
   return exit
 end
 
-local known = limits.with { json = true, quiet = false }
+local known = sandbox.with { json = true, quiet = false }
 
 function command.run(list)
   local options, file, words = scene.arguments(list, known)
   if not options then return 2, file end
-  local wrong = scene.prepare(options)
+  local wrong = scene.prepare(options, { scene = file })
   if wrong then return 2, wrong end
   core.progress(not options.quiet)
   core.notes(not options.quiet)

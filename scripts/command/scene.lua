@@ -2,8 +2,8 @@
 -- lines.
 local code = require "ambit.code"
 local core = require "ambit.core"
-local limits = require "ambit.command.limits"
 local provenance = require "ambit.provenance"
+local sandbox = require "ambit.command.sandbox"
 local session = require "ambit.session"
 
 local scene = {
@@ -39,7 +39,9 @@ end
 -- Loads and runs file with the given words; false and the message with traceback if that fails.
 function scene.run(file, words)
   _G.arg = table.move(words, 1, #words, 1, { [0] = file })
-  local chunk, problem = provenance.load(file)
+  local wall = sandbox.enter()
+  if wall then return false, wall end
+  local chunk, problem = provenance.load(file, sandbox.environment())
   if not chunk then return false, problem end
   local good
   good, problem = xpcall(chunk, explain, table.unpack(words))
@@ -80,8 +82,8 @@ function scene.print_to_stderr()
   end
 end
 
--- What every command does before it runs a scene: nil, or what is wrong with the options.
-function scene.prepare(options) return limits.begin(options) end
+-- What every command does before it runs a scene: nil, or what is wrong with the options. about: as sandbox.begin.
+function scene.prepare(options, about) return sandbox.begin(options, about) end
 
 -- For a scene that is only looked at: what it prints goes nowhere, and os.exit ends the scene, not the command, with
 -- the error scene.leave. Returns a function that gives the command its output back.
@@ -105,7 +107,7 @@ local function unknown_option(word, name, known)
 end
 
 -- Reads the option at list[i]: its name, its value (true if it takes none), the next i; or nil and a message. `known`
--- says which options take a value.
+-- says which options take a value; "list": each time they are given.
 local function read_option(list, i, known)
   local name, value = list[i]:match "^%-%-([%w-]+)=?(.*)$"
   if known[name] == nil then return nil, unknown_option(list[i], name, known) end
@@ -127,6 +129,9 @@ function scene.arguments(list, known, anywhere, optional)
       else
         local name, value, after = read_option(list, i, known)
         if not name then return nil, value end
+        if known[name] == "list" then
+          value = table.move({ value }, 1, 1, #(options[name] or {}) + 1, options[name] or {})
+        end
         options[name], i = value, after
       end
     else

@@ -1,6 +1,7 @@
 -- test.lua -- `ambit test`: busted as a library, inside this command.
 local core = require "ambit.core"
 local limits = require "ambit.command.limits"
+local sandbox = require "ambit.command.sandbox"
 local scene = require "ambit.command.scene"
 
 local command = { scene = true }
@@ -9,7 +10,7 @@ command.usage = [[
 usage: ambit test [LIMITS] [PATH ...] [-- BUSTED-OPTION ...]
 Runs the *_spec.lua files in the given files and directories (default: tests) with busted; `require "ambit"` is this
 command's own.
-]] .. limits.usage .. [[
+]] .. sandbox.usage .. "\n" .. limits.usage .. [[
 
 exit: 0 all passed, 1 some failed or there was none, 5 a limit was reached]]
 
@@ -52,12 +53,15 @@ local function arguments(words)
       own[#own + 1] = word
     end
   end
-  local options, first, others = scene.arguments(own, limits.with {}, true, true)
+  local options, first, others = scene.arguments(own, sandbox.with {}, true, true)
   if not options then return nil, first end
-  local wrong = scene.prepare(options)
-  if wrong then return nil, wrong end
   list[1] = first or "tests"
   table.move(others, 1, #others, 2, list)
+  if options.sandbox then
+    options["allow-read"] = table.move(list, 1, #list, #(options["allow-read"] or {}) + 1, options["allow-read"] or {})
+  end
+  local wrong = scene.prepare(options, { is_open = true })
+  if wrong then return nil, wrong end
   return table.move(rest or {}, 1, #(rest or {}), #list + 1, list), listing
 end
 
@@ -77,6 +81,8 @@ function command.run(words)
   _G.arg = list
   _G.os.exit = refuse_exit
   local counted = count_tests(foreign)
+  local wall = sandbox.enter()
+  if wall then return 2, wall end
   runner { standalone = false } -- leaves by the function above if anything failed
   if counted.tests > 0 or listing then return 0 end
   io.stderr:write "ambit: no test ran: there is none in the files given, or an option of busted left all out\n"

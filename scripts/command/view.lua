@@ -1,9 +1,10 @@
 -- view.lua -- `ambit view`: runs a scene and writes a page that shows its mechanisms.
 local check = require "ambit.check"
+local limits = require "ambit.command.limits"
+local sandbox = require "ambit.command.sandbox"
 local code = require "ambit.code"
 local core = require "ambit.core"
 local data = require "ambit.view.data"
-local limits = require "ambit.command.limits"
 local page = require "ambit.view.page"
 local scene = require "ambit.command.scene"
 local session = require "ambit.session"
@@ -19,7 +20,7 @@ that are guaranteed to contain chosen points at each instant and all the way to 
 Otherwise it is every mechanism, with the last simulation of it, and the frames that nothing else is fixed to.
   -o, --page FILE  the page (default: the name of the scene, .html, in the working directory); `-` is standard output
   --quiet          no progress bar and no notes
-]] .. limits.usage .. [[
+]] .. sandbox.usage .. "\n" .. limits.usage .. [[
 
 Words behind `--` are the scene's, even if they look like options.
 exit: 0 written, 1 error in the scene, its input or the file, 3 written, but of a simulation that could not be proved,
@@ -102,9 +103,9 @@ local function show(file, words, output, quiet)
 end
 
 function command.run(list)
-  local options, file, words = scene.arguments(long_options(list), limits.with { page = true, quiet = false }, true)
+  local options, file, words = scene.arguments(long_options(list), sandbox.with { page = true, quiet = false }, true)
   if not options then return 2, file end
-  local wrong = scene.prepare(options)
+  local wrong = scene.prepare(options, { scene = file, outputs = { options.page } })
   if wrong then return 2, wrong end
   core.progress(not options.quiet)
   core.notes(not options.quiet)

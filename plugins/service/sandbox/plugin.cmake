@@ -1,0 +1,7 @@
+pkg_check_modules(SECCOMP IMPORTED_TARGET libseccomp)
+if(SECCOMP_FOUND)
+  set(AMBIT_PLUGIN_LIBRARIES PkgConfig::SECCOMP)
+else()
+  message(STATUS "without libseccomp: --sandbox is refused")
+endif()
+target_compile_definitions(service_sandbox PRIVATE HAS_SECCOMP=$<BOOL:${SECCOMP_FOUND}>)
