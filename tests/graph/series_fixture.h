@@ -169,6 +169,8 @@ static inline uint32_t fixture_function(fixture_tape *x, uint32_t op, uint32_t a
   if (partner[op]) {
     x->aux[i] = fixture_op(x, partner[op], a, a);
     x->aux[i + 1] = y;
+  } else if (op == AMBIT_OP_TANH) {
+    x->aux[i] = fixture_op(x, AMBIT_OP_SUB, one, fixture_op(x, AMBIT_OP_SQR, y, y));
   } else if (op == AMBIT_OP_ATAN) {
     x->aux[i] = fixture_op(x, AMBIT_OP_ADD, one, fixture_op(x, AMBIT_OP_SQR, a, a));
   } else if (op == AMBIT_OP_ATAN2) {
@@ -269,6 +271,9 @@ static inline judge_series judge_op(uint32_t op, judge_series a, judge_series b,
   case AMBIT_OP_MUL: return judge_product(a, b, order);
   case AMBIT_OP_SQR: return judge_product(a, a, order);
   case AMBIT_OP_DIV: return judge_product(a, judge_function(op, b, zero, false, order), order);
+  case AMBIT_OP_TANH:
+    y = judge_function(AMBIT_OP_COSH, a, zero, false, order);
+    return judge_op(AMBIT_OP_DIV, judge_function(AMBIT_OP_SINH, a, zero, false, order), y, order);
   case AMBIT_OP_ATAN: return judge_function(AMBIT_OP_LOG, one, a, true, order);
   case AMBIT_OP_ATAN2: return judge_function(AMBIT_OP_LOG, b, a, true, order);
   case AMBIT_OP_ABS: return a.c[0] < 0 ? judge_op(AMBIT_OP_NEG, a, a, order) : a;
@@ -295,6 +300,7 @@ static inline real judge_value(uint32_t op, real a, real b) {
   case AMBIT_OP_ATAN2: return atan2l(a, b);
   case AMBIT_OP_SINH: return sinhl(a);
   case AMBIT_OP_COSH: return coshl(a);
+  case AMBIT_OP_TANH: return tanhl(a);
   case AMBIT_OP_ABS: return fabsl(a);
   case AMBIT_OP_MIN: return a < b ? a : b;
   default: return a > b ? a : b;

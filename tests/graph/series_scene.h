@@ -19,7 +19,7 @@ typedef struct scene {
 
 static const uint32_t series_op[] = { AMBIT_OP_ADD, AMBIT_OP_SUB, AMBIT_OP_NEG, AMBIT_OP_MUL, AMBIT_OP_SQR,
   AMBIT_OP_DIV, AMBIT_OP_SQRT, AMBIT_OP_EXP, AMBIT_OP_LOG, AMBIT_OP_SIN, AMBIT_OP_COS, AMBIT_OP_ATAN, AMBIT_OP_ATAN2,
-  AMBIT_OP_SINH, AMBIT_OP_COSH, AMBIT_OP_ABS, AMBIT_OP_MIN, AMBIT_OP_MAX };
+  AMBIT_OP_SINH, AMBIT_OP_COSH, AMBIT_OP_TANH, AMBIT_OP_ABS, AMBIT_OP_MIN, AMBIT_OP_MAX };
 #define SERIES_OPS (sizeof series_op / sizeof *series_op)
 
 /* Inputs u, v (functions of time), p (a parameter); operation op of u and v, of u and p, of p and u, and so on. */
@@ -39,7 +39,7 @@ static inline fixture_tape *scene_single(fixture_host *host, uint32_t op) {
 /* A random program over u, v, p that is defined everywhere: sqrt, log and divisors get 1 plus a square. */
 static inline fixture_tape *scene_random(fixture_host *host, uint64_t *state, uint32_t length) {
   static const uint32_t op[] = { AMBIT_OP_ADD, AMBIT_OP_SUB, AMBIT_OP_NEG, AMBIT_OP_MUL, AMBIT_OP_SQR, AMBIT_OP_DIV,
-    AMBIT_OP_SQRT, AMBIT_OP_LOG, AMBIT_OP_SIN, AMBIT_OP_COS, AMBIT_OP_ATAN, AMBIT_OP_SINH, AMBIT_OP_COSH,
+    AMBIT_OP_SQRT, AMBIT_OP_LOG, AMBIT_OP_SIN, AMBIT_OP_COS, AMBIT_OP_ATAN, AMBIT_OP_SINH, AMBIT_OP_COSH, AMBIT_OP_TANH,
     AMBIT_OP_EXP };
   fixture_tape *x = fixture_tape_open(host);
   uint32_t one = fixture_constant(x, 1, 1), tenth = fixture_constant(x, 0.125, 0.125);

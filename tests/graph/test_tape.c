@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 static bool in_series(uint32_t op) {
-  return op != AMBIT_OP_TAN && op != AMBIT_OP_TANH && op != AMBIT_OP_ASIN && op != AMBIT_OP_ACOS && op != AMBIT_OP_POWN;
+  return op != AMBIT_OP_TAN && op != AMBIT_OP_ASIN && op != AMBIT_OP_ACOS && op != AMBIT_OP_POWN;
 }
 
 static uint32_t find(const ambit_tape *t, uint32_t op, uint32_t a) {
@@ -18,7 +18,8 @@ static uint32_t find(const ambit_tape *t, uint32_t op, uint32_t a) {
   return AMBIT_NO_SLOT;
 }
 
-/* What aux has to be, found by opcode and operand; those of ATAN and ATAN2 are told by their values (check_helpers). */
+/* What aux has to be, found by opcode and operand; those of TANH, ATAN and ATAN2 are told by their values
+** (check_helpers). */
 static uint32_t expected_aux(const ambit_tape *t, uint32_t i) {
   uint32_t a = t->a[i];
   switch (t->op[i]) {
@@ -26,6 +27,7 @@ static uint32_t expected_aux(const ambit_tape *t, uint32_t i) {
   case AMBIT_OP_COS: return find(t, AMBIT_OP_SIN, a);
   case AMBIT_OP_SINH: return find(t, AMBIT_OP_COSH, a);
   case AMBIT_OP_COSH: return find(t, AMBIT_OP_SINH, a);
+  case AMBIT_OP_TANH:
   case AMBIT_OP_ATAN:
   case AMBIT_OP_ATAN2: return t->aux[i];
   default: return AMBIT_NO_SLOT;
@@ -34,7 +36,7 @@ static uint32_t expected_aux(const ambit_tape *t, uint32_t i) {
 
 static bool has_helper(uint32_t op) {
   return op == AMBIT_OP_SIN || op == AMBIT_OP_COS || op == AMBIT_OP_SINH || op == AMBIT_OP_COSH ||
-         op == AMBIT_OP_ATAN || op == AMBIT_OP_ATAN2;
+         op == AMBIT_OP_TANH || op == AMBIT_OP_ATAN || op == AMBIT_OP_ATAN2;
 }
 
 static void check_shape(const ambit_tape *t) {
@@ -82,12 +84,12 @@ static uint32_t evaluate(const ambit_tape *t, const ambit_interval *in, ambit_in
 
 static void check_helpers(const ambit_tape *t, const ambit_interval *slot) {
   for (uint32_t i = 0; i < t->ninstr; i++) {
-    bool atan2 = t->op[i] == AMBIT_OP_ATAN2;
-    if (!(t->flags & AMBIT_TAPE_SERIES) || !(atan2 || t->op[i] == AMBIT_OP_ATAN)) continue;
+    bool atan2 = t->op[i] == AMBIT_OP_ATAN2, tanh = t->op[i] == AMBIT_OP_TANH;
+    if (!(t->flags & AMBIT_TAPE_SERIES) || !(atan2 || tanh || t->op[i] == AMBIT_OP_ATAN)) continue;
     ambit_interval one = { 1, 1 }, a, b, want, have = slot[t->aux[i]];
-    ambit_interval_op(AMBIT_OP_SQR, &a, slot[t->a[i]], one);
+    ambit_interval_op(AMBIT_OP_SQR, &a, slot[tanh ? t->dst[i] : t->a[i]], one);
     ambit_interval_op(AMBIT_OP_SQR, &b, atan2 ? slot[t->b[i]] : one, one);
-    ambit_interval_op(AMBIT_OP_ADD, &want, a, b);
+    ambit_interval_op(tanh ? AMBIT_OP_SUB : AMBIT_OP_ADD, &want, tanh ? b : a, tanh ? a : b);
     if (ambit_interval_is_empty(want) || !ambit_interval_is_bounded(want)) continue;
     double slack = 1e-15 * want.hi; /* a constant is squared before or after it is folded */
     assert_true(fabs(have.lo - want.lo) <= slack && fabs(have.hi - want.hi) <= slack);

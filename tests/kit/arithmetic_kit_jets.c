@@ -26,6 +26,7 @@ static const ambit_tape *every_rule(tape_builder *t) {
   tape_unary(t, AMBIT_OP_SINH, scaled), tape_unary(t, AMBIT_OP_COSH, y), tape_unary(t, AMBIT_OP_ABS, low);
   tape_unary(t, AMBIT_OP_ABS, sum), tape_op(t, AMBIT_OP_MIN, sum, low), tape_op(t, AMBIT_OP_MAX, sum, low);
   tape_unary(t, AMBIT_OP_EXP, parameter), tape_unary(t, AMBIT_OP_SQRT, shifted);
+  tape_unary(t, AMBIT_OP_TANH, low), tape_unary(t, AMBIT_OP_TANH, x), tape_unary(t, AMBIT_OP_TANH, parameter);
   return tape_seal(t, one);
 }
 

@@ -126,6 +126,18 @@ static inline void series_exp(series_oracle *s, mpfr_t *r, mpfr_t *a, uint32_t k
   mpfr_div_ui(r[k], s->sum, k, MPFR_RNDN);
 }
 
+/* r' = w a', w = 1 - r^2 */
+static inline void series_tanh(series_oracle *s, mpfr_t *r, mpfr_t *w, mpfr_t *a, uint32_t k) {
+  if (k == 0) {
+    mpfr_tanh(r[0], a[0], MPFR_RNDN);
+  } else {
+    mpfr_set_zero(s->sum, 1), series_add(s, a, w, k, 1, k, 1, 1);
+    mpfr_div_ui(r[k], s->sum, k, MPFR_RNDN);
+  }
+  mpfr_set_ui(s->sum, k == 0, MPFR_RNDN), series_add(s, r, r, k, 0, k, 0, -1);
+  mpfr_set(w[k], s->sum, MPFR_RNDN);
+}
+
 static inline void series_sqrt(series_oracle *s, mpfr_t *r, mpfr_t *a, uint32_t k) {
   if (k == 0) {
     mpfr_sqrt(r[0], a[0], MPFR_RNDN);
@@ -173,6 +185,7 @@ static inline void series_instruction(series_oracle *s, uint32_t i, uint32_t k) 
   case AMBIT_OP_COS: series_circular(s, p, r, a, k, 0); break;
   case AMBIT_OP_SINH: series_circular(s, r, p, a, k, 1); break;
   case AMBIT_OP_COSH: series_circular(s, p, r, a, k, 1); break;
+  case AMBIT_OP_TANH: series_tanh(s, r, p, a, k); break;
   case AMBIT_OP_ATAN: series_atan(s, r, p, a, k); break;
   case AMBIT_OP_ATAN2: series_atan2(s, r, p, a, b, k); break;
   default: series_choice(t->op[i], r, a, b, k); break;

@@ -75,6 +75,7 @@ static inline uint32_t tape_helper(tape_builder *t, uint32_t i, uint32_t one) {
   case AMBIT_OP_COS: return tape_find(t, AMBIT_OP_SIN, a, a);
   case AMBIT_OP_SINH: return tape_find(t, AMBIT_OP_COSH, a, a);
   case AMBIT_OP_COSH: return tape_find(t, AMBIT_OP_SINH, a, a);
+  case AMBIT_OP_TANH: return tape_find(t, AMBIT_OP_SUB, one, tape_find(t, AMBIT_OP_SQR, t->dst[i], t->dst[i]));
   case AMBIT_OP_ATAN: return tape_find(t, AMBIT_OP_ADD, one, tape_find(t, AMBIT_OP_SQR, a, a));
   case AMBIT_OP_ATAN2: {
     uint32_t y = tape_find(t, AMBIT_OP_SQR, a, a), x = tape_find(t, AMBIT_OP_SQR, b, b);
@@ -98,7 +99,7 @@ static inline uint32_t tape_group(tape_builder *t) {
   return n;
 }
 
-/* one: the slot of the constant 1, for ATAN; AMBIT_NO_SLOT: not a SERIES tape */
+/* one: the slot of the constant 1, for TANH and ATAN; AMBIT_NO_SLOT: not a SERIES tape */
 static inline const ambit_tape *tape_seal(tape_builder *t, uint32_t one) {
   if (one != AMBIT_NO_SLOT)
     for (uint32_t i = 0; i < t->tape.ninstr; i++) t->aux[i] = tape_helper(t, i, one);

@@ -35,7 +35,7 @@ static int unload(void **state) {
 /* A random tape over three states, time and a parameter whose values stay where all functions are defined. */
 static const ambit_tape *random_tape(tape_builder *t, uint64_t *state) {
   static const uint32_t any[] = { AMBIT_OP_ADD, AMBIT_OP_SUB, AMBIT_OP_NEG, AMBIT_OP_MUL, AMBIT_OP_MUL, AMBIT_OP_SQR,
-    AMBIT_OP_SIN, AMBIT_OP_COS, AMBIT_OP_ATAN };
+    AMBIT_OP_SIN, AMBIT_OP_COS, AMBIT_OP_ATAN, AMBIT_OP_TANH };
   tape_begin(t);
   uint32_t one = tape_constant(t, 1, 1), four = tape_constant(t, 4, 4),
            third = tape_constant(t, 1.0 / 3, nextafter(1.0 / 3, 1));
@@ -510,7 +510,7 @@ static void copies_are_rounded_outward(void **state) {
 static void points_stay_thin(void **state) {
   (void)state;
   static const uint32_t op[] = { AMBIT_OP_MUL, AMBIT_OP_SQR, AMBIT_OP_DIV, AMBIT_OP_SQRT, AMBIT_OP_EXP, AMBIT_OP_LOG,
-    AMBIT_OP_SIN, AMBIT_OP_COS, AMBIT_OP_ATAN, AMBIT_OP_ATAN2, AMBIT_OP_SINH, AMBIT_OP_COSH };
+    AMBIT_OP_SIN, AMBIT_OP_COS, AMBIT_OP_ATAN, AMBIT_OP_ATAN2, AMBIT_OP_SINH, AMBIT_OP_COSH, AMBIT_OP_TANH };
   for (size_t i = 0; i < sizeof op / sizeof *op; i++) {
     single s;
     single_open(&s, op[i], 4);

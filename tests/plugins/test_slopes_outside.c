@@ -15,7 +15,7 @@
 
 static const uint32_t series_op[] = { AMBIT_OP_ADD, AMBIT_OP_SUB, AMBIT_OP_NEG, AMBIT_OP_MUL, AMBIT_OP_SQR,
   AMBIT_OP_DIV, AMBIT_OP_SQRT, AMBIT_OP_EXP, AMBIT_OP_LOG, AMBIT_OP_SIN, AMBIT_OP_COS, AMBIT_OP_ATAN, AMBIT_OP_ATAN2,
-  AMBIT_OP_SINH, AMBIT_OP_COSH, AMBIT_OP_ABS, AMBIT_OP_MIN, AMBIT_OP_MAX };
+  AMBIT_OP_SINH, AMBIT_OP_COSH, AMBIT_OP_TANH, AMBIT_OP_ABS, AMBIT_OP_MIN, AMBIT_OP_MAX };
 
 /* Input i at xi: (a_i + b_i xi) + c_i t: the box is xi in [from, to], the centre xi = 0. */
 typedef struct scene {

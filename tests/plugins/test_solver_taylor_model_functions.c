@@ -87,6 +87,7 @@ static void apply(uint32_t op, mpfr_t r, mpfr_t a, mpfr_t b) {
   case AMBIT_OP_COS: mpfr_cos(r, a, MPFR_RNDN); break;
   case AMBIT_OP_SINH: mpfr_sinh(r, a, MPFR_RNDN); break;
   case AMBIT_OP_COSH: mpfr_cosh(r, a, MPFR_RNDN); break;
+  case AMBIT_OP_TANH: mpfr_tanh(r, a, MPFR_RNDN); break;
   case AMBIT_OP_ATAN: mpfr_atan(r, a, MPFR_RNDN); break;
   case AMBIT_OP_ATAN2: mpfr_atan2(r, a, b, MPFR_RNDN); break;
   case AMBIT_OP_SQR: mpfr_sqr(r, a, MPFR_RNDN); break;
@@ -123,7 +124,7 @@ static AMBIT_WORKER int advance(sample *s) { return series_jets.advance(s->self,
 static void functions_hold_all_values(void **unused) {
   (void)unused;
   static const uint32_t op[] = { AMBIT_OP_DIV, AMBIT_OP_SQRT, AMBIT_OP_EXP, AMBIT_OP_LOG, AMBIT_OP_SIN, AMBIT_OP_COS,
-    AMBIT_OP_SINH, AMBIT_OP_COSH, AMBIT_OP_ATAN, AMBIT_OP_ATAN2, AMBIT_OP_SQR };
+    AMBIT_OP_SINH, AMBIT_OP_COSH, AMBIT_OP_TANH, AMBIT_OP_ATAN, AMBIT_OP_ATAN2, AMBIT_OP_SQR };
   static const double size[] = { 1e-5, 1e-2, 0.3 }, radius[] = { 0, 1e-12, 1e-3, 0.05 };
   sample s;
   for (size_t k = 0; k < sizeof op / sizeof *op; k++) {

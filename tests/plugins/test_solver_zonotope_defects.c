@@ -40,6 +40,7 @@ static void put_operation(maker *k, uint32_t op, uint32_t a, uint32_t b) {
   switch (op) {
   case AMBIT_OP_SIN: put_pair(k, AMBIT_OP_SIN, AMBIT_OP_COS, a); return;
   case AMBIT_OP_SINH: put_pair(k, AMBIT_OP_SINH, AMBIT_OP_COSH, a); return;
+  case AMBIT_OP_TANH: put_tanh(k, a); return;
   case AMBIT_OP_ATAN:
     q = put(k, AMBIT_OP_ADD, put(k, AMBIT_OP_SQR, a, a), 0), n = k->tape.ninstr;
     put(k, op, a, a), k->aux[n] = q;
@@ -81,6 +82,8 @@ static void open_one(zono *z, maker *k, uint32_t op, const sizes *s) {
   put_row(z, z->P, positive ? draw(0.4, 2) : draw(-2, 2), s->data, s->parts);
   put_row(z, z->P + z->shape.stride, apart ? z->P[0] + draw(-1, 1) : draw(0.4, 2), s->data, s->parts);
   if (op == AMBIT_OP_ATAN2 && pick(2)) z->P[z->shape.stride] *= -1, z->P[0] *= pick(2) ? 1 : 0.1; /* near the cut */
+  if (op == AMBIT_OP_TANH && pick(3) == 0) /* far from 0, or with a wide set */
+    put_row(z, z->P, draw(-30, 30), s->data * draw(0, 20), s->parts);
   for (uint32_t i = 0; i < 2; i++) {
     double *row = z->P + i * z->shape.stride;
     for (uint32_t v = z->shape.eps; v < z->shape.pair[0]; v++) row[v] = 0;
@@ -157,7 +160,7 @@ static void try_spread(zono *z) {
 
 static const uint32_t tried[] = { AMBIT_OP_ADD, AMBIT_OP_SUB, AMBIT_OP_NEG, AMBIT_OP_MUL, AMBIT_OP_SQR, AMBIT_OP_DIV,
   AMBIT_OP_SQRT, AMBIT_OP_EXP, AMBIT_OP_LOG, AMBIT_OP_SIN, AMBIT_OP_SINH, AMBIT_OP_ATAN, AMBIT_OP_ATAN2, AMBIT_OP_ATAN2,
-  AMBIT_OP_ABS, AMBIT_OP_MIN, AMBIT_OP_MAX };
+  AMBIT_OP_TANH, AMBIT_OP_TANH, AMBIT_OP_ABS, AMBIT_OP_MIN, AMBIT_OP_MAX };
 #define TRIED (sizeof tried / sizeof *tried)
 
 static void every_operation_is_within_its_bounds(void **unused) {

@@ -92,6 +92,13 @@ static inline uint32_t put_pair(maker *k, uint32_t first, uint32_t second, uint3
   return pick(2) ? s : c;
 }
 
+/* with slot 0 the number 1 */
+static inline uint32_t put_tanh(maker *k, uint32_t a) {
+  uint32_t n = k->tape.ninstr, y = put(k, AMBIT_OP_TANH, a, a);
+  k->aux[n] = put(k, AMBIT_OP_SUB, 0, put(k, AMBIT_OP_SQR, y, y));
+  return y;
+}
+
 /* a slot in (1, 3) or so */
 static inline uint32_t positive(maker *k, uint32_t a) {
   uint32_t sine = put_pair(k, AMBIT_OP_SIN, AMBIT_OP_COS, a);
@@ -106,7 +113,7 @@ static inline uint32_t any(maker *k, uint32_t from) {
 /* one more operation on what there is; results stay of moderate size */
 static inline uint32_t grow(maker *k, uint32_t a, uint32_t b) {
   uint32_t small = put_pair(k, AMBIT_OP_SIN, AMBIT_OP_COS, a), n;
-  switch (pick(14)) {
+  switch (pick(15)) {
   case 0: return put(k, AMBIT_OP_ADD, small, b);
   case 1: return put(k, AMBIT_OP_SUB, a, small);
   case 2: return put(k, AMBIT_OP_MUL, small, b);
@@ -131,7 +138,8 @@ static inline uint32_t grow(maker *k, uint32_t a, uint32_t b) {
   case 12:
     n = put(k, AMBIT_OP_MIN, small, b);
     return pick(2) ? n : put(k, AMBIT_OP_SUB, put(k, AMBIT_OP_MAX, b, small), n);
-  default: return put(k, AMBIT_OP_MAX, small, b);
+  case 13: return put(k, AMBIT_OP_MAX, small, b);
+  default: return put_tanh(k, pick(2) ? a : small);
   }
 }
 
@@ -156,10 +164,10 @@ static inline void make_empty(maker *k, uint32_t nconst, uint32_t nx, uint32_t n
   k->degree[nconst + nx + na + np] = 1;
 }
 
-/* abs, min and max as the step takes them: a and b times these, less the twin's slot; others are left as they are */
+/* abs, min, max and tanh as the step takes them: a and b times these, less the twin's slot; others are left as they are */
 static inline void kink_slopes(const zono *z, uint32_t i, long double *by_a, long double *by_b) {
   double a, b;
-  if (!is_kinked(z->program.tape->op[i])) return;
+  if (!is_line(z, i)) return;
   kink_shares(z, i, &a, &b);
   *by_a = has_twin(z, i) ? 1 : a, *by_b = has_twin(z, i) ? 1 : b;
 }
@@ -274,6 +282,7 @@ static inline long double operation(uint32_t op, long double a, long double b) {
   case AMBIT_OP_COS: return cosl(a);
   case AMBIT_OP_SINH: return sinhl(a);
   case AMBIT_OP_COSH: return coshl(a);
+  case AMBIT_OP_TANH: return tanhl(a);
   case AMBIT_OP_ATAN: return atanl(a);
   case AMBIT_OP_ATAN2: return atan2l(a, b);
   case AMBIT_OP_ABS: return fabsl(a);
@@ -301,6 +310,7 @@ static inline void slopes_at(uint32_t op, long double a, long double b, long dou
   case AMBIT_OP_COS: *by_a = -sinl(a); return;
   case AMBIT_OP_SINH: *by_a = coshl(a); return;
   case AMBIT_OP_COSH: *by_a = sinhl(a); return;
+  case AMBIT_OP_TANH: *by_a = 1 - tanhl(a) * tanhl(a); return;
   case AMBIT_OP_ATAN: *by_a = 1 / (1 + a * a); return;
   case AMBIT_OP_ATAN2: *by_a = b / q, *by_b = -a / q; return;
   case AMBIT_OP_ABS: *by_a = a < 0 ? -1 : 1; return;

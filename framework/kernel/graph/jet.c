@@ -34,7 +34,6 @@ static bool has_series(uint32_t op) {
   switch (op) {
   case AMBIT_OP_POWN:
   case AMBIT_OP_TAN:
-  case AMBIT_OP_TANH:
   case AMBIT_OP_ASIN:
   case AMBIT_OP_ACOS: return false;
   default: return op < AMBIT_OP_COUNT;
@@ -47,6 +46,7 @@ static bool needs_aux(uint32_t op) {
   case AMBIT_OP_COS:
   case AMBIT_OP_SINH:
   case AMBIT_OP_COSH:
+  case AMBIT_OP_TANH:
   case AMBIT_OP_ATAN:
   case AMBIT_OP_ATAN2: return true;
   default: return false;

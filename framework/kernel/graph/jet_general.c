@@ -236,7 +236,8 @@ static void mark_weighted(ambit_series *s) {
     case AMBIT_OP_SIN:
     case AMBIT_OP_COS:
     case AMBIT_OP_SINH:
-    case AMBIT_OP_COSH: s->weighted[t->a[i]] = 1; break;
+    case AMBIT_OP_COSH:
+    case AMBIT_OP_TANH: s->weighted[t->a[i]] = 1; break;
     case AMBIT_OP_LOG:
     case AMBIT_OP_ATAN: s->weighted[t->dst[i]] = 1; break;
     case AMBIT_OP_ATAN2: s->weighted[t->a[i]] = s->weighted[t->b[i]] = s->weighted[t->dst[i]] = 1; break;

@@ -3,8 +3,8 @@
 ** One identity carries all bilinear rules: a b - a0 b0 = (a + a0)/2 (b - b0) + (b + b0)/2 (a - a0); the mean series
 ** is in the column `mean`. It applies to power series in time, to quotients and roots solved for their result, and to
 ** the differential equation y' = v u' of an elementary function. Order 0 of an elementary function takes a slope of
-** the real function: with H the hull of U and u0 it lies in f'(H) by the mean value theorem, and for f'' = +-f also in
-** f'(u0) + f''(H)/2 (U - u0) by Taylor's; it is one and the same number, so the sets are intersected. Without a
+** the real function: with H the hull of U and u0 it lies in f'(H) by the mean value theorem, and where f'' costs little
+** also in f'(u0) + f''(H)/2 (U - u0) by Taylor's; it is one and the same number, so the sets are intersected. Without a
 ** centre the mean is the value, and the same rules are the product rule: derivatives. Proofs:
 ** docs/numerics/series.md.
 */
@@ -89,11 +89,20 @@ static ambit_interval op1(uint32_t op, ambit_interval x) {
 
 static ambit_interval half(ambit_interval x) { return ambit_interval_mul((ambit_interval) { 0.5, 0.5 }, x); }
 
-/* f' and f'' of the functions with f'' = +-f */
+/* f' and f'' of tanh: 1 - f^2 and -2 f f' */
+static void derivatives_of_tanh(ambit_interval u, ambit_interval *first, ambit_interval *second) {
+  const ambit_interval one = { 1, 1 }, minus_two = { -2, -2 };
+  ambit_interval y = op1(AMBIT_OP_TANH, u);
+  *first = ambit_interval_sub(one, op1(AMBIT_OP_SQR, y));
+  *second = ambit_interval_mul(minus_two, ambit_interval_mul(y, *first));
+}
+
+/* f' and f'' of the functions that tell both of them */
 static bool derivatives_of(uint32_t op, ambit_interval u, ambit_interval *first, ambit_interval *second) {
   switch (op) {
   case AMBIT_OP_EXP: *first = *second = op1(AMBIT_OP_EXP, u); return true;
   case AMBIT_OP_SINH: *first = op1(AMBIT_OP_COSH, u), *second = op1(AMBIT_OP_SINH, u); return true;
+  case AMBIT_OP_TANH: derivatives_of_tanh(u, first, second); return true;
   case AMBIT_OP_COSH: *first = op1(AMBIT_OP_SINH, u), *second = op1(AMBIT_OP_COSH, u); return true;
   case AMBIT_OP_SIN: *first = op1(AMBIT_OP_COS, u), *second = op1(AMBIT_OP_NEG, op1(AMBIT_OP_SIN, u)); return true;
   case AMBIT_OP_COS:
@@ -150,6 +159,7 @@ void ambit_series_factor(ambit_series *s, uint32_t i) {
   case AMBIT_OP_COS:
   case AMBIT_OP_SINH:
   case AMBIT_OP_COSH:
+  case AMBIT_OP_TANH:
   case AMBIT_OP_ATAN: ambit_series_set(s, s->factor, slope_of(s, t->op[i], t->a[i])); break;
   case AMBIT_OP_ATAN2: angle_factors(s, t->a[i], t->b[i]); break;
   case AMBIT_OP_ABS: ambit_series_set(s, s->factor, (ambit_interval) { -1, 1 }); break;
@@ -196,7 +206,8 @@ static void function(
   case AMBIT_OP_EXP: primitive(s, dst, a, y, k, false); break;
   case AMBIT_OP_SIN:
   case AMBIT_OP_SINH:
-  case AMBIT_OP_COSH: primitive(s, dst, a, aux, k, false); break;
+  case AMBIT_OP_COSH:
+  case AMBIT_OP_TANH: primitive(s, dst, a, aux, k, false); break;
   case AMBIT_OP_COS: primitive(s, dst, a, aux, k, true); break;
   case AMBIT_OP_LOG: logarithm(s, dst, a, y, a, k); break;
   case AMBIT_OP_ATAN: logarithm(s, dst, a, y, aux, k); break;

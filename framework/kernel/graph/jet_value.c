@@ -5,6 +5,7 @@
 ** likewise
 **   log: y' u = u'            sin, cos: s' = c u', c' = -s u'      sinh, cosh: s' = c u', c' = s u'
 **   atan: y' q = u', q = 1 + u^2                                    atan2: y' q = a' b - a b', q = a^2 + b^2
+**   tanh: y' = s u', s = 1 - y^2
 ** Each is an identity of real numbers for every point of the box, so it holds for any enclosing arithmetic. ABS, MIN
 ** and MAX are one of their branches if order 0 tells which one over the whole set; at the branch cut of ATAN2, and
 ** where the branch is not known, nothing is proved: AMBIT_F_UNBOUNDED.
@@ -110,7 +111,8 @@ static void later_order(ambit_series *s, uint32_t i, uint32_t dst, ambit_row a, 
   case AMBIT_OP_EXP: primitive(s, dst, t->a[i], y, k, false); break;
   case AMBIT_OP_SIN:
   case AMBIT_OP_SINH:
-  case AMBIT_OP_COSH: primitive(s, dst, t->a[i], aux, k, false); break;
+  case AMBIT_OP_COSH:
+  case AMBIT_OP_TANH: primitive(s, dst, t->a[i], aux, k, false); break;
   case AMBIT_OP_COS: primitive(s, dst, t->a[i], aux, k, true); break;
   case AMBIT_OP_LOG: logarithm(s, dst, ak, ambit_series_weighted(s, t->dst[i], 0), a, k); break;
   case AMBIT_OP_ATAN: logarithm(s, dst, ak, ambit_series_weighted(s, t->dst[i], 0), aux, k); break;

@@ -1,9 +1,8 @@
-/* series_lowering.c -- TAN, TANH, ASIN, ACOS and POWN in opcodes that have simple recurrences for Taylor
-** coefficients.
+/* series_lowering.c -- TAN, ASIN, ACOS and POWN in opcodes that have simple recurrences for Taylor coefficients.
 **
 **   tan u  = sin u / cos u                      acos u = pi/2 - asin u
-**   tanh u = 1 - 2 / (exp(2u) + 1)              u^n    = (u^(n/2))^2 or u u^(n-1); n < 0: 1 / u^-n
-**   asin u = atan(u / sqrt(1 - u^2)), |u| < 1
+**   asin u = atan(u / sqrt(1 - u^2)), |u| < 1   u^n    = (u^(n/2))^2 or u u^(n-1); n < 0: 1 / u^-n
+**   1 / (1 + exp u) = (1 - tanh(u / 2)) / 2: bounded, whatever u is
 **
 ** The domain is the same, but for asin and acos at -1 and 1, where their series do not exist. The nodes are made
 ** without folding, which would undo the work.
@@ -17,11 +16,23 @@ static ambit_expr make(ambit_graph *g, uint32_t op, ambit_expr a, ambit_expr b) 
   return ambit_store_make(g, op, a, b);
 }
 
-static ambit_expr lower_tanh(ambit_graph *g, ambit_expr u) {
-  ambit_expr two = ambit_graph_number(g, 2);
-  ambit_expr power = make(g, AMBIT_OP_EXP, make(g, AMBIT_OP_MUL, two, u), 0);
-  ambit_expr quotient = make(g, AMBIT_OP_DIV, two, make(g, AMBIT_OP_ADD, AMBIT_ONE, power));
-  return make(g, AMBIT_OP_SUB, AMBIT_ONE, quotient);
+/* e^v if e = 1 + e^v */
+static ambit_expr power_beside_one(const ambit_graph *g, ambit_expr e) {
+  const ambit_node x = *ambit_at(g, e);
+  if (x.op != AMBIT_OP_ADD || (x.a != AMBIT_ONE && x.b != AMBIT_ONE)) return AMBIT_NO_EXPR;
+  ambit_expr power = x.a == AMBIT_ONE ? x.b : x.a;
+  return ambit_at(g, power)->op == AMBIT_OP_EXP ? power : AMBIT_NO_EXPR;
+}
+
+/* a / (1 + e^v): with tanh(v / 2) it is bounded where e^v is too large for a double */
+static ambit_expr lower_quotient(ambit_graph *g, ambit_expr a, ambit_expr b) {
+  if (a == AMBIT_NO_EXPR || b == AMBIT_NO_EXPR) return AMBIT_NO_EXPR;
+  ambit_expr power = power_beside_one(g, b), half = ambit_graph_number(g, 0.5);
+  if (power == AMBIT_NO_EXPR) return make(g, AMBIT_OP_DIV, a, b);
+  ambit_expr v = ambit_at(g, power)->a, argument = make(g, AMBIT_OP_MUL, half, v);
+  ambit_expr y = make(g, AMBIT_OP_TANH, argument, argument);
+  ambit_expr share = make(g, AMBIT_OP_MUL, half, make(g, a == power ? AMBIT_OP_ADD : AMBIT_OP_SUB, AMBIT_ONE, y));
+  return a == power ? share : make(g, AMBIT_OP_MUL, a, share);
 }
 
 static ambit_expr lower_asin(ambit_graph *g, ambit_expr u) {
@@ -54,7 +65,7 @@ static ambit_expr lower(ambit_graph *g, uint32_t op, ambit_expr a, ambit_expr b)
   if (a == AMBIT_NO_EXPR) return a;
   switch (op) {
   case AMBIT_OP_TAN: return make(g, AMBIT_OP_DIV, make(g, AMBIT_OP_SIN, a, a), make(g, AMBIT_OP_COS, a, a));
-  case AMBIT_OP_TANH: return lower_tanh(g, a);
+  case AMBIT_OP_DIV: return lower_quotient(g, a, b);
   case AMBIT_OP_ASIN: return lower_asin(g, a);
   case AMBIT_OP_ACOS: return lower_acos(g, a);
   case AMBIT_OP_POWN: return lower_power(g, a, (int32_t)b);
@@ -69,6 +80,7 @@ ambit_expr ambit_series_helper(ambit_graph *g, ambit_expr e) {
   case AMBIT_OP_COS: return make(g, AMBIT_OP_SIN, x.a, x.a);
   case AMBIT_OP_SINH: return make(g, AMBIT_OP_COSH, x.a, x.a);
   case AMBIT_OP_COSH: return make(g, AMBIT_OP_SINH, x.a, x.a);
+  case AMBIT_OP_TANH: return make(g, AMBIT_OP_SUB, AMBIT_ONE, make(g, AMBIT_OP_SQR, e, e));
   case AMBIT_OP_ATAN: return make(g, AMBIT_OP_ADD, AMBIT_ONE, make(g, AMBIT_OP_SQR, x.a, x.a));
   case AMBIT_OP_ATAN2: return make(g, AMBIT_OP_ADD, make(g, AMBIT_OP_SQR, x.a, x.a), make(g, AMBIT_OP_SQR, x.b, x.b));
   default: return AMBIT_NO_EXPR;
@@ -77,11 +89,16 @@ ambit_expr ambit_series_helper(ambit_graph *g, ambit_expr e) {
 
 static bool needs_helper(uint32_t op) {
   return op == AMBIT_OP_SIN || op == AMBIT_OP_COS || op == AMBIT_OP_SINH || op == AMBIT_OP_COSH ||
-         op == AMBIT_OP_ATAN || op == AMBIT_OP_ATAN2;
+         op == AMBIT_OP_TANH || op == AMBIT_OP_ATAN || op == AMBIT_OP_ATAN2;
+}
+
+static ambit_expr bound(ambit_graph *g, uint32_t op, ambit_expr a, ambit_expr b) {
+  return op == AMBIT_OP_DIV ? lower_quotient(g, a, b) : make(g, op, a, b);
 }
 
 /* Rewrites root[0..nout) in place. */
-static bool rewrite(ambit_graph *g, size_t nout, ambit_expr *root, ambit_walk_stop stop) {
+static bool rewrite(ambit_graph *g, size_t nout, ambit_expr *root, ambit_walk_stop stop,
+    ambit_expr (*by)(ambit_graph *, uint32_t, ambit_expr, ambit_expr)) {
   ambit_walk w;
   if (!ambit_walk_open(g, nout, root, stop, &w)) return false;
   ambit_expr *now = malloc((w.count + 1) * sizeof *now);
@@ -91,7 +108,7 @@ static bool rewrite(ambit_graph *g, size_t nout, ambit_expr *root, ambit_walk_st
     const ambit_node x = *ambit_at(g, w.node[i]);
     bool leaf = ambit_op_is_leaf(x.op) || (stop && stop(g, w.node[i]));
     const char *other = ambit_graph_written_by(g, ambit_graph_writer(g, w.node[i]));
-    now[i] = leaf ? w.node[i] : lower(g, x.op, now[w.a[i]], x.op == AMBIT_OP_POWN ? x.b : now[w.b[i]]);
+    now[i] = leaf ? w.node[i] : by(g, x.op, now[w.a[i]], x.op == AMBIT_OP_POWN ? x.b : now[w.b[i]]);
     ambit_graph_written_by(g, other);
     done = now[i] != AMBIT_NO_EXPR;
   }
@@ -118,6 +135,8 @@ static bool append_helpers(ambit_graph *g, ambit_expr **root, size_t *nroot, amb
   return done;
 }
 
+bool ambit_series_bound(ambit_graph *g, size_t n, ambit_expr *e) { return rewrite(g, n, e, NULL, bound); }
+
 ambit_status ambit_series_lower(ambit_graph *g, size_t nout, const ambit_expr *out, bool series, bool keep,
     ambit_expr **root, size_t *nroot, ambit_failure *f) {
   ambit_walk_stop stop = keep ? NULL : ambit_tape_folds;
@@ -125,7 +144,7 @@ ambit_status ambit_series_lower(ambit_graph *g, size_t nout, const ambit_expr *o
   *root = calloc(nout + 1, sizeof **root);
   bool done = *root;
   for (size_t i = 0; i < nout && done; i++) (*root)[i] = out[i];
-  if (done && series) done = rewrite(g, nout, *root, stop) && append_helpers(g, root, nroot, stop);
+  if (done && series) done = rewrite(g, nout, *root, stop, lower) && append_helpers(g, root, nroot, stop);
   if (done) return AMBIT_OK;
   free(*root);
   *root = NULL;

@@ -18,7 +18,8 @@ static void mark_flows(ambit_tails *t) {
     case AMBIT_OP_SIN:
     case AMBIT_OP_COS:
     case AMBIT_OP_SINH:
-    case AMBIT_OP_COSH: t->flows[tape->a[i]] = 1; break;
+    case AMBIT_OP_COSH:
+    case AMBIT_OP_TANH: t->flows[tape->a[i]] = 1; break;
     case AMBIT_OP_LOG:
     case AMBIT_OP_ATAN: t->flows[tape->dst[i]] = 1; break;
     case AMBIT_OP_ATAN2: t->flows[tape->a[i]] = t->flows[tape->b[i]] = t->flows[tape->dst[i]] = 1; break;

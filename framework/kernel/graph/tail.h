@@ -63,6 +63,11 @@ double ambit_tails_flow(const ambit_tails *t, uint32_t u, uint32_t v);
 double ambit_tails_atan_floor(const ambit_tails *t, uint32_t i);
 double ambit_tails_atan2_floor(const ambit_tails *t, uint32_t i);
 double ambit_tails_sqrt_floor(const ambit_tails *t, uint32_t u); /* below sqrt u */
+/* above 1 - tanh(P + theta T)^2 of TANH */
+double ambit_tails_tanh_slope(const ambit_tails *t, uint32_t u);
+/* TANH: the integral over the step of |tanh P + P_y| |P'|, and what P_y fails its differential equation by */
+double ambit_tails_tanh_swing(const ambit_tails *t, uint32_t i);
+double ambit_tails_tanh_defect(const ambit_tails *t, uint32_t i);
 /* ABS, MIN, MAX: the operand whose branch holds on the whole step, on which both are defined; or AMBIT_NO_SLOT */
 uint32_t ambit_tails_branch(const ambit_tails *t, uint32_t i);
 

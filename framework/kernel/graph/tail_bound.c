@@ -63,6 +63,15 @@ double ambit_tails_sqrt_floor(const ambit_tails *t, uint32_t u) {
   return x > 0 ? -(-x / sqrt(x)) : 0;
 }
 
+/* 1 - tanh(x)^2 = 1 / cosh(x)^2 <= 4 e^-2|x| */
+double ambit_tails_tanh_slope(const ambit_tails *t, uint32_t u) {
+  double near = ambit_tails_gap(ambit_tails_segment(t, u));
+  ambit_interval r, a = { -2 * near, -2 * near };
+  if (!(near > 1)) return 1;
+  ambit_interval_op(AMBIT_OP_EXP, &r, a, a);
+  return 4 * r.hi;
+}
+
 /* below q_0 - sum_{k>=1} Q_k - excess */
 static double floor_of(const ambit_tails *t, uint32_t q, double excess) { return -(excess + t->swing[q] - t->lo[q]); }
 

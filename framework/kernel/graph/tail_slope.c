@@ -133,6 +133,29 @@ static void hyperbola(const ambit_tails *t, double *out, uint32_t u, uint32_t s,
   shift(t, out, ambit_tails_row(t, t->U, sine_first ? c : s)[0] * ambit_tails_exp(t->swing[u] + t->tau[u]), u);
 }
 
+/* out += change of P_y' [P_a^2]_{>K} */
+static void square_part(const ambit_tails *t, double *out, uint32_t y, uint32_t a) {
+  speed(t, out, ambit_tails_product(t, a, a), y);
+  rest(t, out, 2 * ambit_tails_row(t, t->RW, y)[t->K], 0, a, a);
+}
+
+/* dE' = -(f + P_y) P' dE - d((f + P_y) P') E + dd, f = tanh P, |df| <= |dP|; and T m with m = int f'(P + theta T),
+** |m| <= slope, |f''| <= 2 |f'| and < 0.77 */
+static void tangent(const ambit_tails *t, double *out, uint32_t i, uint32_t u, uint32_t y) {
+  double growth = ambit_tails_exp(ambit_tails_tanh_swing(t, i)), next = (double)t->K + 1;
+  double speed_of_u = ambit_tails_row(t, t->RW, u)[t->K], slope = ambit_tails_tanh_slope(t, u);
+  double error = growth * ambit_tails_tanh_defect(t, i) / next, bend = 2 * slope < 0.77 ? 2 * slope : 0.77;
+  double part = error * next / (next + 1);
+  flow(t, out, u, t->tape->aux[i]);
+  square_part(t, out, u, y);
+  add(t, out, part * speed_of_u, t->vsum + lane_of(t, u));
+  add(t, out, part * speed_of_u, t->vsum + lane_of(t, y));
+  speed(t, out, part * (1 + t->sum[y]), u);
+  multiply(t, out, growth / next);
+  add(t, out, slope + t->tau[u] * bend, t->sigma + lane_of(t, u));
+  add(t, out, t->tau[u] * bend, t->vsum + lane_of(t, u));
+}
+
 static void logarithm(const ambit_tails *t, double *out, uint32_t u, uint32_t y) {
   double floor = ambit_tails_segment(t, u).lo, next = (double)t->K + 1;
   double defect = ambit_tails_flow(t, y, u), fraction = t->tau[u] / floor;
@@ -142,12 +165,6 @@ static void logarithm(const ambit_tails *t, double *out, uint32_t u, uint32_t y)
   add(t, out, 1 + fraction, t->sigma + lane_of(t, u));
   add(t, out, fraction, t->vsum + lane_of(t, u));
   divide(t, out, floor);
-}
-
-/* out += change of P_y' [P_a^2]_{>K} */
-static void square_part(const ambit_tails *t, double *out, uint32_t y, uint32_t a) {
-  speed(t, out, ambit_tails_product(t, a, a), y);
-  rest(t, out, 2 * ambit_tails_row(t, t->RW, y)[t->K], 0, a, a);
 }
 
 /* out += f times the change of u_theta^2, u_theta = P + theta T */
@@ -229,6 +246,7 @@ static void slopes(const ambit_tails *t, double *out, uint32_t i) {
     else
       hyperbola(t, out, a, y, aux, op == AMBIT_OP_SINH);
     break;
+  case AMBIT_OP_TANH: tangent(t, out, i, a, y); break;
   case AMBIT_OP_ATAN: arc(t, out, i, a, y); break;
   case AMBIT_OP_ATAN2: angle(t, out, i, a, b, y); break;
   default: follow(t, out, i); break;

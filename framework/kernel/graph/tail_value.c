@@ -4,7 +4,7 @@
 ** y = sqrt u come from the residual, b T_c = T_a - [P_b P_c]_{>K} - T_b P_c. An elementary function splits into f(P +
 ** T) - f(P), by the mean value theorem, and f(P) minus its own polynomial, which solves the differential equation of
 ** the recursion with a defect of orders >= K only: |E| <= growth D s^(K+1) / (K+1). Sine and cosine turn, so their
-** growth is 1; exp, sinh and cosh grow by at most e^swing. Proofs: docs/numerics/series.md.
+** growth is 1; exp, sinh and cosh grow by at most e^swing, tanh by a power of it. Proofs: docs/numerics/series.md.
 */
 #include "graph/tail.h"
 #include <math.h>
@@ -60,6 +60,23 @@ static double hyperbola(const ambit_tails *t, uint32_t u, uint32_t s, uint32_t c
   return ambit_tails_exp(t->swing[u]) * larger(ds, dc) / next_order(t) + exp_shift(t, u, cosh_first);
 }
 
+/* the integral over the step of |f(P) + P_y| |P'|, f = tanh */
+double ambit_tails_tanh_swing(const ambit_tails *t, uint32_t i) {
+  return (1 + t->sum[t->tape->dst[i]]) * t->swing[t->tape->a[i]];
+}
+
+/* of P' P_s - P_y' and of P' [P_y^2]_{>K}, s = 1 - y^2 */
+double ambit_tails_tanh_defect(const ambit_tails *t, uint32_t i) {
+  uint32_t u = t->tape->a[i], y = t->tape->dst[i];
+  return ambit_tails_flow(t, u, t->tape->aux[i]) + ambit_tails_row(t, t->RW, u)[t->K] * ambit_tails_product(t, y, y);
+}
+
+/* E = f(P) - P_y: E' = -(f(P) + P_y) P' E + defect */
+static double tangent(const ambit_tails *t, uint32_t i, uint32_t u) {
+  double growth = ambit_tails_exp(ambit_tails_tanh_swing(t, i));
+  return growth * ambit_tails_tanh_defect(t, i) / next_order(t) + ambit_tails_tanh_slope(t, u) * t->tau[u];
+}
+
 static double logarithm(const ambit_tails *t, uint32_t u, uint32_t y) {
   return over(ambit_tails_flow(t, y, u) / next_order(t) + t->tau[u], ambit_tails_segment(t, u).lo);
 }
@@ -101,6 +118,7 @@ static double value(const ambit_tails *t, uint32_t i) {
   case AMBIT_OP_COS: return aux < y ? t->tau[aux] : turn(t, a, y, aux); /* the pair shares one bound */
   case AMBIT_OP_SINH:
   case AMBIT_OP_COSH: return aux < y ? t->tau[aux] : hyperbola(t, a, y, aux, op == AMBIT_OP_SINH);
+  case AMBIT_OP_TANH: return tangent(t, i, a);
   case AMBIT_OP_ATAN: return arc(t, i, a, y);
   case AMBIT_OP_ATAN2: return angle(t, i, a, b, y);
   default: return follow(t, i);

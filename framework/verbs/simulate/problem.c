@@ -2,6 +2,7 @@
 #include "verbs/simulate/problem.h"
 #include "verbs/simulate/implicit.h"
 #include "graph/name.h"
+#include "graph/series_lowering.h"
 #include "graph/tape.h"
 #include "graph/hull.h"
 #include "verbs/run/unknowns.h"
@@ -395,6 +396,8 @@ static ambit_status seal_wanted(build *b) {
   uint32_t want = b->q->want;
   ambit_problem *p = b->p;
   ambit_status status = AMBIT_OK;
+  if ((want & (AMBIT_WANT_JACOBIAN | AMBIT_WANT_SLOPE)) && !ambit_series_bound(b->graph, p->nx, b->all))
+    return no_memory(b);
   if (wants_rhs(want)) status = seal_flow(b, p->nx, b->all, &p->rhs);
   if (status == AMBIT_OK && (want & AMBIT_WANT_IMPLICIT)) status = seal_implicit(b);
   if (status == AMBIT_OK && (want & AMBIT_WANT_JACOBIAN))

@@ -76,7 +76,7 @@ bounds jets_intersect(bounds a, bounds b);
 /* order 0 of the functions of a step; any but ADD, SUB, NEG */
 uint32_t jets_start(const jets *j, const step *s, bounds *r, bounds *other);
 /* Intervals that contain the slope of r by its operand and of other by its operand; ATAN2: of r by its first and by
-** its second operand. For LOG, ATAN, ATAN2, EXP, SIN, SINH. */
+** its second operand. For LOG, ATAN, ATAN2, EXP, SIN, SINH, TANH. */
 uint32_t jets_start_slope(const jets *j, const step *s, bounds *first, bounds *second);
 /* ABS, MIN, MAX: 1 if the result is a, -1 if it is b (ABS: -a), 0 if order 0 over the box and
 ** at the centre leaves it open */

@@ -23,6 +23,7 @@ static int is_known(uint32_t op) {
   case AMBIT_OP_SQRT:
   case AMBIT_OP_EXP:
   case AMBIT_OP_LOG:
+  case AMBIT_OP_TANH:
   case AMBIT_OP_ATAN:
   case AMBIT_OP_ATAN2:
   case AMBIT_OP_ABS:
@@ -32,7 +33,9 @@ static int is_known(uint32_t op) {
   }
 }
 
-static int needs_aux(uint32_t op) { return is_pair(op) || op == AMBIT_OP_ATAN || op == AMBIT_OP_ATAN2; }
+static int needs_aux(uint32_t op) {
+  return is_pair(op) || op == AMBIT_OP_TANH || op == AMBIT_OP_ATAN || op == AMBIT_OP_ATAN2;
+}
 
 static int is_partner(const ambit_tape *t, uint32_t i) {
   static const uint8_t partner[AMBIT_OP_COUNT] = { [AMBIT_OP_SIN] = AMBIT_OP_COS,
@@ -69,6 +72,7 @@ static void mark(uint8_t *need, const ambit_tape *t, uint32_t i) {
     need[aux] |= MEAN | REVERSED, need[r] |= MEAN | MOVING;
     need[a] |= MEAN | REVERSED | MOVING, need[b] |= MEAN | REVERSED | MOVING;
     break;
+  case AMBIT_OP_TANH: need[a] |= MEAN | MOVING, need[aux] |= MEAN | REVERSED; break;
   case AMBIT_OP_EXP:
   case AMBIT_OP_SIN:
   case AMBIT_OP_COS:
@@ -130,6 +134,7 @@ static void add_products(step *s) {
   case AMBIT_OP_SQRT: add_product(s, r->u, r->degree, r); return;
   case AMBIT_OP_EXP: add_product(s, a->moving, a->degree, r); return;
   case AMBIT_OP_LOG: add_product(s, r->moving, r->degree, a); return;
+  case AMBIT_OP_TANH: add_product(s, a->moving, a->degree, s->aux); return;
   case AMBIT_OP_ATAN: add_product(s, r->moving, r->degree, s->aux); return;
   case AMBIT_OP_SIN:
   case AMBIT_OP_SINH: add_product(s, a->moving, a->degree, s->other), add_product(s, a->moving, a->degree, r); return;

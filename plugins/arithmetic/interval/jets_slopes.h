@@ -201,6 +201,7 @@ static inline void first_slope(jets *j, const step *s, spot at, bounds by_a, bou
 static inline lanes later_slope(const step *s, spot at) {
   switch (s->op) {
   case AMBIT_OP_EXP: return integral_slope(s->r, s->a, at);
+  case AMBIT_OP_TANH: return integral_slope(s->aux, s->a, at);
   case AMBIT_OP_LOG: return logarithmic_slope(s, s->a, at);
   case AMBIT_OP_ATAN: return logarithmic_slope(s, s->aux, at);
   default: return angle_slope(s, at);

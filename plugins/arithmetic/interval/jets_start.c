@@ -98,6 +98,7 @@ uint32_t jets_start(const jets *j, const step *s, bounds *r, bounds *other) {
   case AMBIT_OP_SQR: *r = square(a); return 0;
   case AMBIT_OP_DIV: return divided(a, b, r);
   case AMBIT_OP_EXP:
+  case AMBIT_OP_TANH:
   case AMBIT_OP_ATAN: *r = elementary(j, s->op, a); return 0;
   case AMBIT_OP_SIN:
     *r = elementary(j, AMBIT_OP_SIN, a);
@@ -129,7 +130,7 @@ typedef struct pair {
 static pair values(const jets *j, const step *s, bounds span, bounds box) {
   pair p = { jets_bounds(s->r->u), jets_bounds(s->other->u) };
   if (within(span, box)) return p;
-  if (s->op == AMBIT_OP_EXP) p.r = p.other = elementary(j, AMBIT_OP_EXP, span);
+  if (s->op == AMBIT_OP_EXP || s->op == AMBIT_OP_TANH) p.r = p.other = elementary(j, s->op, span);
   if (s->op == AMBIT_OP_SIN) p = (pair) { elementary(j, AMBIT_OP_SIN, span), elementary(j, AMBIT_OP_COS, span) };
   if (s->op == AMBIT_OP_SINH) p = (pair) { elementary(j, AMBIT_OP_SINH, span), elementary(j, AMBIT_OP_COSH, span) };
   return p;
@@ -140,8 +141,15 @@ typedef struct derivatives {
   bounds r1, r2, other1, other2;
 } derivatives;
 
+/* 1 - f^2 and -2 f f' */
+static derivatives derive_tanh(bounds f) {
+  bounds first = sum((bounds) { 1, 1 }, negated(square(f))), second = product((bounds) { -2, -2 }, product(f, first));
+  return (derivatives) { first, second, first, second };
+}
+
 static derivatives derive(uint32_t op, pair f) {
   if (op == AMBIT_OP_EXP) return (derivatives) { f.r, f.r, f.r, f.r };
+  if (op == AMBIT_OP_TANH) return derive_tanh(f.r);
   if (op == AMBIT_OP_SINH) return (derivatives) { f.other, f.r, f.r, f.other };
   return (derivatives) { f.other, negated(f.r), negated(f.r), negated(f.other) };
 }

@@ -181,6 +181,7 @@ INLINE triple later_value(jets *j, const step *s, uint32_t k) {
   case AMBIT_OP_DIV: return quotient_value(inner[0], s, k);
   case AMBIT_OP_SQRT: return root_value(inner[0], s, k);
   case AMBIT_OP_EXP: return over(derived_value(inner[0], s->a, s->r, k), k);
+  case AMBIT_OP_TANH: return over(derived_value(inner[0], s->a, s->aux, k), k);
   case AMBIT_OP_LOG: return logarithmic_value(inner[0], s, s->a, k);
   case AMBIT_OP_ATAN: return logarithmic_value(inner[0], s, s->aux, k);
   case AMBIT_OP_ATAN2: return angle_value(inner, s, k);

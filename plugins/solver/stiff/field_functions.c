@@ -9,6 +9,7 @@
 #include "field.h"
 
 #define SLACK (1 + 0x1p-40)
+#define LARGEST 300 /* e^2a of what is below has room in a double */
 
 enum { RECIPROCAL, ROOT, LOGARITHM, EXPONENTIAL, EVEN, ODD, EVEN_SIGNED, ODD_SIGNED };
 
@@ -132,12 +133,30 @@ static int quotient(fields *f, field *r, const field *a, const field *b) {
   return 1;
 }
 
+/* 1 - 2 / (1 + e^2a), where that has room in a double */
+static int tangent(fields *f, field *r, const field *a) {
+  field *number = &f->scratch[4];
+  double lo, hi, rest = field_rest(f, a);
+  poly_range(&a->c, &lo, &hi);
+  if (!(lo - rest > -LARGEST && hi + rest < LARGEST)) return 0;
+  field_add(f, r, a, a, 1);
+  if (!exponential(f, r, r)) return 0;
+  field_constant(f, number, (dd) { 1, 0 }, 0);
+  field_add(f, r, r, number, 1);
+  if (!by_quotient(f, AMBIT_OP_DIV, RECIPROCAL, r, r)) return 0;
+  field_add(f, r, r, r, 1);
+  field_constant(f, number, (dd) { 1, 0 }, 0);
+  field_add(f, r, number, r, -1);
+  return 1;
+}
+
 static int smooth(fields *f, uint32_t op, field *r, const field *a, const field *b) {
   switch (op) {
   case AMBIT_OP_DIV: return quotient(f, r, a, b);
   case AMBIT_OP_SQRT: return by_quotient(f, op, ROOT, r, a);
   case AMBIT_OP_LOG: return by_quotient(f, op, LOGARITHM, r, a);
   case AMBIT_OP_EXP: return exponential(f, r, a);
+  case AMBIT_OP_TANH: return tangent(f, r, a);
   case AMBIT_OP_SIN: return by_addition(f, op, AMBIT_OP_COS, EVEN_SIGNED, ODD_SIGNED, 1, r, a);
   case AMBIT_OP_COS: return by_addition(f, op, AMBIT_OP_SIN, EVEN_SIGNED, ODD_SIGNED, -1, r, a);
   case AMBIT_OP_SINH: return by_addition(f, op, AMBIT_OP_COSH, EVEN, ODD, 1, r, a);

@@ -165,6 +165,42 @@ static void waves(series *s, uint32_t op, poly *r, const poly *a) {
   poly_copy(r, result);
 }
 
+/* |integral of D from 0 to s| <= the sum of all coefficients of alpha but the first */
+static double swing_of(const poly *alpha) {
+  double sum = 0;
+  for (uint32_t k = 1; k < alpha->n; k++) sum += fabs(alpha->hi[k]) + fabs(alpha->lo[k]);
+  return sum * SLACK;
+}
+
+/* r := the range of tanh over the range of a, if what is known of r is no better */
+static void saturate(series *s, poly *r, double from, double to) {
+  double lo, hi;
+  enclose(s, AMBIT_OP_TANH, from, to, &lo, &hi);
+  double middle = 0.5 * lo + 0.5 * hi, radius = fmax(hi - middle, middle - lo) * SLACK;
+  if (!(r->tail <= radius)) poly_constant(r, (dd) { middle, 0 }, radius);
+}
+
+/* q' = (1 - q^2) D up to rho: e = q - tanh alpha obeys e' = rho - (q + tanh alpha) D e */
+static void tangent(series *s, poly *r, const poly *a) {
+  argument x = argue(s, a, 3);
+  poly *q = &s->scratch[0], *W = &s->scratch[1];
+  double first, error = at_zero(s, AMBIT_OP_TANH, &x.alpha, &first);
+  start(q, s->order + 1, first), start(W, s->order + 1, 0);
+  for (uint32_t k = 0; k <= s->order; k++) {
+    if (k) integrate_order(q, x.D, W, k, 1);
+    poly_set(W, k, dd_sub((dd) { k == 0, 0 }, poly_dot(q, q, 0, k, k)));
+  }
+  poly *square = &s->scratch[6], *one = &s->scratch[7];
+  poly_mul(square, 2 * s->order + 3, q, q);
+  poly_constant(one, (dd) { 1, 0 }, 0);
+  poly_add(W, one, square, -1);
+  error += residual(s, q, x.D, W, 1) + poly_norm(x.D) * W->tail;
+  double growth = enclose_above(s, AMBIT_OP_EXP, (1 + poly_norm(q)) * swing_of(&x.alpha) * SLACK);
+  q->tail = (error * growth + x.T) * SLACK + DD_TINY;
+  saturate(s, q, x.lo, x.hi);
+  poly_copy(r, q);
+}
+
 /* q' W = numerator up to rho, W > 0: |q - g| <= |q(0) - g(0)| + rho / inf W; q_0 is set */
 static double by_quotient(series *s, poly *q, const poly *W, const poly *numerator) {
   poly *slope = &s->scratch[4], *product = &s->scratch[5];
@@ -310,7 +346,7 @@ void series_function(series *s, uint32_t op, poly *r, const poly *a, const poly 
   case AMBIT_OP_ATAN: arc_tangent(s, r, a); break;
   case AMBIT_OP_ATAN2: angle(s, r, a, b); break;
   case AMBIT_OP_TAN: ratio(s, AMBIT_OP_SIN, AMBIT_OP_COS, r, a); break;
-  case AMBIT_OP_TANH: ratio(s, AMBIT_OP_SINH, AMBIT_OP_COSH, r, a); break;
+  case AMBIT_OP_TANH: tangent(s, r, a); break;
   case AMBIT_OP_ASIN:
   case AMBIT_OP_ACOS: arc(s, op, r, a); break;
   case AMBIT_OP_ABS:

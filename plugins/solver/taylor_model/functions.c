@@ -118,6 +118,14 @@ static void expand(uint32_t op, uint32_t d, double u, double *c) {
     c[0] = sqrt(u);
     for (uint32_t k = 1; k <= d; k++) c[k] = c[k - 1] * (1.5 - k) / k / u;
     return;
+  case AMBIT_OP_TANH: /* y' = s, s = 1 - y^2 = 1 / cosh(u)^2 */
+    c[0] = tanh(u);
+    for (uint32_t k = 0; k < d; k++) {
+      double slope = k ? 0 : 1 / (cosh(u) * cosh(u));
+      for (uint32_t i = 0; i <= k && k; i++) slope -= c[i] * c[k - i];
+      c[k + 1] = slope / (k + 1.0);
+    }
+    return;
   default: /* arc tangent: (1 + u^2) y' = 1, order by order */
     c[0] = atan(u);
     for (uint32_t k = 1; k <= d; k++) {
@@ -249,6 +257,32 @@ static uint32_t arc_tangent(series *s, cell to, cell a) {
   return error < INFINITY ? 0 : BAD;
 }
 
+/* to := the range of f over that of a, if its error is not less; f is bounded */
+static void saturate(const series *s, uint32_t op, cell to, cell a, double error) {
+  bounds r = range(s, a), f = enclose(s, op, r, r);
+  double mid = 0.5 * (f.lo + f.hi), rad = larger(f.hi - mid, mid - f.lo);
+  if (!(error < rad)) cell_constant(s->space, to, mid, rad + TINY);
+}
+
+/* E y = (1 - y^2) E u + R: e = y - tanh u obeys e' = R/s - (y + tanh u) u' e */
+static uint32_t tangent(series *s, cell to, cell a) {
+  const space *w = s->space;
+  cell u = series_scratch(s, 10), y = series_scratch(s, 5), q = series_scratch(s, 6), one = series_scratch(s, 4);
+  double c[DEGREE_MAX + 1], u0 = first(s, a), r = cell_rad(a);
+  centre(s, u, a);
+  expand(AMBIT_OP_TANH, w->d, u0, c), horner(s, y, c, u);
+  sum_clear(w, &s->sum);
+  sum_add(w, &s->sum, -1, y, y);
+  sum_take(w, &s->sum, 1, q);
+  cell_constant(w, one, 1, 0);
+  cell_add(w, q, q, one, 1);
+  double error = start_error(s, AMBIT_OP_TANH, u0, 0, first(s, y)) + ray(s, y, u, q, 1);
+  error = error * exp_above(s, (1 + cell_norm(y)) * swing(u)) + r;
+  finish(s, to, y, error);
+  saturate(s, AMBIT_OP_TANH, to, a, error);
+  return cell_rad(to) < INFINITY ? 0 : BAD;
+}
+
 /* The angle of (b, a) off the cut: about theta_0 + atan of the tangent in axes turned by theta_0. From
 ** (a^2 + b^2) E y = b E a - a E b + R. */
 static uint32_t angle(series *s, cell to, cell a, cell b) {
@@ -326,6 +360,7 @@ uint32_t series_function(series *s, uint32_t op, cell to, cell pair, cell a, cel
   case AMBIT_OP_LOG: return logarithm(s, to, a);
   case AMBIT_OP_SQRT: return square_root(s, to, a);
   case AMBIT_OP_ATAN: return arc_tangent(s, to, a);
+  case AMBIT_OP_TANH: return tangent(s, to, a);
   case AMBIT_OP_ATAN2: return angle(s, to, a, b);
   default: return BAD;
   }

@@ -123,6 +123,21 @@ static double angle_remainder(const zono *z, uint32_t a, uint32_t b) {
          64 * UNIT * (0.5 + 2 * size);
 }
 
+/* 1 - tanh(x)^2 <= 4 e^-2|x| and 1 */
+static double tanh_slope_above(const zono *z, double x) {
+  return fmin(1, 4 * value_of(z, AMBIT_OP_EXP, -2 * fabs(x), 0));
+}
+
+/* With v = tanh c, q = 1 - v^2: derivatives q, -2 v q, (6 v^2 - 2) q and v (16 - 24 v^2) q, of which the last is below
+** 8 q and 4.1. That phase 1 has q as (1 - v) (1 + v), off by 8 units, is in the last terms. */
+static double tanh_remainder(const zono *z, uint32_t a) {
+  const double *x = row_at(z, a, 0);
+  double A = row_moving(&z->shape, x), q = tanh_slope_above(z, x[0]) + 32 * UNIT, near = fmax(fabs(x[0]) - A, 0);
+  double fourth = fmin(4.1, 8 * tanh_slope_above(z, near));
+  return remainder_of(z, a, 1, q, fmin(0.77, 2 * q) + 32 * UNIT, fmin(2, 4 * q) + 64 * UNIT, fourth * ABOVE) +
+         64 * UNIT * (A + A * A + A * A * A);
+}
+
 static double order0(const zono *z, uint32_t i) {
   const ambit_tape *t = z->program.tape;
   uint32_t op = t->op[i], a = t->a[i];
@@ -136,6 +151,7 @@ static double order0(const zono *z, uint32_t i) {
   case AMBIT_OP_COSH:
     v = value_of(z, AMBIT_OP_COSH, c, 0);
     return remainder_of(z, a, v, v, v, v, value_of(z, AMBIT_OP_COSH, fabs(c) + A, 0));
+  case AMBIT_OP_TANH: return tanh_remainder(z, a);
   case AMBIT_OP_ATAN: return remainder_of(z, a, 2, 1, 1, 2, 6);
   case AMBIT_OP_LOG:
     if (!(near > 0)) return INFINITY;
@@ -175,16 +191,15 @@ static void prepare(zono *z, uint32_t i) {
   uint32_t op = t->op[i], a = t->a[i], b = t->b[i], dst = t->dst[i];
   double *drop = drop_at(z, dst);
   product square = { 1, dst, dst }, quotient = { 1, dst, b }, log = { 1, dst, a };
+  if (is_line(z, i)) {
+    for (uint32_t k = 0; k <= last(z, dst); k++)
+      drop[k] = 8 * UNIT * (size_of(z, a, k) + (b == a ? 0 : size_of(z, b, k)));
+    return;
+  }
   switch (op) {
   case AMBIT_OP_ADD:
   case AMBIT_OP_SUB:
   case AMBIT_OP_NEG: drop_sum(z, dst); return;
-  case AMBIT_OP_ABS:
-  case AMBIT_OP_MIN:
-  case AMBIT_OP_MAX:
-    for (uint32_t k = 0; k <= last(z, dst); k++)
-      drop[k] = 8 * UNIT * (size_of(z, a, k) + (op == AMBIT_OP_ABS ? 0 : size_of(z, b, k)));
-    return;
   case AMBIT_OP_MUL: drop_product(z, dst, a, b, 0); return;
   case AMBIT_OP_SQR: drop_product(z, dst, a, a, 0); return;
   case AMBIT_OP_DIV: test(z, drop, orders(z, dst), 1, &quotient, a, 0, 0); return;
@@ -193,7 +208,7 @@ static void prepare(zono *z, uint32_t i) {
   case AMBIT_OP_ATAN:
   case AMBIT_OP_ATAN2: drop_angle(z, i); break;
   case AMBIT_OP_EXP: drop_product(z, dst, a, dst, 1); break;
-  default: drop_product(z, dst, a, t->aux[i], 1); /* SIN COS SINH COSH */
+  default: drop_product(z, dst, a, t->aux[i], 1); /* SIN COS SINH COSH TANH */
   }
   drop[0] = order0(z, i);
 }
@@ -284,11 +299,32 @@ static double angle(zono *z, uint32_t i, double length) {
   return drop[0] * ABOVE + (fmax(sum, 0) + moved * error + 1e-15 * drop[0]) / near;
 }
 
+/* the instruction that makes a slot, which is no constant or input */
+static uint32_t maker_of(const zono *z, uint32_t slot) { return slot - z->program.tape->nconst - z->program.tape->nin; }
+
+double tanh_aux_error(const zono *z, uint32_t i) {
+  uint32_t aux = z->program.tape->aux[i], square = z->program.tape->b[maker_of(z, aux)];
+  return (z->r[aux] + z->r[square]) * ABOVE;
+}
+
+static double evaluate(zono *z, uint32_t i, double length);
+
+/* u = V_y - tanh V_a: u' = V_y' - V_s V_a' + (V_s - (1 - V_y^2)) V_a' - (V_y + tanh V_a) V_a' u */
+static double tangent(zono *z, uint32_t i, double length) {
+  const ambit_tape *t = z->program.tape;
+  uint32_t dst = t->dst[i], a = t->a[i], aux = t->aux[i], last_one = maker_of(z, aux), square = t->b[last_one];
+  double moved = motion(z, a), off = 0;
+  if (moved > 0) off = evaluate(z, maker_of(z, square), length) + evaluate(z, last_one, length);
+  double sum = polynomial(drop_at(z, dst), last(z, dst), length) + tail(z, a, aux, 1) + off * moved;
+  return sum * value_of(z, AMBIT_OP_EXP, (1 + z->proof->high[dst]) * moved * ABOVE, 0);
+}
+
 static double evaluate(zono *z, uint32_t i, double length) {
   const ambit_tape *t = z->program.tape;
   uint32_t a = t->a[i], b = t->b[i], dst = t->dst[i];
   const double *drop = drop_at(z, dst), *low = z->proof->low;
   double sum = polynomial(drop, last(z, dst), length);
+  if (is_line(z, i)) return kink_defect(z, i, sum, length);
   if (orders(z, dst) == 1 && (last(z, a) || last(z, b))) return INFINITY; /* a tape with wrong degrees */
   switch (t->op[i]) {
   case AMBIT_OP_MUL: return sum + (z->proof->late[dst] = tail(z, a, b, 0));
@@ -307,9 +343,7 @@ static double evaluate(zono *z, uint32_t i, double length) {
   case AMBIT_OP_COS: return turning(z, i, length);
   case AMBIT_OP_ATAN:
   case AMBIT_OP_ATAN2: return angle(z, i, length);
-  case AMBIT_OP_ABS:
-  case AMBIT_OP_MIN:
-  case AMBIT_OP_MAX: return kink_defect(z, i, sum, length);
+  case AMBIT_OP_TANH: return tangent(z, i, length);
   default: return sum;
   }
 }

@@ -39,6 +39,15 @@ static move move_angle(const zono *z, uint32_t i, double d) {
   return clear ? (move) { d / r, d * d / (2 * near * near) } : no_move();
 }
 
+/* |f''| <= 0.77; of the line: kink.c */
+static move move_tanh(const zono *z, uint32_t i, double da) {
+  const ambit_tape *t = z->program.tape;
+  uint32_t dst = t->dst[i], aux = t->aux[i];
+  if (is_line(z, i)) return (move) { fabs(z->kinks->of[i].slope) * da, kink_second(z, i, da) };
+  double slope = z->proof->high[aux] + tanh_aux_error(z, i) + (1 + z->proof->high[dst]) * z->r[dst];
+  return (move) { fmin(1, slope) * da, 0.385 * da * da };
+}
+
 static move move_kink(const zono *z, uint32_t i, double da, double db) {
   double share_a, share_b;
   if (has_twin(z, i)) return (move) { larger(da, db) + z->r[z->program.tape->dst[z->kinks->of[i].twin]], 0 };
@@ -69,6 +78,7 @@ static move move_of(zono *z, uint32_t i, double da, double db) {
   case AMBIT_OP_COSH:
     return (
         move) { (high[t->aux[i]] + z->r[t->aux[i]]) * da, 0.5 * value_of(z, AMBIT_OP_COSH, high[a] + da, 0) * da * da };
+  case AMBIT_OP_TANH: return move_tanh(z, i, da);
   case AMBIT_OP_ATAN: return (move) { da, 0.5 * da * da };
   case AMBIT_OP_ATAN2: return move_angle(z, i, da + db);
   default: return move_kink(z, i, da, db);

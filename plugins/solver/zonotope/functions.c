@@ -59,6 +59,12 @@ static void set_pair(const zono *z, uint32_t op, double c, double g[4]) {
     set(g, b, sign * a, sign * b, a);
 }
 
+/* of tanh: 1 - v^2 = (1 - v) (1 + v) */
+static void set_tanh(const zono *z, double c, double g[4]) {
+  double v = value_of(z, AMBIT_OP_TANH, c, 0), q = (1 - v) * (1 + v);
+  set(g, v, q, -2 * v * q, q * (6 * v * v - 2));
+}
+
 /* value and derivatives at c; 0: undefined */
 static int derivatives(const zono *z, uint32_t op, double c, double g[4]) {
   double i = 1 / c, q = 1 / (1 + c * c), v;
@@ -75,6 +81,7 @@ static int derivatives(const zono *z, uint32_t op, double c, double g[4]) {
   case AMBIT_OP_COS:
   case AMBIT_OP_SINH:
   case AMBIT_OP_COSH: set_pair(z, op, c, g); return 1;
+  case AMBIT_OP_TANH: set_tanh(z, c, g); return 1;
   case AMBIT_OP_ATAN: set(g, value_of(z, op, c, 0), q, -2 * c * q * q, (6 * c * c - 2) * q * q * q); return 1;
   default: return 0;
   }
@@ -152,7 +159,8 @@ int zono_function(zono *z, uint32_t i, uint32_t k) {
   case AMBIT_OP_EXP: add_weighted(z, &sum, 1.0 / k, n.a, n.dst, k, 1, k); break;
   case AMBIT_OP_SIN:
   case AMBIT_OP_SINH:
-  case AMBIT_OP_COSH: add_weighted(z, &sum, 1.0 / k, n.a, n.aux, k, 1, k); break;
+  case AMBIT_OP_COSH:
+  case AMBIT_OP_TANH: add_weighted(z, &sum, 1.0 / k, n.a, n.aux, k, 1, k); break;
   case AMBIT_OP_COS: add_weighted(z, &sum, -1.0 / k, n.a, n.aux, k, 1, k); break;
   default:
     if (!z->has_inverse[i]) return 0;

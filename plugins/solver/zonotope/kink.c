@@ -1,5 +1,5 @@
-/* kink.c -- abs, min and max where the set crosses their kink: a line in the place of the kink, and by how much the
-** operation differs from it.
+/* kink.c -- abs, min and max where the set crosses their kink, and tanh where the set is wide: a line in the place of
+** the operation, and by how much it differs from it.
 **
 ** d is the operand of abs, or the difference a - b of min and max, which are b + (d -+ |d|) / 2. For any slope and
 ** offset, |d| = slope d + offset + theta, |theta| <= miss, the largest at the ends of d's range and at 0. Off the kink
@@ -12,14 +12,21 @@
 
 #define GRID 0x1p20 /* slopes are multiples of 1 / GRID, so that (1 + slope) / 2 and (1 - slope) / 2 are exact */
 
+/* of tanh: */
+#define SATURATED 22 /* |d| from which it is 1 or -1 to rounding, also some way further on; */
+#define WIDE 0.5     /* half width of d from which a line may be better than a polynomial; */
+#define STEEP 0.01   /* what a line misses from which on it is a kink that the set crosses, not a smooth function */
+
 static double larger(double a, double b) { return a > b ? a : b; }
 static double smaller(double a, double b) { return a < b ? a : b; }
+
+static int is_unary(uint32_t op) { return op == AMBIT_OP_ABS || op == AMBIT_OP_TANH; }
 
 /* of order k of the operand, times scale */
 static void add_operand(const zono *z, terms *sum, uint32_t i, uint32_t k, double scale) {
   const ambit_tape *t = z->program.tape;
   terms_row(&z->shape, sum, scale, coefficient(z, t->a[i], k));
-  if (t->op[i] != AMBIT_OP_ABS) terms_row(&z->shape, sum, -scale, coefficient(z, t->b[i], k));
+  if (!is_unary(t->op[i])) terms_row(&z->shape, sum, -scale, coefficient(z, t->b[i], k));
 }
 
 /* constant and the size of the rest of order 0 (plus scale times order 1) of the operand */
@@ -39,7 +46,7 @@ static double size_of(const zono *z, uint32_t i, double length) {
   double sum = 0, power = 1;
   for (uint32_t k = 0; k <= z->K; k++, power *= length) {
     sum += row_total(&z->shape, coefficient(z, t->a[i], k)) * power;
-    if (t->op[i] != AMBIT_OP_ABS) sum += row_total(&z->shape, coefficient(z, t->b[i], k)) * power;
+    if (!is_unary(t->op[i])) sum += row_total(&z->shape, coefficient(z, t->b[i], k)) * power;
   }
   return sum;
 }
@@ -74,20 +81,32 @@ static void choose_line(zono *z, uint32_t i) {
   k->offset = -lo * (hi / (hi - lo));
 }
 
+/* A line for tanh where Taylor's polynomial of degree 3 is further off, or where nothing but 1 or -1 is left of it. */
+void tanh_choose(zono *z, uint32_t i) {
+  kink *k = &z->kinks->of[i];
+  double m, c = centre_of(z, i, 0, &m), lo = c - m, hi = c + m, drift = k->is_line ? k->drift : 0;
+  tanh_line(z, k, lo, hi);
+  double missed = tanh_miss(z, k, lo, hi);
+  k->is_line = fabs(c) - m > SATURATED || (m > WIDE && missed < m * m * m * m / 6);
+  if (!k->is_line || missed < STEEP) return;
+  double ahead = fmin(fabs(drift), m);
+  tanh_line(z, k, drift < 0 ? lo - ahead : lo, drift > 0 ? hi + ahead : hi);
+}
+
 void kink_shares(const zono *z, uint32_t i, double *a, double *b) {
   double slope = z->kinks->of[i].slope;
   uint32_t op = z->program.tape->op[i];
-  *a = op == AMBIT_OP_ABS ? slope : op == AMBIT_OP_MAX ? 0.5 * (1 + slope) : 0.5 * (1 - slope);
-  *b = op == AMBIT_OP_ABS ? 0 : 1 - *a;
+  *a = is_unary(op) ? slope : op == AMBIT_OP_MAX ? 0.5 * (1 + slope) : 0.5 * (1 - slope);
+  *b = is_unary(op) ? 0 : 1 - *a;
 }
 
-static double offset_share(uint32_t op) { return op == AMBIT_OP_ABS ? 1 : op == AMBIT_OP_MAX ? 0.5 : -0.5; }
+static double offset_share(uint32_t op) { return is_unary(op) ? 1 : op == AMBIT_OP_MAX ? 0.5 : -0.5; }
 
 void kink_row(zono *z, uint32_t i, uint32_t k) {
   const ambit_tape *t = z->program.tape;
   double share_a, share_b;
   terms sum;
-  if (k == 0) choose_line(z, i);
+  if (k == 0 && is_kinked(t->op[i])) choose_line(z, i);
   note_total(z, i, k);
   kink_shares(z, i, &share_a, &share_b);
   terms_clear(&sum);
@@ -103,10 +122,11 @@ void kink_row(zono *z, uint32_t i, uint32_t k) {
 
 /* -- phase 2 */
 
-static int is_exact(const kink *k) { return k->offset == 0 && fabs(k->slope) == 1; }
+static int is_exact(const kink *k) { return !k->is_line && k->offset == 0 && fabs(k->slope) == 1; }
 
-/* greatest | |d| - slope d - offset | over [lo, hi] */
-static double miss(const kink *k, double lo, double hi) {
+/* greatest | |d| - slope d - offset | over [lo, hi], or of tanh */
+static double miss(const zono *z, const kink *k, double lo, double hi) {
+  if (k->is_line) return tanh_miss(z, k, lo, hi);
   double most = larger(fabs(fabs(lo) - k->slope * lo - k->offset), fabs(fabs(hi) - k->slope * hi - k->offset));
   if (lo < 0 && hi > 0) most = larger(most, fabs(k->offset));
   return most > 0 || !is_exact(k) ? most + 8 * UNIT * (fabs(lo) + fabs(hi) + fabs(k->offset)) : 0;
@@ -127,16 +147,16 @@ double kink_defect(zono *z, uint32_t i, double rounding, double length) {
   const kink *k = &z->kinks->of[i];
   find_range(z, i, length);
   if (has_twin(z, i)) return rounding;
-  double share = z->program.tape->op[i] == AMBIT_OP_ABS ? 1 : 0.5, off = miss(k, k->lo, k->hi);
+  double share = fabs(offset_share(z->program.tape->op[i])), off = miss(z, k, k->lo, k->hi);
   return share * (off + 4 * UNIT * fabs(k->offset)) + (is_exact(k) ? 0 : rounding);
 }
 
 double kink_second(const zono *z, uint32_t i, double distance) {
   const kink *k = &z->kinks->of[i];
   double lo = k->lo - distance, hi = k->hi + distance;
-  if (!z->kinks->may_cross[i] && lo <= 0 && hi >= 0) return -1;
-  double share = z->program.tape->op[i] == AMBIT_OP_ABS ? 1 : 0.5, most = miss(k, lo, hi);
-  return share * (larger(most - miss(k, k->lo, k->hi), 0) + 4 * UNIT * most);
+  if (!k->is_line && !z->kinks->may_cross[i] && lo <= 0 && hi >= 0) return -1;
+  double share = fabs(offset_share(z->program.tape->op[i])), most = miss(z, k, lo, hi);
+  return share * (larger(most - miss(z, k, k->lo, k->hi), 0) + 4 * UNIT * most);
 }
 
 /* -- the length of a step: lines are chosen at its start, so what they miss may grow only so much until its end */
@@ -150,17 +170,23 @@ void kinks_start(zono *z, double longest) {
   if (z->kinks->usual == 0) z->kinks->usual = longest;
   for (uint32_t i = 0; i < z->program.tape->ninstr; i++) {
     kink *k = &z->kinks->of[i];
-    if (!is_kinked(z->program.tape->op[i]) || has_twin(z, i)) continue;
-    k->missed = miss(k, k->lo, k->hi), k->width = 0.5 * (k->hi - k->lo);
+    uint32_t dst = z->program.tape->dst[i];
+    if (!is_line(z, i) || has_twin(z, i)) continue;
+    k->missed = miss(z, k, k->lo, k->hi), k->width = 0.5 * (k->hi - k->lo);
+    if (!k->is_line) continue;
+    k->width = tanh_half_width(z, k->lo, k->hi);
+    z->kinks->is_slot[dst] = k->missed >= STEEP;
   }
 }
 
 int kinks_fit(const zono *z, double length) {
   for (uint32_t i = 0; i < z->program.tape->ninstr; i++) {
     const kink *k = &z->kinks->of[i];
-    if (!is_kinked(z->program.tape->op[i]) || has_twin(z, i)) continue;
+    if (!is_line(z, i) || has_twin(z, i)) continue;
     double least = length > 0 ? BESIDE_STEP * z->kinks->usual * fabs(k->moved) / length : 0;
-    if (miss(k, k->lo, k->hi) > GROWTH * k->missed + BESIDE_WIDTH * k->width + least + BESIDE_SIZE * k->size) return 0;
+    double allowed = BESIDE_WIDTH * k->width + least + BESIDE_SIZE * k->size;
+    if (k->is_line) allowed = larger(BESIDE_WIDTH * k->width, k->missed < STEEP ? 2 * STEEP : 0);
+    if (miss(z, k, k->lo, k->hi) > GROWTH * k->missed + allowed) return 0;
   }
   return 1;
 }
@@ -169,7 +195,7 @@ void kinks_note(zono *z) {
   double length = fabs(z->h), faded = 0.97 * z->kinks->usual;
   z->kinks->usual = length > faded ? length : faded;
   for (uint32_t i = 0; i < z->program.tape->ninstr; i++)
-    if (is_kinked(z->program.tape->op[i])) z->kinks->of[i].drift = z->kinks->of[i].moved;
+    if (is_line(z, i)) z->kinks->of[i].drift = z->kinks->of[i].moved;
 }
 
 /* -- memory */
@@ -204,7 +230,9 @@ int kinks_open(zono *z) {
   k->is_slot = h->alloc(h, t->nslot);
   if (!k->of || !k->may_cross || !k->row || !k->is_slot) return 0;
   for (uint32_t i = 0; i < t->ninstr; i++)
-    if (is_kinked(t->op[i]) && !(k->of[i].total = h->alloc(h, (z->K_max + 1u) * sizeof(double)))) return 0;
+    if ((is_kinked(t->op[i]) || t->op[i] == AMBIT_OP_TANH) &&
+        !(k->of[i].total = h->alloc(h, (z->K_max + 1u) * sizeof(double))))
+      return 0;
   /* equations must be affine in the unknowns that they are solved for */
   for (uint32_t i = 0; i < t->ninstr; i++) k->may_cross[i] = !z->program.needed || !z->program.needed[t->dst[i]];
   find_twins(z);

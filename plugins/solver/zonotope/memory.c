@@ -52,7 +52,8 @@ static int takes_slope(uint32_t op) {
   case AMBIT_OP_ATAN:
   case AMBIT_OP_ATAN2:
   case AMBIT_OP_SINH:
-  case AMBIT_OP_COSH: return 1;
+  case AMBIT_OP_COSH:
+  case AMBIT_OP_TANH: return 1;
   default: return 0;
   }
 }

@@ -4,6 +4,7 @@
 ** each x', and as long as the rates of all parts that are left out stay within the budgets of the states (pace.c), they
 ** are left out, from the highest order on. No proof depends on anything here: what is dropped is in the lumps.
 */
+#include "kink.h"
 #include "proof.h"
 
 #define SHARE 0.25  /* of the budget, for each kind of parts */
@@ -47,6 +48,9 @@ static void find_worth(const zono *z, uint32_t i, uint32_t k, double worth[KINDS
   case AMBIT_OP_COS:
   case AMBIT_OP_SINH:
   case AMBIT_OP_COSH: add_product(z, a, t->aux[i], k, of_time, worth); return;
+  case AMBIT_OP_TANH:
+    if (!is_line(z, i)) add_product(z, a, t->aux[i], k, of_time, worth);
+    return;
   default: return;
   }
 }

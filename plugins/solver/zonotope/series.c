@@ -61,7 +61,8 @@ static int evaluate(zono *z, uint32_t i, uint32_t k) {
   uint32_t op = t->op[i], dst = t->dst[i];
   if (k > t->degree[dst]) return 1;
   if (op == AMBIT_OP_MUL) return put_product(z, i, k), 1;
-  if (is_kinked(op)) return kink_row(z, i, k), 1;
+  if (op == AMBIT_OP_TANH && k == 0) tanh_choose(z, i);
+  if (is_line(z, i)) return kink_row(z, i, k), 1;
   terms sum;
   terms_clear(&sum);
   switch (op) {

@@ -4,6 +4,7 @@
 ** orders share the symbol of time, the last one. Linear parts of orders k > 0 are taken at h^k / 2, the other half and
 ** terms of degree 2 are radius.
 */
+#include "kink.h"
 #include "proof.h"
 
 /* At least the most of tau - tau^k over [0, 1]: the tangent at any point lies above it, so pow need not be right. */
@@ -80,6 +81,14 @@ static int angle_slope(const zono *z, const sweeps *w, uint32_t i) {
   return 1;
 }
 
+/* 1 - tanh^2 is the aux slot a, as far as that is 1 - y^2, and differs from it by at most (|y| + 1) r */
+static void tanh_slope(const zono *z, const sweeps *w, uint32_t i, double *to, int bounded) {
+  const ambit_tape *t = z->program.tape;
+  uint32_t dst = t->dst[i], aux = t->aux[i];
+  double off = bounded ? tanh_aux_error(z, i) + (1 + z->proof->high[dst]) * z->r[dst] : 0;
+  form_widen(&w->forms, to, proof_form(w, w->value, aux), off);
+}
+
 static int slope_of(const zono *z, const sweeps *w, uint32_t i, int bounded) {
   const ambit_tape *t = z->program.tape;
   const forms *f = &w->forms;
@@ -104,6 +113,9 @@ static int slope_of(const zono *z, const sweeps *w, uint32_t i, int bounded) {
   case AMBIT_OP_COS:
   case AMBIT_OP_SINH:
   case AMBIT_OP_COSH: form_widen(f, to, proof_form(w, w->value, aux), bounded ? z->r[aux] : 0); return 1;
+  case AMBIT_OP_TANH:
+    if (!is_line(z, i)) tanh_slope(z, w, i, to, bounded);
+    return 1;
   case AMBIT_OP_ATAN:
   case AMBIT_OP_ATAN2: return angle_slope(z, w, i);
   default: return 1;

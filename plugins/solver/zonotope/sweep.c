@@ -74,6 +74,12 @@ static void pass(const zono *z, const sweeps *w, uint32_t i, int inner) {
     if (to_a && share_a != 0) form_add(f, a, share_a, x);
     if (to_b && share_b != 0) form_add(f, b, share_b, x);
     return;
+  case AMBIT_OP_TANH:
+    if (is_line(z, i))
+      form_add(f, a, z->kinks->of[i].slope, x);
+    else
+      form_product(f, a, 1, x, slope);
+    return;
   case AMBIT_OP_COS: form_product(f, a, -1, x, slope); return;
   case AMBIT_OP_DIV:
   case AMBIT_OP_ATAN2:

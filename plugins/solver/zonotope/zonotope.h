@@ -170,6 +170,8 @@ void zono_choose_order(zono *z); /* pace.c: z->K of the next step, before zono_s
 double zono_choose_step(zono *z, double h_most);
 /* defect.c: z->r of all slots (and rr_out := what outputs fail by) over [0, z->h]; for the initial tape too */
 int zono_defects(zono *z);
+/* by how much the aux slot of TANH differs from 1 minus the square of its result, as polynomials */
+double tanh_aux_error(const zono *z, uint32_t i);
 /* forward bounds |Delta| of all slots from those of the inputs ([nin], in the order of the tape), with z->r as lumps;
 ** delta [nslot]; used for the initial tape too, where rows have one order and h is 0 */
 int zono_spread(zono *z, const double *input, double *delta);
