@@ -28,7 +28,6 @@ static const ambit_solver solver = {
   .size = sizeof solver,
   .want = AMBIT_WANT_RHS | AMBIT_WANT_SERIES | AMBIT_WANT_INITIAL | AMBIT_WANT_WORKERS,
   .needs_rigorous = 1,
-  .arithmetics = "interval", /* its polynomials are its own */
   .param = param,
   .open = flow_open,
   .run = flow_run,
