@@ -151,6 +151,8 @@ function methods:dynamics(t)
   local parts, form = core.part_count(self.handle), form_of(t, "dynamics")
   if self.cached_parts ~= parts or self.cached_form ~= form then
     self.cached = ode.of_system(core.dynamics(self.handle, form), self.name, self)
+    local controllers = rawget(self, "controllers")
+    if controllers then require "ambit.sampled".attach(self.cached, controllers) end
     self.cached_parts, self.cached_form = parts, form
   end
   return self.cached

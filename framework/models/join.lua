@@ -12,6 +12,7 @@ local function system_of(value, i)
   if not ode.is(value) then
     check.fail("join: entry %d: expected a mechanism or an ambit.ode, got %s", i, check.kind(value))
   end
+  require "ambit.sampled".refuse(value, "join")
   local invariants = core.system_invariants(value.system)
   if #invariants > 0 then
     check.fail("join: `%s` has closed loops or quaternions, whose equations would be lost: build both in one mechanism",

@@ -79,6 +79,7 @@ local homes = {
   measure = [[position orientation velocity angular_velocity acceleration distance relative_pose relative_velocity angle
     total_mass centre_of_mass momentum reaction]],
   mimic = "coordinate",
+  sampled = "sampled",
   state = "state",
   tree = "tree",
 }

@@ -40,7 +40,10 @@ function Ode:rate(name)
 end
 
 for _, name in ipairs { "text", "lua", "latex", "modelica" } do
-  Ode[name] = function(...) return require "ambit.source".methods[name](...) end
+  Ode[name] = function(self, ...)
+    if self.sampled then require "ambit.sampled".refuse(self, name) end
+    return require "ambit.source".methods[name](self, ...)
+  end
 end
 check.methods(Ode, Ode)
 
@@ -142,14 +145,18 @@ local function read_rates(result, self, s, p, t)
   return rates
 end
 
--- self: { states, units, symbols } with which the equations are written
-local function write_rates(equations, self, parameters)
+-- self: { states, units, symbols } with which the equations are written; own: of how many of them, the others rest
+local function write_rates(equations, self, parameters, own)
   local by_name = {}
   for i, name in ipairs(self.states) do by_name[name] = ode.symbol(self, i) end
   local s, p, time = strict(by_name, "ode: states"), strict(parameters, "ode: parameters"), core.time()
   local result = equations
   if type(result) == "function" then result = formula.call(result, "ode: equations", s, p, time) end
-  return read_rates(result, self, s, p, time)
+  if not own or own == #self.states then return read_rates(result, self, s, p, time) end
+  local first = setmetatable({ states = table.move(self.states, 1, own, 1, {}) }, { __index = self })
+  local rates = read_rates(result, first, s, p, time)
+  for i = own + 1, #self.states do rates[i] = core.expression(0) end
+  return rates
 end
 
 -- Is there something to be called again with other parameters?
@@ -161,10 +168,23 @@ local function is_rewritable(equations)
   return type(equations) == "table"
 end
 
+-- What controllers hold are states, too.
+local function add_held(controllers, names, units)
+  local taken = {}
+  for _, name in ipairs(names) do taken[name] = true end
+  for _, controller in ipairs(controllers) do
+    for _, state in ipairs(require "ambit.sampled".states(controller)) do
+      if taken[state.name] then check.fail("ode: sampled: there are two states `%s`", state.name) end
+      taken[state.name] = true
+      names[#names + 1], units[#units + 1] = state.name, state.unit
+    end
+  end
+end
+
 -- ambit.ode { states = { "x" }, parameters = { a = 1 }, equations = function(s, p, t) return { x = -p.a * s.x } end }
 function ode.new(t)
   check.table(t, "ode")
-  check.keys(t, { "states", "parameters", "equations", "name", "check_units" }, "ode", 1)
+  check.keys(t, { "states", "parameters", "equations", "name", "check_units", "sampled" }, "ode", 1)
   if t.check_units ~= nil and type(t.check_units) ~= "boolean" then
     check.fail("ode: check_units: expected true or false, got %s", check.kind(t.check_units))
   end
@@ -173,7 +193,9 @@ function ode.new(t)
     check.fail "ode: equations are missing: a function(s, p, t) that returns the derivatives"
   end
   local names, units = read_states(t.states)
-  local symbols, values = {}, {}
+  local own, symbols, values = #names, {}, {}
+  local controllers = t.sampled ~= nil and require "ambit.sampled".list(t.sampled, "ode: sampled") or {}
+  add_held(controllers, names, units)
   for i, name in ipairs(names) do
     symbols[i] = core.symbol(name, units[i])
     values[name] = symbols[i]
@@ -181,10 +203,11 @@ function ode.new(t)
   local parameters = read_parameters(t.parameters, values)
   local unchecked = t.check_units == false
   local rates = write_rates(t.equations, { states = names, units = units, symbols = symbols, unchecked = unchecked },
-    parameters)
+    parameters, own)
   local self = ode.of_system(core.system(names, units, symbols, rates), t.name or t[1] or "ode", nil, parameters,
-    is_rewritable(t.equations) and t.equations)
+    #controllers == 0 and is_rewritable(t.equations) and t.equations)
   self.unchecked = unchecked
+  if #controllers > 0 then require "ambit.sampled".attach(self, controllers) end
   return self
 end
 
@@ -232,8 +255,12 @@ end
 function ode.replaced(self, from, to)
   local invariants, names = core.system_invariants(self.system)
   local rates = core.substitute(self.rates, from, to)
-  return core.system(self.states, self.units, self.symbols, rates, core.substitute(invariants, from, to), names,
-    self.system, from, to), rates
+  local system = core.system(self.states, self.units, self.symbols, rates, core.substitute(invariants, from, to), names,
+    self.system, from, to)
+  for _, jump in ipairs(core.system_jumps(self.system)) do
+    core.system_jump(system, jump[1], jump[2], core.substitute(jump[3], from, to))
+  end
+  return system, rates
 end
 
 -- The same equations with other values of parameters: { v = expression }, by name, or by the uncertain datum that is

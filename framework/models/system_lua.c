@@ -12,6 +12,7 @@ static void mark(ambit_holder *holder, ambit_graph *g) {
   if (s->state) ambit_graph_mark(g, s->nx, s->state);
   if (s->rate) ambit_graph_mark(g, s->nx, s->rate);
   if (s->invariant) ambit_graph_mark(g, s->ninvariant, s->invariant);
+  for (size_t i = 0; i < s->njump; i++) ambit_graph_mark(g, s->nx, s->jump[i].to);
   const ambit_system_source *source = s->source;
   if (!source) return;
   if (source->mark) source->mark(source, g);
@@ -117,6 +118,40 @@ static int system_new(lua_State *L) {
   add_invariants(L, s);
   add_implicit(L, s);
   lua_settop(L, 11);
+  return 1;
+}
+
+/* system_jump(system, period, first, {expression}): its states become these, every period from `first` on */
+static int system_jump(lua_State *L) {
+  ambit_lua_system *s = ambit_lua_check_outline(L, 1);
+  ambit_system *system = &s->system;
+  luaL_argcheck(L, (size_t)luaL_len(L, 4) == system->nx, 4, "does not fit");
+  ambit_jump *jump = ambit_arena_alloc(s->arena, (system->njump + 1) * sizeof *jump);
+  ambit_expr *to = ambit_arena_alloc(s->arena, system->nx * sizeof *to);
+  if (!jump || !to) ambit_lua_error(L, "out of memory");
+  if (system->njump) memcpy(jump, system->jump, system->njump * sizeof *jump);
+  memcpy(to, ambit_lua_to_array(L, 4, system->nx), system->nx * sizeof *to);
+  jump[system->njump] = (ambit_jump) {
+    .period = ambit_lua_to_enclosure(L, 2, "period").x, .first = ambit_lua_to_enclosure(L, 3, "first").x, .to = to
+  };
+  system->jump = jump, system->njump++;
+  return 0;
+}
+
+/* system_jumps(system) -> { { period, first, {expression} }, ... } */
+static int system_jumps(lua_State *L) {
+  const ambit_system *s = &ambit_lua_check_outline(L, 1)->system;
+  lua_createtable(L, (int)s->njump, 0);
+  for (size_t i = 0; i < s->njump; i++) {
+    lua_createtable(L, 3, 0);
+    ambit_lua_push_enclosure(L, s->jump[i].period, 0);
+    lua_rawseti(L, -2, 1);
+    ambit_lua_push_enclosure(L, s->jump[i].first, 0);
+    lua_rawseti(L, -2, 2);
+    ambit_lua_push_expressions(L, s->nx, s->jump[i].to);
+    lua_rawseti(L, -2, 3);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
   return 1;
 }
 
@@ -243,8 +278,9 @@ static int system_rates(lua_State *L) {
 void ambit_lua_open_system(lua_State *L, ambit_lua *core) {
   static const luaL_Reg meta[] = { { "__gc", close }, { NULL, NULL } };
   static const luaL_Reg functions[] = { { "system", system_new }, { "system_parts", system_parts },
-    { "system_right", system_right }, { "system_invariants", system_invariants },
-    { "system_implicit", system_implicit }, { "system_rates", system_rates }, { NULL, NULL } };
+    { "system_right", system_right }, { "system_jump", system_jump }, { "system_jumps", system_jumps },
+    { "system_invariants", system_invariants }, { "system_implicit", system_implicit },
+    { "system_rates", system_rates }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
   ambit_lua_new_type(L, core, AMBIT_TYPE_SYSTEM, meta);
   lua_pop(L, 1);

@@ -17,11 +17,18 @@ local function any_wave(t0, span)
   return core.max(-1, core.min(1, core.between(1, STEEPEST, "steepness of a wave") * sine))
 end
 
+-- What may depend on what varies: right-hand sides, and laws of sampled controllers.
+function wave.formulas(system)
+  local all = table.move(system.rates, 1, #system.rates, 1, {})
+  if not system.sampled then return all end
+  return table.move(require "ambit.sampled".formulas(system), 1, #system.sampled * #system.states, #all + 1, all)
+end
+
 -- A request without what varies: waves take its place; nil: of some of it no value is known to be allowed.
 function wave.instead(q)
   local from, to = {}, {}
   local span = math.abs(q.times[#q.times] - q.times[1])
-  for _, leaf in ipairs(core.leaves(q.system.rates)) do
+  for _, leaf in ipairs(core.leaves(wave.formulas(q.system))) do
     if leaf.kind == "varying" then
       if leaf.inner_lo > leaf.inner_hi then return nil end
       local lo, hi = core.expression(leaf.inner_lo), core.expression(leaf.inner_hi)

@@ -15,6 +15,7 @@ local ambit = {
   load = later("robot.load", "load"),
   chain = later("chain", "new"),
   ode = later("ode", "new"),
+  sampled = later("sampled", "new"),
   join = later("join", "join"),
   evaluate = later("evaluate", "evaluate"),
   simulate = later("simulate", "simulate"),

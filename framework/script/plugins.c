@@ -99,6 +99,8 @@ static int plugin(lua_State *L) {
       lua_setfield(L, -2, "rigorous");
       lua_pushboolean(L, (solver->want & AMBIT_WANT_VARYING) != 0);
       lua_setfield(L, -2, "varying");
+      lua_pushboolean(L, (solver->want & AMBIT_WANT_JUMP) != 0);
+      lua_setfield(L, -2, "sampled");
     }
   } else if (strcmp(kind, "arithmetic") == 0) {
     const ambit_arithmetic *arithmetic;

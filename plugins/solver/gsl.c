@@ -45,7 +45,7 @@ static const ambit_param param[] = {
 typedef struct solver {
   const ambit_host *host;
   ambit_problem problem;
-  ambit_lane rhs, jacobian;
+  ambit_lane rhs, jacobian, *jump;        /* jump [njump] */
   double *x, *start, *p, *before, *after; /* [nx] [nx] [np] [nx] [nx] */
   double step_max, steps_max;
   ambit_work *counted;
@@ -94,7 +94,7 @@ static uint32_t want_for(const double *option) {
 #define METHOD(name, jacobian) jacobian,
   static const int reads_jacobian[] = { METHODS(METHOD) };
 #undef METHOD
-  return AMBIT_WANT_RHS | (reads_jacobian[(size_t)option[OPTION_METHOD]] ? AMBIT_WANT_JACOBIAN : 0);
+  return AMBIT_WANT_RHS | AMBIT_WANT_JUMP | (reads_jacobian[(size_t)option[OPTION_METHOD]] ? AMBIT_WANT_JACOBIAN : 0);
 }
 
 static double middle(double lo, double hi) { return lo == hi ? lo : 0.5 * lo + 0.5 * hi; }
@@ -123,6 +123,9 @@ static int allocate(solver *s) {
     if (!(*array[i] = s->host->alloc(s->host, state))) return 0;
   s->p = s->host->alloc(s->host, (p->np + 1u) * sizeof(double));
   if (!s->p || ambit_lane_open(&s->rhs, s->host, p->rhs, p->arithmetic, p->actx) != AMBIT_OK) return 0;
+  if (p->njump) s->jump = s->host->alloc(s->host, p->njump * sizeof *s->jump);
+  for (uint32_t i = 0; i < p->njump; i++)
+    if (!s->jump || ambit_lane_open(&s->jump[i], s->host, p->jump[i], p->arithmetic, p->actx) != AMBIT_OK) return 0;
   return !p->jacobian || ambit_lane_open(&s->jacobian, s->host, p->jacobian, p->arithmetic, p->actx) == AMBIT_OK;
 }
 
@@ -131,6 +134,7 @@ static void close(void *self) {
   if (s->driver) gsl_odeiv2_driver_free(s->driver);
   ambit_lane_close(&s->rhs);
   ambit_lane_close(&s->jacobian);
+  for (uint32_t i = 0; s->jump && i < s->problem.njump; i++) ambit_lane_close(&s->jump[i]);
 }
 
 static void take_middle(solver *s) {
@@ -227,20 +231,42 @@ static int step_over(const solver *s, double *t, double to) {
   return *t = to, 1;
 }
 
+/* the instant of jump number `done`; infinite: there is none */
+static double jump_at(const ambit_problem *p, uint32_t done) {
+  return done < p->njump_time ? p->jump_time[done] : INFINITY;
+}
+
+/* All jumps of the instant t. GSL's steppers know what was before, and forget it. */
+static int jump(const solver *s, double t, uint32_t *done) {
+  const ambit_problem *p = &s->problem;
+  int status = GSL_SUCCESS;
+  if (jump_at(p, *done) != t) return status;
+  for (; jump_at(p, *done) == t && status == GSL_SUCCESS; ++*done) {
+    status = evaluate(s, &s->jump[p->jump_number[*done]], t, s->x, s->before);
+    memcpy(s->x, s->before, p->nx * sizeof *s->x);
+  }
+  gsl_odeiv2_evolve_reset(s->driver->e);
+  gsl_odeiv2_step_reset(s->driver->s);
+  return status;
+}
+
 static ambit_status run(void *self, ambit_sink *sink) {
   solver *s = self;
   const ambit_problem *p = &s->problem;
   gsl_odeiv2_driver *d = s->driver;
   double t = p->time[0], h = d->h, steps = 0;
+  uint32_t jumped = 0;
   gsl_odeiv2_driver_reset(d);
   memcpy(s->x, s->start, p->nx * sizeof *s->x);
   for (uint32_t next = 1; next < p->ntime; next += t == p->time[next]) {
-    double from = t;
+    double from = t, goal = p->time[next];
+    int jumps = jump(s, t, &jumped);
+    if (jumps != GSL_SUCCESS) return give_up(s, t, jumps);
+    if (jump_at(p, jumped) < goal) goal = jump_at(p, jumped);
     if (steps++ >= s->steps_max) return too_many(s, t);
     int code = GSL_SUCCESS;
     if (fabs(h) > s->step_max) h = copysign(s->step_max, h);
-    if (!step_over(s, &t, p->time[next]))
-      code = gsl_odeiv2_evolve_apply(d->e, d->c, d->s, &s->system, &t, p->time[next], &h, s->x);
+    if (!step_over(s, &t, goal)) code = gsl_odeiv2_evolve_apply(d->e, d->c, d->s, &s->system, &t, goal, &h, s->x);
     if (s->counted) s->counted->tried = d->e->count + d->e->failed_steps;
     if (code != GSL_SUCCESS || t == from || !all_finite(s->x, p->nx))
       return give_up(s, from, code ? code : GSL_EFAILED);
@@ -251,7 +277,7 @@ static ambit_status run(void *self, ambit_sink *sink) {
 
 static const ambit_solver interface = {
   .size = sizeof interface,
-  .want = AMBIT_WANT_RHS,
+  .want = AMBIT_WANT_RHS | AMBIT_WANT_JUMP,
   .needs_rigorous = 0,
   .arithmetics = "real",
   .param = param,

@@ -9,6 +9,10 @@ around(c, tolerance [, name]): a datum within a tolerance, one fresh unknown: ar
   varying = [[
 varying(lo, hi [, name]): a function of time, never known but for its bounds: a disturbance, noise, a load. In
 equations, forces and laws; each use of the same one is the same function.]],
+  sampled = [[
+sampled { period = "1 ms", outputs = { "u" }, memory = { sum = 0 }, delay = 0, quantum = { x = "0.1" }, law =
+function(s, m, t) return { u = ... }, { sum = ... } end }: a controller with a clock. ambit.ode { ..., sampled =
+controller }, or m:sampled(controller).u.]],
   number = 'number(x [, unit]): an expression: number "8/3", number("35 mm", "m").',
   interval = [[
 interval(lo, hi), interval "[0.1, 0.2]": an enclosure to calculate with. It has lo, hi, partial, width(), mid(), rad(),

@@ -84,6 +84,23 @@ function ambit.between(lo, hi, name) end
 ---@return ambit.expression
 function ambit.varying(lo, hi, name) end
 
+---A controller that looks at its plant at the instants of a clock and holds what it finds.
+---@class ambit.sampled
+---@class ambit.sampled.definition
+---@field [1]? string name
+---@field name? string
+---@field period ambit.datum "1 ms"
+---@field start? ambit.datum of the first sample after the start of a run
+---@field outputs table names, or names and units
+---@field memory? table<string, ambit.value> initial values
+---@field delay? integer samples until an output acts
+---@field quantum? ambit.value|table<string, ambit.value> steps of the sensors' readings
+---@field law fun(s: table, m: table, t: ambit.expression): any, table?
+
+---@param t ambit.sampled.definition
+---@return ambit.sampled
+function ambit.sampled(t) end
+
 ---@param is_exact boolean true: arithmetic on texts is Ambit's, as in the command; false: Lua's, which rounds
 ---@return "ambit"|"lua"|"watched" # whose it was
 function ambit.text_arithmetic(is_exact) end
@@ -248,6 +265,9 @@ function mechanism:coordinates() end
 ---@param t { [1]: string, unit: string?, rate: ambit.datum|fun(q: table<string, ambit.expression>, x: ambit.expression, t: ambit.expression): ambit.datum }
 ---@return ambit.expression # the state
 function mechanism:state(t) end
+---@param controller ambit.sampled
+---@return table<string, ambit.expression> # its outputs, for laws of torques and forces
+function mechanism:sampled(controller) end
 ---@return table<string, ambit.expression> # above 0 where a limit of the robot's file is exceeded; for `safe` of verify
 function mechanism:limit_excess() end
 ---@return table[] # events of simulate: each limit of the robot's file, where it is passed
@@ -378,7 +398,7 @@ function ode:latex() end
 ---@return string # a model ... end
 function ode:modelica() end
 
----@param t { states: string[]|table<string, string>, parameters: table<string, ambit.datum>?, equations: (fun(s: table<string, ambit.expression>, p: table<string, ambit.expression>, t: ambit.expression): table<string, ambit.datum>)|table<string, ambit.datum|function>, name: string?, check_units: boolean? }
+---@param t { states: string[]|table<string, string>, parameters: table<string, ambit.datum>?, equations: (fun(s: table<string, ambit.expression>, p: table<string, ambit.expression>, t: ambit.expression): table<string, ambit.datum>)|table<string, ambit.datum|function>, name: string?, check_units: boolean?, sampled: ambit.sampled|ambit.sampled[]|nil }
 ---@return ambit.ode
 function ambit.ode(t) end
 ---Several mechanisms and systems as one; a name may come first.

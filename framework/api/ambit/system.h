@@ -34,6 +34,13 @@ struct ambit_system_source {
   void (*mark)(const ambit_system_source *self, ambit_graph *g); /* what it keeps besides form and rates, or NULL */
 };
 
+/* At `first` after the start of a run, and every `period` after that, the states become `to`, over states, data, what
+** varies, and time. Both are numbers that are known within the rounding of a decimal. */
+typedef struct ambit_jump {
+  ambit_interval period, first;
+  const ambit_expr *to; /* [nx] */
+} ambit_jump;
+
 typedef struct ambit_system {
   ambit_graph *graph;
   size_t nx;
@@ -48,6 +55,8 @@ typedef struct ambit_system {
   /* of this very system: who changes states, rates or data drops it, or changes it in the same way; NULL: there is
   ** none, and no implicit form */
   ambit_system_source *source;
+  size_t njump;
+  const ambit_jump *jump; /* those of one instant in this order */
 } ambit_system;
 
 /* *rate := the right-hand sides, [nx]. */

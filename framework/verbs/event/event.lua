@@ -39,6 +39,16 @@ local function is_stop(value, what)
   check.fail("%s: expected true or false, got %s", what, check.kind(value))
 end
 
+local function check_steady(g, system, what)
+  if not system.sampled then return end
+  for _, leaf in ipairs(core.leaves { g }) do
+    if leaf.kind == "symbol" and system.defaults[leaf.name] then
+      check.fail("%s: an event is a zero of what moves steadily, but g depends on `%s`, which jumps at samples", what,
+        leaf.name)
+    end
+  end
+end
+
 -- { g, name, direction, stop } of each entry; own_keys: what an entry may say besides
 function event.list(t, system, what, own_keys)
   check.table(t, what)
@@ -56,6 +66,7 @@ function event.list(t, system, what, own_keys)
     list[i] = { g = event.formula(entry.g, system, place .. ".g"), name = name,
       direction = event.direction(entry.direction, place .. ".direction"),
       stop = is_stop(entry.stop, place .. ".stop"), entry = entry }
+    check_steady(list[i].g, system, place .. ".g")
   end
   return list
 end

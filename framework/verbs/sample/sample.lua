@@ -149,8 +149,9 @@ local function request_of(t)
 end
 
 local function without_varying(q)
-  for _, leaf in ipairs(core.leaves(q.system.rates)) do
-    if leaf.kind == "varying" then return require "ambit.wave".instead(q) or q end
+  local wave = require "ambit.wave"
+  for _, leaf in ipairs(core.leaves(wave.formulas(q.system))) do
+    if leaf.kind == "varying" then return wave.instead(q) or q end
   end
   return q
 end

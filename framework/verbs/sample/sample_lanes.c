@@ -19,7 +19,7 @@
 struct ambit_lanes {
   const ambit_problem *problem;
   ambit_arena *arena;
-  ambit_batch *batch;
+  ambit_batch *batch, **jump; /* jump [njump] */
   size_t width;
   double *in;              /* [nin][n] states of a stage, parameters, time */
   double *x, *new_x;       /* [nx][n] */
@@ -58,6 +58,10 @@ ambit_status ambit_lanes_open(const ambit_problem *p, const ambit_arithmetic *ar
   *l = (ambit_lanes) { .problem = p, .arena = arena, .width = width };
   ambit_status status = allocate(l) ? AMBIT_OK : ambit_fail(f, AMBIT_NOMEM, "out of memory");
   if (status == AMBIT_OK) status = ambit_batch_open(p->rhs, arithmetic, ctx, &l->batch, f);
+  l->jump = ambit_arena_alloc(arena, (p->njump + 1) * sizeof *l->jump);
+  if (!l->jump && status == AMBIT_OK) status = ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  for (uint32_t i = 0; i < p->njump && status == AMBIT_OK; i++)
+    status = ambit_batch_open(p->jump[i], arithmetic, ctx, &l->jump[i], f);
   if (status == AMBIT_OK)
     *lanes = l;
   else
@@ -70,6 +74,7 @@ const ambit_work *ambit_lanes_work(const ambit_lanes *lanes) { return ambit_batc
 void ambit_lanes_close(ambit_lanes *l) {
   if (!l) return;
   ambit_batch_close(l->batch);
+  for (uint32_t i = 0; l->jump && i < l->problem->njump; i++) ambit_batch_close(l->jump[i]);
   ambit_arena_close(l->arena);
 }
 
@@ -80,18 +85,21 @@ typedef struct stepper {
   const ambit_lanes_run *run;
   size_t n, nstate; /* lanes, nx * n */
   double t, h;
+  uint32_t jumped; /* jumps that are done */
 } stepper;
 
-/* k := f at the states that lie in l->in; NaN where it is not defined */
-static void rates(stepper *s, double t, double *k) {
+/* k := what the batch makes of the states that lie in l->in; NaN where it is not defined */
+static void run_batch(stepper *s, ambit_batch *batch, double t, double *k) {
   ambit_lanes *l = s->l;
   const ambit_problem *p = l->problem;
   double *time = l->in + (p->nx + (size_t)p->np) * s->n;
   for (size_t lane = 0; lane < s->n && p->uses_time; lane++) time[lane] = t;
-  ambit_batch_run(l->batch, s->n, l->in, l->in, NULL, k, l->upper);
+  ambit_batch_run(batch, s->n, l->in, l->in, NULL, k, l->upper);
   for (size_t i = 0; i < s->nstate; i++)
     k[i] = k[i] == l->upper[i] ? k[i] : k[i] < l->upper[i] ? 0.5 * (k[i] + l->upper[i]) : NAN;
 }
+
+static void rates(stepper *s, double t, double *k) { run_batch(s, s->l->batch, t, k); }
 
 static void rates_at(stepper *s, double t, const double *x, double *k) {
   memcpy(s->l->in, x, s->nstate * sizeof *x);
@@ -228,11 +236,9 @@ static void drop(stepper *s, double limit) {
 
 /* -- the run */
 
-static void start(stepper *s) {
+/* k[0] at the states of now; lanes where it, or they, are no numbers are lost */
+static void begin(stepper *s) {
   ambit_lanes *l = s->l;
-  const ambit_problem *p = l->problem;
-  memcpy(l->x, s->run->x0, s->nstate * sizeof *l->x);
-  if (p->np) memcpy(l->in + s->nstate, s->run->p, p->np * s->n * sizeof *l->in);
   rates_at(s, s->t, l->x, l->k[0]);
   for (size_t lane = 0; lane < s->n; lane++) {
     double odd = 0;
@@ -240,6 +246,32 @@ static void start(stepper *s) {
     l->error[lane] = odd == 0 ? 0 : INFINITY;
   }
   drop(s, 1);
+}
+
+static double jump_at(const stepper *s) {
+  const ambit_problem *p = s->l->problem;
+  return s->jumped < p->njump_time ? p->jump_time[s->jumped] : INFINITY;
+}
+
+/* All jumps of this instant. */
+static void jump(stepper *s) {
+  ambit_lanes *l = s->l;
+  const ambit_problem *p = l->problem;
+  if (jump_at(s) != s->t) return;
+  for (; jump_at(s) == s->t; s->jumped++) {
+    memcpy(l->in, l->x, s->nstate * sizeof *l->x);
+    run_batch(s, l->jump[p->jump_number[s->jumped]], s->t, l->x);
+  }
+  begin(s);
+}
+
+static void start(stepper *s) {
+  ambit_lanes *l = s->l;
+  const ambit_problem *p = l->problem;
+  memcpy(l->x, s->run->x0, s->nstate * sizeof *l->x);
+  if (p->np) memcpy(l->in + s->nstate, s->run->p, p->np * s->n * sizeof *l->in);
+  begin(s);
+  jump(s);
 }
 
 /* The step is good: x, t and k[0] move on. */
@@ -315,8 +347,13 @@ ambit_lanes_outcome ambit_lanes_integrate(ambit_lanes *l, const ambit_lanes_run 
   pace pace = { .next = first_step(&s, span) };
   pace.good = pace.next;
   for (uint32_t k = 1; k < p->ntime && outcome == AMBIT_LANES_DONE && find_good(&s) < s.n; k++) {
-    outcome = advance(&s, &pace, p->time[k], span, steps);
+    while (jump_at(&s) < p->time[k] && outcome == AMBIT_LANES_DONE && find_good(&s) < s.n) {
+      outcome = advance(&s, &pace, jump_at(&s), span, steps);
+      if (outcome == AMBIT_LANES_DONE && find_good(&s) < s.n) jump(&s);
+    }
+    if (outcome == AMBIT_LANES_DONE) outcome = advance(&s, &pace, p->time[k], span, steps);
     if (outcome == AMBIT_LANES_DONE) run->take(run->user, k, s.n, l->x, run->lost);
+    if (outcome == AMBIT_LANES_DONE && find_good(&s) < s.n) jump(&s);
   }
   for (size_t lane = 0; lane < s.n && outcome != AMBIT_LANES_DONE; lane++) run->lost[lane] = true;
   return outcome;

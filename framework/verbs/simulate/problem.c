@@ -5,6 +5,7 @@
 #include "graph/series_lowering.h"
 #include "graph/tape.h"
 #include "graph/hull.h"
+#include "num/interval.h"
 #include "verbs/run/unknowns.h"
 #include <float.h>
 #include <math.h>
@@ -25,11 +26,11 @@ typedef struct build {
   /* everything over states, parameters and time, without point unknowns: rates [nrate], invariants [ninvariant], of the
   ** implicit form F [nx] and R [na] */
   size_t nall;
-  ambit_expr *all, *invariant, *implicit;
-  ambit_expr *start;         /* [nx] without point unknowns */
-  ambit_expr *input;         /* [nx + np + uses_time] of the right-hand side */
-  ambit_expr *unknown;       /* [nu] */
-  const ambit_tape *initial; /* always sealed, because its hull is needed */
+  ambit_expr *all, *invariant, *implicit, *jump; /* jump [njump x nx] */
+  ambit_expr *start;                             /* [nx] without point unknowns */
+  ambit_expr *input;                             /* [nx + np + uses_time] of the right-hand side */
+  ambit_expr *unknown;                           /* [nu] */
+  const ambit_tape *initial;                     /* always sealed, because its hull is needed */
   ambit_problem *p;
 } build;
 
@@ -87,13 +88,16 @@ static ambit_status collect_expressions(build *b) {
   const ambit_system *s = b->q->system;
   size_t nform = b->form ? s->nx + b->form->na : 0;
   b->nrate = b->rate ? s->nx : 0;
-  b->nall = b->nrate + b->ninvariant + nform;
+  size_t njump = s->njump * s->nx;
+  b->nall = b->nrate + b->ninvariant + nform + njump;
   b->all = room(b, b->nall + 1, sizeof *b->all);
   if (!b->all) return no_memory(b);
   b->invariant = b->all + b->nrate;
   b->implicit = b->form ? b->invariant + b->ninvariant : b->all;
   if (b->rate) memcpy(b->all, b->rate, b->nrate * sizeof *b->all);
   if (b->ninvariant) memcpy(b->invariant, s->invariant, b->ninvariant * sizeof *b->all);
+  b->jump = b->all + b->nall - njump;
+  for (size_t i = 0; i < s->njump; i++) memcpy(b->jump + i * s->nx, s->jump[i].to, s->nx * sizeof *b->all);
   if (!b->form) return AMBIT_OK;
   memcpy(b->implicit, b->form->rate, s->nx * sizeof *b->all);
   memcpy(b->implicit + s->nx, b->form->residual, b->form->na * sizeof *b->all);
@@ -168,6 +172,8 @@ static ambit_status check_reach(const build *b) {
   if (status == AMBIT_OK && b->ninvariant)
     status = check_leaves(b, b->ninvariant, b->invariant, "invariant", s->invariant_name, s->nx + 1, allowed, hint);
   if (status == AMBIT_OK && b->form) status = check_form(b, allowed, hint);
+  for (size_t i = 0; i < s->njump && status == AMBIT_OK; i++)
+    status = check_leaves(b, s->nx, b->jump + i * s->nx, "sampled value of", s->name, s->nx + 1, allowed, hint);
   if (status != AMBIT_OK) return status;
   return check_leaves(b, s->nx, b->start, "initial value of state", s->name, 0, NULL,
       ", but it may use numbers and uncertain data only");
@@ -392,6 +398,100 @@ static ambit_status seal_implicit(build *b) {
   return ambit_implicit_seal(&q, b->arena, &b->p->implicit, b->f);
 }
 
+/* -- jumps */
+
+#define MOST_JUMPS 1e8
+
+typedef struct schedule {
+  double *time, error; /* by which one of them is off, at most */
+  uint32_t *number, n;
+  size_t listed; /* instants that are behind */
+} schedule;
+
+/* the instant of sample k of a jump */
+static ambit_interval instant_of(const build *b, const ambit_jump *j, double k) {
+  ambit_interval t = { k, k };
+  ambit_interval_op(AMBIT_OP_MUL, &t, t, j->period);
+  ambit_interval_op(AMBIT_OP_ADD, &t, t, j->first);
+  ambit_interval_op(AMBIT_OP_ADD, &t, t, (ambit_interval) { b->q->time[0], b->q->time[0] });
+  return t;
+}
+
+static bool meet(ambit_interval a, ambit_interval b) { return a.lo <= b.hi && b.lo <= a.hi; }
+
+/* a double in t, a listed instant if there is one */
+static double choose_double(const build *b, ambit_interval t, size_t *listed) {
+  const double *time = b->q->time;
+  while (*listed < b->q->ntime && time[*listed] < t.lo) ++*listed;
+  return *listed < b->q->ntime && time[*listed] <= t.hi ? time[*listed] : ambit_interval_mid(t);
+}
+
+/* The next sample of each jump is at k[i]: puts the first of all in the schedule, of one instant if they are not told
+** apart. false: all are behind the end. */
+static bool put_next(const build *b, double *k, schedule *to) {
+  const ambit_system *s = b->q->system;
+  ambit_interval first = AMBIT_EMPTY;
+  size_t which = s->njump;
+  for (size_t i = 0; i < s->njump; i++) {
+    ambit_interval t = instant_of(b, &s->jump[i], k[i]);
+    if (which == s->njump || (t.lo < first.lo && !meet(t, first))) first = t, which = i;
+  }
+  double t = to->n && to->time[to->n - 1] >= first.lo ? to->time[to->n - 1] : choose_double(b, first, &to->listed);
+  if (!(t < b->q->time[b->q->ntime - 1])) return false;
+  ambit_interval off = { t, t };
+  ambit_interval_op(AMBIT_OP_SUB, &off, off, first);
+  to->error = fmax(to->error, ambit_interval_mag(off));
+  to->time[to->n] = t, to->number[to->n++] = (uint32_t)which;
+  k[which]++;
+  return true;
+}
+
+static ambit_status check_jumps(const build *b, double *samples) {
+  const ambit_system *s = b->q->system;
+  double from = b->q->time[0], end = b->q->time[b->q->ntime - 1];
+  *samples = 0;
+  if (!(b->q->want & AMBIT_WANT_JUMP))
+    return ambit_fail_code(b->f, AMBIT_UNABLE, AMBIT_CODE_UNABLE_SAMPLED,
+        "the system is sampled, and this solver takes states that never jump: leave out `solver`, or name one that "
+        "takes sampled systems");
+  if (end < from) return ambit_fail(b->f, AMBIT_INVALID, "a sampled system has no time before its start");
+  for (size_t i = 0; i < s->njump; i++) {
+    double n = (end - from) / s->jump[i].period.lo + 2;
+    if (!(s->jump[i].period.lo > 0) || !(s->jump[i].first.lo >= 0) || !(n < MOST_JUMPS))
+      return ambit_fail(b->f, AMBIT_INVALID,
+          "sampled: a period of %g s is too short for a run of %g s: at most %g samples", s->jump[i].period.lo,
+          end - from, MOST_JUMPS);
+    *samples += n;
+  }
+  return AMBIT_OK;
+}
+
+static ambit_status find_schedule(build *b) {
+  ambit_problem *p = b->p;
+  double samples;
+  schedule to = { 0 };
+  ambit_status status = check_jumps(b, &samples);
+  if (status != AMBIT_OK) return status;
+  double *k = room(b, b->q->system->njump, sizeof *k);
+  to.time = room(b, (size_t)samples + 1, sizeof *to.time), to.number = room(b, (size_t)samples + 1, sizeof *to.number);
+  if (!k || !to.time || !to.number) return no_memory(b);
+  for (size_t i = 0; i < b->q->system->njump; i++) k[i] = 0;
+  while (to.n < samples && put_next(b, k, &to))
+    ;
+  p->njump_time = to.n, p->jump_time = to.time, p->jump_number = to.number, p->jump_error = to.error;
+  return AMBIT_OK;
+}
+
+static ambit_status seal_jumps(build *b) {
+  size_t n = b->q->system->njump, nx = b->p->nx;
+  const ambit_tape **tape = room(b, n, sizeof *tape);
+  if (!tape) return no_memory(b);
+  ambit_status status = find_schedule(b);
+  for (size_t i = 0; i < n && status == AMBIT_OK; i++) status = seal_flow(b, nx, b->jump + i * nx, &tape[i]);
+  b->p->njump = (uint32_t)n, b->p->jump = tape;
+  return status;
+}
+
 static ambit_status seal_wanted(build *b) {
   uint32_t want = b->q->want;
   ambit_problem *p = b->p;
@@ -404,6 +504,7 @@ static ambit_status seal_wanted(build *b) {
     status = seal_jacobian(b, p->nx, b->all, "right-hand side of state", p->name, &p->jacobian);
   if (status == AMBIT_OK && (want & AMBIT_WANT_SLOPE) && p->np) status = seal_slope(b, &p->slope);
   if (status == AMBIT_OK && b->ninvariant) status = seal_invariants(b);
+  if (status == AMBIT_OK && b->q->system->njump) status = seal_jumps(b);
   if (want & AMBIT_WANT_INITIAL) p->initial = b->initial;
   return status;
 }

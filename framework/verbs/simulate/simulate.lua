@@ -20,13 +20,16 @@ local verb = {}
 
 local MOST_THREADS = 256
 
+local takes_sampled = { simulate = true, verify = true, sample = true }
+
 -- The system that the verb's table starts with; a mechanism stands for its equations of motion.
 function verb.system(t, what)
   local subject = t[1]
-  if mechanism.is(subject) then return subject:dynamics() end
+  if mechanism.is(subject) then subject = subject:dynamics() end
   if not ode.is(subject) then
     check.fail("%s: expected m:dynamics() or an ambit.ode as the first entry, got %s", what, check.kind(subject))
   end
+  if subject.sampled and not takes_sampled[what] then require "ambit.sampled".refuse(subject, what) end
   return subject
 end
 
@@ -45,6 +48,8 @@ function verb.initial(t, system, what)
   for i, name in ipairs(system.states) do
     local value
     if by_place then value = t[i] else value = t[name] end
+    local default = system.defaults and system.defaults[name]
+    if value == nil and default then value = default.like and t[default.like] or default.initial end
     if value == nil then check.fail('%s: initial: the state `%s` has no value', what, name) end
     list[i] = core.expression(value, ode.unit(system, i), ("%s: initial.%s"):format(what, name))
     core.name_data({ list[i] }, "initial " .. name)
@@ -77,6 +82,16 @@ function verb.on_clock(system, shift)
   return setmetatable({ rates = rates, shift = shift, system = changed }, { __index = system })
 end
 
+-- The first solver of the list that takes sampled systems and proves what it says; else the first, which will say why
+-- not.
+local function follows_samples(names)
+  for _, name in ipairs(names) do
+    local declaration = option.declaration("solver", name)
+    if declaration.sampled and declaration.rigorous then return name end
+  end
+  return names[1]
+end
+
 -- Everything that simulate and the sampling of a system share. default_solver nil: the one that suits; false: none.
 function verb.request(t, what, default_solver, own_keys)
   check.table(t, what)
@@ -94,9 +109,17 @@ function verb.request(t, what, default_solver, own_keys)
     check.keys(t, known, what, 1)
   else
     fitting = suggest.candidates(other_keys(t, known), known, q.arithmetic, what)
+    if q.system.sampled then
+      q.solver, fitting = follows_samples(fitting), nil
+      check_options(t, q, known, what)
+    end
   end
   q.initial, q.times = verb.initial(t.initial, q.system, what), instant.list(t.t, what .. ": t")
   q.initial = assemble_data.correlate(q.initial, t.initial, q.system, q.times)
+  if q.system.sampled and q.times.shift then
+    check.fail("%s: t: the start of a sampled system: expected a number that is a double, got %s", what,
+      tostring(q.times.said[1]))
+  end
   q.system = verb.on_clock(q.system, q.times.shift)
   if fitting then
     q.suggestion = suggest.proving(suggest.solver(q, fitting, what))

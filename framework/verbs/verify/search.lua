@@ -179,7 +179,7 @@ local function shorten(job, root)
 end
 
 local function carry_conditions(job, root)
-  if not is_refinable(job, root) or #job.lo == 0 then return root end
+  if not is_refinable(job, root) or #job.lo == 0 or job.request.system.sampled then return root end
   local before = job.request
   local function undo() job.request, job.outputs = before, {} end
   job.request, job.outputs = carry.of(before, job.conditions)

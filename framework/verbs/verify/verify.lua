@@ -38,6 +38,10 @@ end
 local function uncertain_data(q, list)
   local all = table.move(q.initial, 1, #q.initial, 1, {})
   table.move(q.system.rates, 1, #q.system.rates, #all + 1, all)
+  if q.system.sampled then
+    local laws = require "ambit.sampled".formulas(q.system)
+    table.move(laws, 1, #laws, #all + 1, all)
+  end
   local invariants = core.system_invariants(q.system.system)
   table.move(invariants, 1, #invariants, #all + 1, all)
   for _, c in ipairs(list) do all[#all + 1] = c.g end

@@ -153,7 +153,7 @@ static uint32_t put_box(zono *z, uint32_t kept) {
 static void reduce(zono *z, uint32_t n) {
   proof *p = z->proof;
   uint32_t nx = z->nx, room = z->ngen_max - nx, kept = 0, left = 0;
-  if (z->modes->now.any && FEW * nx < room) room = FEW * nx;
+  if (z->modes->now.any && !z->problem.njump && FEW * nx < room) room = FEW * nx;
   double least = -1;
   find_spread(z, n);
   n = vary_merge(z, n);
@@ -185,15 +185,10 @@ static void find_sizes(zono *z) {
   }
 }
 
-void zono_finish(zono *z) {
-  proof *p = z->proof;
+/* the set from p->end and n columns */
+static void settle(zono *z, uint32_t n) {
+  const proof *p = z->proof;
   const shape *s = &z->shape;
-  memset(p->boxes, 0, ORIGINS * (size_t)z->nx * sizeof(double));
-  find_end(z);
-  resolve_end(z);
-  discs_move(z);
-  uint32_t n = move_generators(z);
-  n = distance_add(z, n);
   quartic_finish(z);
   reduce(z, n);
   for (uint32_t i = 0; i < z->nx; i++) {
@@ -205,4 +200,18 @@ void zono_finish(zono *z) {
   }
   find_sizes(z);
   basis_choose(z);
+}
+
+void zono_finish(zono *z) {
+  memset(z->proof->boxes, 0, ORIGINS * (size_t)z->nx * sizeof(double));
+  find_end(z);
+  resolve_end(z);
+  discs_move(z);
+  settle(z, distance_add(z, move_generators(z)));
+}
+
+void close_jump(zono *z, uint32_t (*put)(zono *z, const zono *by, uint32_t at), const zono *by) {
+  resolve_end(z);
+  discs_jump(z);
+  settle(z, put(z, by, move_generators(z)));
 }

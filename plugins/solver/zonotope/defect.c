@@ -389,6 +389,7 @@ int defect_evaluate(zono *z, double length) {
     double lost = row_lost(&z->shape, z->p_row + (size_t)i * z->shape.stride, row_parts(&z->shape, 0));
     z->r[slot_p(z, i)] = (z->p_rad ? z->p_rad[i] : 0) + lost * ABOVE;
   }
+  if (z->program.uses_time) z->r[slot_t(z)] = z->problem.jump_error;
   for (uint32_t i = 0; i < t->ninstr; i++) {
     double r = evaluate(z, i, length);
     if (!(r < INFINITY)) return z->why = WHY_UNDEFINED, z->culprit = t->dst[i], 0;

@@ -8,7 +8,9 @@
 #include "modes.h"
 #include "proof.h"
 
-#define WAIT 16 /* steps until discs are tried again */
+#define ALONG 0.02 /* of a column, besides its part along one state */
+#define WIDER 5.0  /* discs than the box */
+#define WAIT 16    /* steps until discs are tried again */
 
 /* -- what goes into discs besides */
 
@@ -33,14 +35,35 @@ static void put(zono *z, const number *x, double by) {
   }
 }
 
+/* Does x go into the box of a sampled system? If it lies along a state, which costs nothing; or if discs around it are
+** so wide that turning in the box again and again costs less. In units of the states' sets. */
+static int suits_box(const zono *z, const double *x) {
+  const discs *d = &z->modes->now;
+  uint32_t n = z->nx;
+  double boxed = 0, turned = 0, most = 0;
+  for (uint32_t i = 0; i < n; i++) {
+    double u = fabs(x[i]) / z->proof->spread[i];
+    boxed += u, most = fmax(most, u);
+  }
+  if (boxed - most <= ALONG * boxed) return 1;
+  for (uint32_t k = 0; k < n && turned <= WIDER * boxed; k++) {
+    number c = 0;
+    double size = 0;
+    for (uint32_t i = 0; i < n; i++) c += d->W[k * n + i] * x[i], size += cabs(d->V[i * n + k]) / z->proof->spread[i];
+    turned += cabs(c) * size;
+  }
+  return turned > WIDER * boxed;
+}
+
 void discs_put(zono *z, const double *x, enum origin from) {
   modes *m = z->modes;
   number *copy = m->A;
+  int in_box = !m->now.any || (m->cycle && suits_box(z, x));
   for (uint32_t i = 0; i < z->nx; i++) {
     copy[i] = x[i];
-    if (!m->now.any) *box(z, from, i) += fabs(x[i]);
+    if (in_box) *box(z, from, i) += fabs(x[i]);
   }
-  if (m->now.any) put(z, copy, 1);
+  if (!in_box) put(z, copy, 1);
 }
 
 /* -- the movement */
@@ -75,7 +98,8 @@ static int are_of_use(zono *z) {
   return worth_keeping(z);
 }
 
-void discs_move(zono *z) {
+/* those of the end of the last step are old; there are none now */
+static void turn_page(zono *z) {
   modes *m = z->modes;
   uint32_t n = z->nx;
   discs last = m->old;
@@ -83,6 +107,28 @@ void discs_move(zono *z) {
   memset(m->in, 0, n * sizeof *m->in), memset(m->box, 0, n * sizeof *m->box);
   memset(m->now.b, 0, n * sizeof *m->now.b);
   m->now.any = 0;
+}
+
+/* those of a sampled system: where they lie is known; cycle: cycle_step or cycle_jump */
+static void follow_cycle(zono *z, void (*cycle)(zono *z)) {
+  modes *m = z->modes;
+  turn_page(z);
+  cycle(z);
+  if (m->old.any && m->now.any)
+    map_discs(z);
+  else if (m->old.any)
+    dissolve(z);
+}
+
+void discs_jump(zono *z) { follow_cycle(z, cycle_jump); }
+
+void discs_move(zono *z) {
+  modes *m = z->modes;
+  if (m->cycle) {
+    follow_cycle(z, cycle_step);
+    return;
+  }
+  turn_page(z);
   if (m->old.any) {
     m->now.any = !m->is_bad && modes_find(z);
     if (!m->now.any) {
@@ -162,7 +208,7 @@ static void close_turns(zono *z) {
 void discs_finish(zono *z) {
   modes *m = z->modes;
   uint32_t n = z->nx;
-  for (uint32_t i = 0; i < n && m->now.any; i++) {
+  for (uint32_t i = 0; i < n && m->now.any && !m->cycle; i++) {
     number *x = m->A;
     double sum = 0;
     for (uint32_t o = 0; o < ORIGINS; o++) sum += *box(z, o, i), *box(z, o, i) = 0;

@@ -104,7 +104,7 @@ static uint32_t add_equations(zono *z, uint32_t at, const sums *sum) {
   for (uint32_t q = 0; q < z->na; q++) {
     for (uint32_t i = 0; i < z->nx; i++) c[i] = p->link[i] == LINK_UNKNOWN ? p->L[p->link_to[i] * z->na + q] : 0;
     uint32_t end = add_lump(z, at, r->size[q], c, sum, FROM_SLOPE);
-    vary_mark(z, z->problem.nvarying + q, at, end);
+    vary_mark(z, z->nvarying + q, at, end);
     at = end;
   }
   for (uint32_t i = 0; i < z->nx; i++) {

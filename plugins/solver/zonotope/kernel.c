@@ -67,10 +67,19 @@ static void add_power(proof *p, uint32_t n, uint32_t k, double length) {
   }
 }
 
+/* powers of J are 0 in a row or column in which J is */
 static void add_rest(const zono *z, double length, double rest) {
   proof *p = z->proof;
+  double *row = p->grow, *column = p->grow_path;
+  for (uint32_t i = 0; i < z->nx; i++) {
+    row[i] = column[i] = 0;
+    for (uint32_t j = 0; j < z->nx; j++) {
+      row[i] += p->jacobian_size[(size_t)i * z->nx + j], column[i] += p->jacobian_size[(size_t)j * z->nx + i];
+    }
+  }
   for (uint32_t i = 0; i < z->nx; i++)
     for (uint32_t j = 0; j < z->nx; j++) {
+      if (row[i] == 0 || column[j] == 0) continue;
       double most = length * rest * p->unit[i] / p->unit[j];
       p->reach[(size_t)i * z->nx + j] += most, p->wobble[(size_t)i * z->nx + j] += 2 * most;
     }

@@ -205,7 +205,7 @@ static int is_pair(uint32_t op) { return op == AMBIT_OP_MIN || op == AMBIT_OP_MA
 /* min(a, b) + max(a, b) = a + b. A twin has none itself: its distance from the line is known by its own lump. */
 static void find_twins(zono *z) {
   const ambit_tape *t = z->program.tape;
-  for (uint32_t v = 0; v < z->problem.nvarying; v++) z->kinks->is_slot[vary_first(z) + v] = 1;
+  for (uint32_t v = 0; v < z->nvarying; v++) z->kinks->is_slot[vary_first(z) + v] = 1;
   for (uint32_t i = 0; i < t->ninstr; i++) {
     uint32_t twin = i;
     for (uint32_t j = 0; j < i && is_pair(t->op[i]) && twin == i; j++) {

@@ -36,10 +36,9 @@ int modes_open(zono *z) {
          doubles_of(h, 8 * square + 7 * nx, &m->work) && doubles_of(h, 2 * nx, &m->along);
 }
 
-void modes_start(zono *z) { z->modes->now.any = z->modes->old.any = 0, z->modes->wait = 0; }
+void modes_start(zono *z) { z->modes->now.any = z->modes->old.any = 0, z->modes->wait = 0, cycle_start(z); }
 
-/* W := inverse of V, about; 0: singular */
-static int invert(size_t n, const number *V, number *W, number *A) {
+int modes_invert(size_t n, const number *V, number *W, number *A) {
   memcpy(A, V, n * n * sizeof *A);
   for (size_t i = 0; i < n * n; i++) W[i] = i % (n + 1) == 0;
   for (size_t k = 0; k < n; k++) {
@@ -163,7 +162,7 @@ int modes_find(zono *z) {
   for (size_t i = 0; i < n; i++)
     if (!(z->E[i] > 0)) return 0; /* the map is not known */
   memcpy(m->work, z->proof->J, n * n * sizeof(double));
-  if (!find_vectors(z, m->work) || !invert(n, m->now.V, m->now.W, m->A)) return 0;
+  if (!find_vectors(z, m->work) || !modes_invert(n, m->now.V, m->now.W, m->A)) return 0;
   turn_by_data(z);
   return 1;
 }

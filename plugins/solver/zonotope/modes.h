@@ -16,7 +16,16 @@ typedef struct discs {
   double *b;     /* [nx] */
 } discs;
 
+/* cycle.c: of a sampled system */
+typedef struct cycle {
+  double *map, *next; /* [nx x nx] what came of errors since the last jump; scratch */
+  number *V, *T, *X;  /* [nx x nx] where discs lie after a jump; scratch */
+  uint32_t turns;     /* jumps until now */
+  int known;          /* V */
+} cycle;
+
 typedef struct modes {
+  cycle *cycle;        /* NULL: the system is not sampled */
   discs now, old;      /* at the end of the step, at its start */
   double *growth;      /* [nx x nx] what the step makes of one disc in another, at most */
   int is_bad;          /* they would grow too much */
@@ -43,8 +52,16 @@ void map_discs(zono *z);
 int worth_trying(const zono *z);
 int worth_enclosing(zono *z);
 int worth_keeping(const zono *z);
+int modes_invert(size_t n, const number *V, number *W, number *A); /* W := V^-1, about; A: scratch; 0: singular */
+int cycle_open(zono *z);                                           /* 0: no memory */
+void cycle_start(zono *z);
+/* m->now.any, and where discs lie at the end of a step, after a jump; from p->end and m->old */
+void cycle_step(zono *z);
+void cycle_jump(zono *z);
 /* discs.c: the discs as the step moves them, along its modes if there are any, else into m->box */
 void discs_move(zono *z);
+/* the same where states jump */
+void discs_jump(zono *z);
 /* discs += x [nx], real, once for all symbols; or the box += |x_i| where there are no discs */
 void discs_put(zono *z, const double *x, enum origin from);
 /* a bound of sum_i y_i e_i over discs; over those at the start of the step */

@@ -1,6 +1,7 @@
 /* open.c -- memory, and which slots depend on which unknowns. */
 #include "vary.h"
 #include "implicit.h"
+#include "jump.h"
 #include "kink.h"
 #include <ambit/code.h>
 
@@ -118,6 +119,17 @@ static int open_set(zono *z) {
 
 /* -- the solver */
 
+/* Those that only jumps depend on make no columns in the flow. */
+static int flow_varies(const zono *z) {
+  const ambit_tape *t = z->program.tape;
+  uint32_t first = vary_first(z), n = z->problem.nvarying;
+  for (uint32_t i = 0; i < t->ninstr; i++)
+    if (t->a[i] - first < n || (has_second(t->op[i]) && t->b[i] - first < n)) return 1;
+  for (uint32_t o = 0; o < t->nout; o++)
+    if (t->out[o] - first < n) return 1;
+  return 0;
+}
+
 static void choose_program(zono *z) {
   const ambit_problem *p = &z->problem;
   z->nx = p->nx, z->np = p->np;
@@ -126,6 +138,7 @@ static void choose_program(zono *z) {
   z->na = i->na;
   z->program.tape = i->tape, z->program.na = i->na, z->program.nstage = i->na ? i->nstage : 0;
   z->program.stage_end = i->stage_end, z->program.pivot = i->pivot;
+  z->nvarying = flow_varies(z) ? p->nvarying : 0;
 }
 
 static ambit_status no_memory(const ambit_host *h) {
@@ -152,9 +165,9 @@ static ambit_status open_all(zono *z) {
   if (status == AMBIT_NOMEM) return no_memory(h);
   if (status != AMBIT_OK) return status;
   z->K_max = highest_order(z), z->K = z->K_max;
-  if (!zono_open_rows(z) || (z->na && !zono_open_implicit(z)) || !open_set(z)) return no_memory(h);
+  if (!zono_open_rows(z) || (z->na && !zono_open_implicit(z)) || !open_set(z) || !jump_open(z)) return no_memory(h);
   if (z->m > SORTED && sort_data(z) != AMBIT_OK) return no_memory(h);
-  return zono_open_proof(z) ? AMBIT_OK : no_memory(h);
+  return zono_open_proof(z) && jump_open_proofs(z) ? AMBIT_OK : no_memory(h);
 }
 
 static ambit_status refuse(const ambit_host *h, const char *option, const char *expected, double got) {

@@ -19,7 +19,10 @@
 #define ORDER_DATA 8   /* in time, with data; */
 #define ORDER_EXACT 18 /* without, and least */
 #define ORDER_LEAST 10
-#define LEFT 0.7 /* of the length that was chosen: the proof bore less */
+#define ORDER_SHORT 3 /* least between jumps; */
+#define SETTLE 2      /* steps until a lower one is tried, */
+#define RELAX 100     /* or after one that was too low */
+#define LEFT 0.7      /* of the length that was chosen: the proof bore less */
 #define TRIES 60
 #define REFINE 4
 #define BESIDE_SET 1e-5     /* share of the set that truncation may add in a step */
@@ -147,10 +150,26 @@ static uint32_t adapted(zono *z) {
   return p->time_order;
 }
 
+/* Between jumps steps are short anyway: the least order for which one is enough. */
+static uint32_t sampled(zono *z, uint32_t most) {
+  proof *p = z->proof;
+  if (p->time_order == 0) p->time_order = most, p->order_wait = SETTLE;
+  if (p->cut) {
+    p->time_order += p->time_order < most;
+    p->order_wait = RELAX;
+  } else if (p->order_wait > 0)
+    p->order_wait--;
+  else
+    p->time_order -= p->time_order > ORDER_SHORT, p->order_wait = SETTLE;
+  return p->time_order;
+}
+
 void zono_choose_order(zono *z) {
+  uint32_t usual = z->m || z->nvarying ? ORDER_DATA : ORDER_EXACT;
   z->proof->prepared = 0;
-  uint32_t order = z->options.time_order         ? z->options.time_order
-                   : z->m || z->problem.nvarying ? ORDER_DATA
-                                                 : adapted(z);
+  uint32_t order = z->options.time_order ? z->options.time_order
+                   : z->problem.njump    ? sampled(z, usual)
+                   : usual == ORDER_DATA ? ORDER_DATA
+                                         : adapted(z);
   z->K = order < z->K_max ? order : z->K_max;
 }

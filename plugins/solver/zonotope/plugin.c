@@ -19,7 +19,7 @@ static const ambit_param param[] = {
 
 static const ambit_solver solver = {
   .size = sizeof solver,
-  .want = AMBIT_WANT_IMPLICIT | AMBIT_WANT_SERIES | AMBIT_WANT_INITIAL | AMBIT_WANT_VARYING,
+  .want = AMBIT_WANT_IMPLICIT | AMBIT_WANT_SERIES | AMBIT_WANT_INITIAL | AMBIT_WANT_VARYING | AMBIT_WANT_JUMP,
   .needs_rigorous = 1,
   .arithmetics = "interval", /* its polynomials are its own */
   .param = param,

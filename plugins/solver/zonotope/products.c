@@ -84,7 +84,7 @@ static int open_groups(zono *z) {
 static int open_squares(zono *z) {
   quartic *q = z->proof->quartic;
   size_t square = (size_t)z->nx * z->nx;
-  q->squares = z->problem.nvarying > 0;
+  q->squares = z->nvarying > 0;
   return !q->squares ||
          (doubles(z->host, square, &q->square_group) && doubles(z->host, (z->nx + z->na) * square, &q->square_sum));
 }
@@ -94,7 +94,7 @@ int quartic_open(zono *z) {
   quartic *q = z->proof->quartic = h->alloc(h, sizeof *q);
   if (!q) return 0;
   q->nx = z->nx;
-  q->most = z->nx == 0 ? 0 : z->shape.cubic < MOST ? z->shape.cubic : MOST;
+  q->most = z->K_max == 0 ? 0 : z->shape.cubic < MOST ? z->shape.cubic : MOST;
   while (q->most > 0 && (double)monomials(q->most) * z->nx > ROOM) q->most--;
   size_t n = q->most, length = monomials(n);
   q->multiply = quartic_portable, q->add = add_portable;

@@ -77,7 +77,9 @@ typedef struct proof {
   double *unit;               /* [nx] of the states, for norms */
   double *work;               /* [4 nx + na] */
   double paced;               /* what pace.c chose for the last step */
-  uint32_t time_order;        /* in time, where there are no data */
+  uint32_t time_order;        /* in time, where there are no data, or jumps */
+  uint32_t order_wait;        /* steps until a lower one is tried */
+  int cut;                    /* did the last step end before the instant ahead? */
   double rho_before;          /* of a longer step that was tried; 0: none */
   uint32_t patience;          /* steps that are not halved for it */
   int prepared;               /* total and drop are those of the rows */
@@ -126,6 +128,8 @@ double mixed_size(const zono *z, const double *y);
 uint32_t mixed_add(zono *z, uint32_t at);
 /* distance.c: columns from number `at` on, and the box of what they do not hold; returns the number of columns */
 uint32_t distance_add(zono *z, uint32_t at);
+/* close.c: the set after a jump, whose rows are p->end; put: what adds columns to those of the old generators */
+void close_jump(zono *z, uint32_t (*put)(zono *z, const zono *by, uint32_t at), const zono *by);
 /* kernel.c: mean, reach, wobble from J and |h|; 0: too long */
 int kernel_find(zono *z);
 

@@ -14,11 +14,11 @@ int residual_open(zono *z) {
   size_t n = z->na, slots = n * z->nslot * sizeof(double);
   residual *r = z->proof->residual = h->alloc(h, sizeof *r);
   if (!r) return 0;
-  r->used = z->problem.nvarying && n;
+  r->used = z->nvarying && n;
   if (!r->used) return 1;
   r->W = h->alloc(h, slots), r->dW = h->alloc(h, slots);
   r->size = h->alloc(h, n * sizeof *r->size), r->miss = h->alloc(h, n * sizeof(double));
-  r->lean = h->alloc(h, n * (n + z->problem.nvarying) * z->nx * sizeof(double));
+  r->lean = h->alloc(h, n * (n + z->nvarying) * z->nx * sizeof(double));
   r->row = h->alloc(h, z->nx * sizeof(double));
   return r->W && r->dW && r->size && r->miss && r->lean && r->row;
 }
@@ -47,18 +47,18 @@ static double mismatch(const zono *z, uint32_t k, uint32_t slot, double c) {
 /* which of the lists of `lean` slot j has; na + nvarying: none */
 static uint32_t place_of(const zono *z, uint32_t j) {
   if (j >= slot_a(z, 0) && j < slot_a(z, 0) + z->na) return j - slot_a(z, 0);
-  return z->na + (is_varying(z, j) ? j - vary_first(z) : z->problem.nvarying);
+  return z->na + (is_varying(z, j) ? j - vary_first(z) : z->nvarying);
 }
 
 static double *lean_of(const zono *z, uint32_t q, uint32_t place) {
-  return z->proof->residual->lean + ((size_t)q * (z->na + z->problem.nvarying) + place) * z->nx;
+  return z->proof->residual->lean + ((size_t)q * (z->na + z->nvarying) + place) * z->nx;
 }
 
 void residual_keep(zono *z, uint32_t q, uint32_t j, double middle, double width, const double *eps) {
   residual *r = z->proof->residual;
   uint32_t place = place_of(z, j);
   r->W[(size_t)q * z->nslot + j] = middle, r->dW[(size_t)q * z->nslot + j] = width;
-  if (place < z->na + z->problem.nvarying) memcpy(lean_of(z, q, place), eps, z->nx * sizeof *eps);
+  if (place < z->na + z->nvarying) memcpy(lean_of(z, q, place), eps, z->nx * sizeof *eps);
 }
 
 /* half width of an adjoint: errors are not independent of one another */

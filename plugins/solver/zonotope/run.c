@@ -4,6 +4,7 @@
 ** length (defect.c), how far solutions can be from the rows (zono_prove), and the set at the end (zono_finish). Where
 ** the proof fails the step is made shorter with the same rows.
 */
+#include "jump.h"
 #include "kink.h"
 #include "proof.h"
 #include "vary.h"
@@ -23,19 +24,28 @@ static int fails(zono *z, enum why why) {
 
 /* -- one step */
 
-/* z->t_next, h and h_error for a length; 1 if it ends at the instant ahead */
-static int set_end(zono *z, double h) {
-  double goal = z->problem.time[z->next];
+/* the instant ahead: a listed one, or one of a jump */
+static double ahead(const zono *z) {
+  double time = z->problem.time[z->next];
+  return fmin(time, jump_next(z)) < time ? jump_next(z) : time;
+}
+
+/* z->t_next, h and h_error for a length */
+static void set_end(zono *z, double h) {
+  double goal = ahead(z);
   int at_goal = !(fabs(h) < fabs(goal - z->t) * (1 - 0x1p-40));
   z->t_next = at_goal ? goal : z->t + h;
   z->h = z->t_next - z->t;
   /* a difference is rounded by half of that, if at all; bounds over [0, h] hold for it, too */
   z->h_error = two_sum(z->t_next, -z->t).lo != 0 ? 0x1p-52 * fabs(z->h) : 0;
-  return at_goal;
+  if (!(z->problem.jump_error > 0)) return;
+  /* both ends may be so much off: a little longer, and back */
+  z->h += 2 * z->problem.jump_error;
+  z->h_error += 4 * z->problem.jump_error * (1 + 1e-9) + 0x1p-52 * fabs(z->h);
 }
 
 static double longest(const zono *z) {
-  double left = z->problem.time[z->next] - z->t, most = fabs(left);
+  double left = ahead(z) - z->t, most = fabs(left);
   if (z->guess > 0 && GROW * z->guess < most) most = GROW * z->guess;
   most = fmin(most, fmin(z->options.step_max, z->vary_most));
   /* the last two steps before an instant are of like length: no sliver is left */
@@ -52,7 +62,7 @@ static double least_step(const zono *z) {
 static int prove_some(zono *z, double h) {
   enum why why;
   for (;;) {
-    if (set_end(z, h)) z->h = z->t_next - z->t;
+    set_end(z, h);
     z->why = WHY_NOTHING, z->detail = NULL;
     if (zono_defects(z) && zono_prove(z)) {
       if (vary_fits(z)) return 1;
@@ -89,10 +99,10 @@ static int is_wide(zono *z) {
     const double *row = z->P + (size_t)i * z->shape.stride;
     z->culprit = i;
     if (most > 0 ? !(width <= z->limit[i]) : !(width < INFINITY)) return 1;
-    if (most == 0 && !z->problem.nvarying) ambit_explosion_note(&e, i, width, row_total(&z->shape, row), &z->limit[i]);
+    if (most == 0 && !z->nvarying) ambit_explosion_note(&e, i, width, row_total(&z->shape, row), &z->limit[i]);
   }
   z->culprit = e.worst;
-  return z->options.width_max == 0 && !z->problem.nvarying && ambit_explodes(&e);
+  return z->options.width_max == 0 && !z->nvarying && ambit_explodes(&e);
 }
 
 static int advance(zono *z) {
@@ -110,7 +120,9 @@ static int advance(zono *z) {
   z->next += z->t == z->problem.time[z->next];
   r.t_to = z->t, r.order = z->K;
   r.lo = z->lo, r.hi = z->hi, r.tube_lo = z->tube_lo, r.tube_hi = z->tube_hi;
-  return emit(z, &r) ? fails(z, WHY_STOPPED) : 1;
+  if (emit(z, &r)) return fails(z, WHY_STOPPED);
+  z->proof->cut = z->t != jump_next(z) && z->t != z->problem.time[z->next - 1];
+  return jump_all(z);
 }
 
 static void work(zono *z) {
@@ -118,6 +130,7 @@ static void work(zono *z) {
   double most = 0;
   zono_start(z);
   vary_start(z);
+  if (!jump_all(z)) return;
   zono_hull(z);
   for (uint32_t i = 0; i < z->nx; i++)
     z->limit[i] = z->options.width_max * fmax(1, fmax(fabs(z->lo[i]), fabs(z->hi[i])));

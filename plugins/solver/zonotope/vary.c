@@ -29,7 +29,7 @@ static double loss(const zono *z) {
   double means = 0, moments = 0;
   for (uint32_t i = 0; i < z->nx; i++) {
     double mean = 0, moment = 0;
-    for (uint32_t v = 0, slot = vary_first(z); v < z->problem.nvarying; v++, slot++) {
+    for (uint32_t v = 0, slot = vary_first(z); v < z->nvarying; v++, slot++) {
       mean += through(z, p->mean, i, slot) * z->rr[slot];
       moment += 0.5 * through(z, p->tilt, i, slot) * z->rr[slot];
     }
@@ -44,7 +44,7 @@ void vary_start(zono *z) {
 }
 
 int vary_fits(zono *z) {
-  if (!z->problem.nvarying) return 1;
+  if (!z->nvarying) return 1;
   double share = loss(z), least = SHORTEST * span(z);
   z->vary_most = fmax(share > 0 ? fabs(z->h) * LOSS / share : INFINITY, least);
   return fabs(z->h) <= fmax(1.5 * z->vary_most, least);

@@ -75,6 +75,7 @@ typedef struct zono {
   program program;
   shape shape; /* of rows; shape.m data, shape.nx eps */
   uint32_t nx, na, np, m, nout, nslot;
+  uint32_t nvarying; /* functions of time that the program depends on: all of the problem's, or none */
   uint32_t K, K_max; /* order in time of the present step; most that there is room for */
   /* -- rows */
   double *row;           /* [sum of orders_max x shape.stride] */
@@ -107,8 +108,10 @@ typedef struct zono {
   double *r;                    /* [nslot] what the operation itself fails by, see defect.c */
   double *rr;                   /* [nslot] the lump of each slot (constants and inputs included): r and second order */
   double *rr_out;               /* [nout] of each output */
-  struct implicit *implicit;    /* implicit.c */
-  struct proof *proof;          /* sweep.c, error.c, close.c: allocated by zono_open_proof() */
+  struct zono *jump;            /* [njump] jump.c: the programs of jumps; how many of them are done */
+  uint32_t jumped;
+  struct implicit *implicit; /* implicit.c */
+  struct proof *proof;       /* sweep.c, error.c, close.c: allocated by zono_open_proof() */
   /* -- records */
   double *lo, *hi, *tube_lo, *tube_hi; /* [nx] */
   double *limit;                       /* [nx] widest that each state may be */

@@ -50,6 +50,8 @@
       "End before it, leave out `solver` so that one that crosses kinks is taken, or put a smooth law in its place.")  \
   X(UNABLE_VARYING, "unable.varying", "A datum varies in time, and the solver takes data for constants.",              \
       "Leave out `solver`, or name one that takes what varies.")                                                       \
+  X(UNABLE_SAMPLED, "unable.sampled", "The system is sampled, and the solver takes states that never jump.",           \
+      "Leave out `solver`, or name one that takes sampled systems.")                                                   \
   X(UNABLE_ORIENTATION, "unable.orientation", "An orientation could not be told from its opposite.",                   \
       "Narrow the data.")                                                                                              \
   X(UNABLE_PARTIAL, "unable.partial",                                                                                  \

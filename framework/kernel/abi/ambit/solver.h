@@ -27,6 +27,8 @@
 #define AMBIT_WANT_IMPLICIT 256u
 /* Parameters may be functions of time (ambit_problem.nvarying): a solver that does not say so is never given any. */
 #define AMBIT_WANT_VARYING 512u
+/* States may jump at instants that are known (ambit_problem.njump): a solver that does not say so is never given any. */
+#define AMBIT_WANT_JUMP 1024u
 
 /* What a solver solves. FLOW: x' = f from a start. ROOTS: f(x, p) = 0 with as many equations as unknowns x; rhs and
 ** jacobian are those of f, x0 is the box to be searched, there is no time; invariant: further equations that a root
@@ -89,7 +91,17 @@ typedef struct ambit_problem {
   const char *const *unknown_name;  /* [nu] names of the data, for messages */
   /* The last nvarying of the np parameters are functions of time: measurable, within [p_lo, p_hi] at almost all times,
   ** each the same wherever it occurs, nothing else is known of them. `initial` gives their ranges. */
-  uint32_t nvarying, pad_varying;
+  uint32_t nvarying;
+  /* AMBIT_WANT_JUMP: x becomes what jump[jump_number[k]] gives of x, p and the time, at instants in [time[0], end of
+  ** time[]), in this order. A record that ends there has the states before the jump. Every sample draws the functions of
+  ** time anew, as every instant does. The true instants are off by at most jump_error each: what is proved holds for
+  ** them. Jumps only where time ascends. */
+  uint32_t njump;
+  const ambit_tape *const *jump; /* [njump] inputs as of rhs, outputs x [nx]; SERIES if that is wanted */
+  uint32_t njump_time;
+  const double *jump_time; /* [njump_time] never descending */
+  const uint32_t *jump_number;
+  double jump_error;
 } ambit_problem;
 
 /* A set of states that still knows what it depends on: for every u in the box of the unknowns, with

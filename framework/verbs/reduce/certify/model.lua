@@ -15,10 +15,11 @@ local model = {}
 
 -- An ambit.ode, or a mechanism, which stands for its equations of motion.
 function model.system(subject, what)
-  if mechanism.is(subject) then return subject:dynamics() end
+  if mechanism.is(subject) then subject = subject:dynamics() end
   if not ode.is(subject) then
     check.fail("%s: expected m:dynamics() or an ambit.ode, got %s", what, check.kind(subject))
   end
+  if subject.sampled then require "ambit.sampled".refuse(subject, what) end
   return subject
 end
 
