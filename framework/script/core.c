@@ -41,7 +41,8 @@ static ambit_lua *state_get(lua_State *L) {
   core->graph = ambit_graph_open();
   core->registry = ambit_registry_open(NULL);
   if (!core->arena || !core->graph || !core->registry) luaL_error(L, "ambit: out of memory");
-  if (getenv("AMBIT_COLLECT_ALWAYS")) ambit_graph_collect_always(core->graph); /* for tests */
+  const char *every = getenv("AMBIT_COLLECT_ALWAYS"); /* for tests */
+  if (every) ambit_graph_collect_always(core->graph, strtoull(every, NULL, 10));
   core->holder.mark = ambit_lua_mark_boxes;
   ambit_graph_hold(core->graph, &core->holder);
   lua_rawsetp(L, LUA_REGISTRYINDEX, &state_key);

@@ -145,4 +145,14 @@ return {
     "a floor of 0 then gives 0/0, which claims nothing either",
   ["plugins/solver/lohner/start.c | unit 1 | return i < s->nx ? o->rad[i] > THIN * fabs(o->mid[i]) + 0x1p-1000 : o->rad[i] > 0;"] =
     "which boxes get a column of their own: either way all of the box is in the set",
+  ["plugins/solver/zonotope/distance.c | guard 1 | if (size.most == 0) continue;"] =
+    "adds 0: a run slower",
+  ["plugins/solver/zonotope/kink.c | bound 4 | k->missed = miss(k, k->lo, k->hi), k->width = 0.5 * (k->hi - k->lo);"] =
+    "only says when a step ends: steps shorter",
+  ["plugins/solver/zonotope/quartic.c | extremum 1 | all.most = fmin(bound, all.rest + add_known(z, j, whole)) * ABOVE;"] =
+    "the larger of two bounds of the same: a set wider",
+  ["plugins/solver/zonotope/quartic.c | extremum 1 | sum += fmin(single, together + mixed_size(z, row)) + rounding;"] =
+    "the larger of two bounds of the same: a set wider",
+  ["plugins/solver/zonotope/quartic.c | guard 1 | if (q->chosen[k] != 1) continue;"] =
+    "products that were not chosen are multiplied out, too: a run slower",
 }

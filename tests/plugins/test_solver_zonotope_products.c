@@ -1,5 +1,5 @@
-/* A step of the zonotope solver where what products leave out is all that there is: x' = (p q)^2 y or (p q y)^2, y' = p
-** y with wide p and q and an old generator in y, against the closed form. */
+/* A step of the zonotope solver where what products leave out is all that there is: x' = (p q)^2 y, (p q y)^2 or
+** u + q u with u = (p q)^2 y, y' = p y with wide p and q and an old generator in y, against the closed form. */
 #include "zonotope_case.h"
 #include "solver/zonotope/quartic.h"
 
@@ -7,6 +7,7 @@ typedef struct product_case {
   double scale_p, scale_q, old, h;
   uint32_t K;
   int thin, squared; /* squared: y, too */
+  int shared;        /* u is a term of the sum and a factor of the other one */
 } product_case;
 
 static double P0[2][400];
@@ -16,6 +17,7 @@ static void open_products(zono *z, maker *k, const product_case *c) {
   uint32_t pq = put(k, AMBIT_OP_MUL, c->squared ? put(k, AMBIT_OP_MUL, 3, 2) : 3, 4),
            square = put(k, AMBIT_OP_SQR, pq, pq);
   k->out[0] = c->squared ? square : put(k, AMBIT_OP_MUL, square, 2), k->out[1] = put(k, AMBIT_OP_MUL, 3, 2);
+  if (c->shared) k->out[0] = put(k, AMBIT_OP_ADD, k->out[0], put(k, AMBIT_OP_MUL, 4, k->out[0]));
   k->tape.nslot = k->tape.nconst + k->tape.nin + k->tape.ninstr;
   *z = (zono) { .host = &host, .nx = 2, .np = 2, .m = 2, .K = c->K, .K_max = c->K, .ngen_max = 120, .h = c->h };
   z->program = (program) { .tape = &k->tape, .nx = 2, .np = 2 };
@@ -28,6 +30,7 @@ static void open_products(zono *z, maker *k, const product_case *c) {
   for (uint32_t i = 0; i < 2; i++) z->proof->spread[i] = 1; /* sizes of states, in which degree 4 is chosen */
   double *p = z->p_row, *q = p + z->shape.stride;
   p[0] = draw(0.8, 1.2), p[1] = c->scale_p, q[0] = draw(0.8, 1.2), q[2] = c->scale_q;
+  if (c->shared) q[0] *= 10, q[2] *= 10;
   row_norms_all(&z->shape, p), row_norms_all(&z->shape, q);
   for (uint32_t i = 0; i < 2; i++) {
     double *x = z->P + i * z->shape.stride;
@@ -44,19 +47,38 @@ static void solve(const zono *z, const product_case *c, const point *at, long do
   long double p = value_at(&z->shape, row, at), q = value_at(&z->shape, row + z->shape.stride, at);
   long double y = P0[1][0] + c->old * rho, s = c->h;
   long double grown = c->squared ? 0.5L * y * expm1l(2 * p * s) : expm1l(p * s);
+  if (c->shared) grown *= 1 + q;
   x[0] = P0[0][0] + 0.5L * c->old * rho + p * q * q * y * grown, x[1] = y * expl(p * s);
+}
+
+/* the terms of degree 4 of state i at a point */
+static long double terms_at(const zono *z, uint32_t i, const point *at) {
+  const quartic *q = z->proof->quartic;
+  const double *term = q->term + (size_t)i * q->length;
+  long double sum = 0;
+  for (uint32_t a = 0; a < q->n; a++)
+    for (uint32_t b = a; b < q->n; b++)
+      for (uint32_t c = b; c < q->n; c++)
+        for (uint32_t d = c; d < q->n; d++)
+          sum += *term++ * (long double)at->xi[q->datum[a]] * at->xi[q->datum[b]] * at->xi[q->datum[c]] *
+                 at->xi[q->datum[d]];
+  return sum;
 }
 
 /* how much of the set's width in a direction is reached */
 static double check(const zono *z, const product_case *c) {
   point p;
-  long double x[2], l[2] = { draw(-1, 1), draw(-1, 1) }, off = 0, room = 0;
+  long double x[2], l[2] = { draw(-1, 1), draw(-1, 1) }, off = 0, room = 0, known = 0;
   draw_point(z, &p, z->h);
   if (pick(2)) l[0] = 1, l[1] = 0;
   solve(z, c, &p, pick(2) ? 1 : -1, x);
   for (uint32_t i = 0; i < 2; i++) off += l[i] * (x[i] - value_at(&z->shape, z->P + i * z->shape.stride, &p));
+  for (uint32_t i = 0; i < 2; i++) known += l[i] * terms_at(z, i, &p);
   for (uint32_t g = 0; g < z->ngen; g++) room += fabsl(l[0] * z->G[2 * g] + l[1] * z->G[2 * g + 1]);
+  long double bare = room;
   for (uint32_t i = 0; i < 2; i++) room += fabsl(l[i]) * quartic_size(z, i);
+  if (!(fabsl(off - known) <= bare * (1 + 1e-17L)))
+    fail_msg("a solution is %Lg off the terms of degree 4, the rest of the set %Lg wide", off - known, bare);
   if (!(fabsl(off) <= room * (1 + 1e-17L))) fail_msg("a solution is %Lg off, the set %Lg wide", off, room);
   return room > 0 ? (double)(fabsl(off) / room) : 0;
 }
@@ -70,7 +92,7 @@ static void what_products_leave_out_is_in_the_set(void **unused) {
   uint32_t found = 0;
   for (uint32_t n = 0; n < 360; n++) {
     const product_case c = { scale[n % 3], scale[pick(3)], old[n / 3 % 2], length[n / 6 % 4], 3 + pick(8), pick(4) == 0,
-      (int)pick(2) };
+      (int)pick(2), (int)pick(2) };
     open_products(&z, &k, &c);
     if (zono_series(&z) && zono_defects(&z) && zono_prove(&z)) {
       zono_finish(&z);

@@ -64,7 +64,7 @@ static void sweep(ambit_graph *g) {
   g->unused = AMBIT_NO_EXPR;
   size_t end = g->count; /* behind the last living node */
   while (g->stored[end - 1].mark != g->collection) ambit_store_clear(&g->stored[--end]);
-  if (!g->collect_always) g->count = end;
+  if (!g->forced) g->count = end;
   for (size_t i = end; i-- > 0;) {
     ambit_stored *x = &g->stored[i];
     if (x->mark == g->collection) {
@@ -72,7 +72,7 @@ static void sweep(ambit_graph *g) {
       continue;
     }
     ambit_store_clear(x);
-    if (g->collect_always) continue;
+    if (g->forced) continue;
     x->node.a = g->unused;
     g->unused = (ambit_expr)i;
   }
@@ -88,11 +88,11 @@ void ambit_graph_collect(ambit_graph *g) {
 }
 
 bool ambit_graph_is_due(const ambit_graph *g) {
-  return g->living >= g->due || (g->collect_always && g->made != g->collected_at);
+  return g->living >= g->due || (g->forced && g->made - g->collected_at >= g->forced);
 }
 
 void ambit_graph_hasten(ambit_graph *g) { g->due = 0; }
 
 void ambit_graph_postpone(ambit_graph *g) { g->due = g->living + g->living / 4 + AMBIT_COLLECT_LEAST / 4; }
-void ambit_graph_collect_always(ambit_graph *g) { g->collect_always = true; }
+void ambit_graph_collect_always(ambit_graph *g, uint64_t nodes) { g->forced = nodes; }
 uint32_t ambit_graph_living(const ambit_graph *g) { return g->living; }

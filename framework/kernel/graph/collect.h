@@ -29,8 +29,8 @@ bool ambit_graph_is_due(const ambit_graph *g);
 void ambit_graph_collect(ambit_graph *g);  /* out of memory: everything stays */
 void ambit_graph_hasten(ambit_graph *g);   /* one is due now */
 void ambit_graph_postpone(ambit_graph *g); /* one was due, but could not be done */
-/* For tests: one is due whenever a node has been made, and the numbers of freed nodes are never used again: whoever
-** goes on using one is found, and aborts. */
-void ambit_graph_collect_always(ambit_graph *g);
+/* For tests: one is due whenever so many nodes have been made, and the numbers of freed nodes are never used again:
+** whoever goes on using one is found, and aborts. */
+void ambit_graph_collect_always(ambit_graph *g, uint64_t nodes);
 uint32_t ambit_graph_living(const ambit_graph *g); /* nodes */
 #endif

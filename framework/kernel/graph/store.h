@@ -40,7 +40,8 @@ struct ambit_graph {
   uint32_t living, collection; /* nodes; number of the newest collection */
   size_t due;                  /* so many living nodes are worth a collection */
   uint64_t collected_at;       /* `made` at the newest collection */
-  bool collect_always, mark_failed;
+  uint64_t forced;             /* collect once so many nodes have been made, and never use a number again; 0: not so */
+  bool mark_failed;
   ambit_expr *to_mark;
   size_t to_mark_count, to_mark_capacity;
 };
@@ -64,7 +65,7 @@ ambit_expr ambit_store_rebuild(ambit_graph *g, ambit_expr e, ambit_expr a, ambit
 static inline const ambit_node *ambit_at(const ambit_graph *g, ambit_expr e) { return &g->stored[e].node; }
 /* Where tests collect always: nobody may come with the number of a freed node. */
 static inline void ambit_store_expect(const ambit_graph *g, ambit_expr e) {
-  if (g->collect_always && ambit_at(g, e)->op == AMBIT_LEAF_NONE) abort();
+  if (g->forced && ambit_at(g, e)->op == AMBIT_LEAF_NONE) abort();
 }
 static inline bool ambit_op_is_binary(uint32_t op) {
   return op == AMBIT_OP_ADD || op == AMBIT_OP_SUB || op == AMBIT_OP_MUL || op == AMBIT_OP_DIV || op == AMBIT_OP_ATAN2 ||
