@@ -43,7 +43,7 @@ static ambit_simulate_result paced(model *m, pacer *p, double to, const char *st
 static void model_friction(model *m) {
   static const char *const name[] = { "x", "v" };
   model_open(m, 2, name);
-  expr fast = divide(m, m->state[1], decimal(m, "0.05"));
+  expr fast = divide(m, m->state[1], decimal(m, "0.002"));
   expr friction = mul(m, decimal(m, "-0.5"), ambit_graph_op(m->graph, AMBIT_OP_TANH, fast, fast));
   m->rate[0] = m->state[1];
   m->rate[1] = sub(m, friction, mul(m, decimal(m, "9.81"), sine(m, m->state[0])));
