@@ -1,7 +1,13 @@
-# service/conformance_kit.so: the kits of tests/kit behind `ambit check`. A host program in the shape of
-# a plugin, so it has a kernel of its own.
+# The conformance kits of tests/kit, compiled once: for tests, and behind `ambit check` as service/conformance_kit.so, a host program in the
+# shape of a plugin, which has a kernel of its own.
+find_package(Threads REQUIRED)
+pkg_check_modules(MPFR REQUIRED IMPORTED_TARGET mpfr)
 file(GLOB kit_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/kit/*_kit*.c ${PROJECT_SOURCE_DIR}/tests/kit/conduct*.c
   ${PROJECT_SOURCE_DIR}/tests/kit/conformance*.c ${PROJECT_SOURCE_DIR}/tests/kit/element_stage.c)
-ambit_plugin(service conformance_kit ${kit_sources})
-target_include_directories(service_conformance_kit PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+list(FILTER kit_sources EXCLUDE REGEX "/conformance_plugin\\.c$")
+add_library(kit STATIC ${kit_sources})
+target_include_directories(kit PUBLIC ${PROJECT_SOURCE_DIR}/tests)
+target_link_libraries(kit PRIVATE ambit_flags PUBLIC ambit_inside PkgConfig::MPFR Threads::Threads m)
+ambit_plugin(service conformance_kit ${PROJECT_SOURCE_DIR}/tests/kit/conformance_plugin.c)
+target_link_libraries(service_conformance_kit PRIVATE kit)
 ambit_from(service_conformance_kit ${CMAKE_INSTALL_LIBDIR}/ambit/service)

@@ -1,4 +1,4 @@
-# The arithmetics that the documentation shows, as a user would build them, and the kit that every arithmetic is put through.
+# The arithmetics that the documentation shows, as a user would build them, and the tests that put arithmetics through the kit.
 function(ambit_example_arithmetic name source directory)
   add_library(arithmetic_${name} MODULE ${PROJECT_SOURCE_DIR}/${source})
   set_target_properties(arithmetic_${name} PROPERTIES PREFIX "" OUTPUT_NAME ${name} C_VISIBILITY_PRESET hidden
@@ -9,16 +9,11 @@ ambit_example_arithmetic(minimal tests/kit/minimal_arithmetic.c tests/plugins)
 ambit_example_arithmetic(double_double tests/kit/double_double_arithmetic.c tests/plugins)
 ambit_example_arithmetic(skeleton scripts/skeleton/arithmetic/skeleton.c tests/plugins)
 
-file(GLOB arithmetic_kit_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/kit/arithmetic_kit*.c ${PROJECT_SOURCE_DIR}/tests/kit/conduct*.c)
-add_library(arithmetic_kit STATIC ${arithmetic_kit_sources})
-target_include_directories(arithmetic_kit PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-target_link_libraries(arithmetic_kit PRIVATE ambit_flags PUBLIC ambit_inside PkgConfig::MPFR m)
-
 # tests/plugins/test_arithmetic_<plugin>[_<topic>].c has the kit at hand, and its plugin is built before it runs
 get_directory_property(targets BUILDSYSTEM_TARGETS)
 foreach(target ${targets})
   if(target MATCHES "^test\\.plugins\\.arithmetic_(.*)$")
-    target_link_libraries(${target} PRIVATE arithmetic_kit)
+    target_link_libraries(${target} PRIVATE kit)
     set(plugin ${CMAKE_MATCH_1})
     while(plugin MATCHES "_" AND NOT TARGET arithmetic_${plugin})
       string(REGEX REPLACE "_[^_]*$" "" plugin ${plugin})
