@@ -99,24 +99,6 @@ static void sums_of_small_numbers(void **state) {
   assert_true(sum->tail > 0);
 }
 
-/* -- constants: middle + radius, rounded, is more than either end */
-static void wide_constants(void **state) {
-  static const double range[][2] = { { -1e-20, 1 }, { -1, 1e-20 }, { -1e-17, 3 }, { 1, 1 + 0x1p-52 } };
-  ambit_lease *lease;
-  (void)state;
-  assert_int_equal(ambit_lease_open(&lease, NULL, NULL), AMBIT_OK);
-  const ambit_num_service *num = lease->host.service(&lease->host, AMBIT_NUM_SERVICE);
-  for (size_t i = 0; i < sizeof range / sizeof *range; i++) {
-    own c;
-    poly *p = open(&c);
-    set_constant(p, range[i][0], range[i][1], NULL);
-    assert_true((long double)p->hi[0] - p->tail <= range[i][0]);
-    assert_true((long double)p->hi[0] + p->tail >= range[i][1]);
-  }
-  assert_non_null(num);
-  ambit_lease_close(lease);
-}
-
 /* -- dense enclosures: the sum of a radius and of what polynomials differ by, which rounds to the radius */
 static void dense_sums(void **state) {
   static stiff s;
@@ -199,7 +181,6 @@ int main(void) {
     cmocka_unit_test(modes_of_a_step),
     cmocka_unit_test(derivatives),
     cmocka_unit_test(sums_of_small_numbers),
-    cmocka_unit_test(wide_constants),
     cmocka_unit_test(dense_sums),
     cmocka_unit_test(inverse_of_a_frame),
     cmocka_unit_test(moved_pieces),

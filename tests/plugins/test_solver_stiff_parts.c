@@ -1,7 +1,7 @@
 /* Parts of the stiff integrator by themselves: the exponential of Metzler matrices from above against 300 bits, from
 ** Chebyshev polynomials to powers, Neumann series, constants in double-double. */
 #include "solver/stiff/bound.c"
-#include "solver/stiff/constant.c"
+#include "shared/constant.c"
 #include "solver/stiff/invariant.c"
 #include "solver/stiff/linear.c"
 #include "solver/stiff/metzler.c"
@@ -161,6 +161,25 @@ static void constants(void **unused) {
                constant_read("0.1x", &a, &error));
 }
 
+/* middle + radius, rounded, is more than either end; what a text says is known to twice the digits, unless it lies */
+static void constants_of_tapes(void **state) {
+  static const double lo[] = { -1e-20, -1, -1e-17, 1, 2, 0x1.3333333333333p-2, 5 },
+                      hi[] = { 1, 1e-20, 3, 1 + 0x1p-52, 2, 0x1.3333333333334p-2, 6 };
+  static const char *text[] = { NULL, NULL, NULL, NULL, "2", "0.3", "0.3" };
+  const ambit_tape t = { .nconst = 7, .lo = lo, .hi = hi, .text = text };
+  (void)state;
+  for (uint32_t i = 0; i < t.nconst; i++) {
+    dd x;
+    double off = constant_at(&t, i, &x);
+    long double middle = (long double)x.hi + x.lo;
+    if (i == 5)
+      assert_true(fabsl(middle - 0.3L) <= 0x1p-66L && off < 1e-30);
+    else
+      assert_true(middle - off <= lo[i] && middle + off >= hi[i]);
+    assert_true(i != 4 || off == 0);
+  }
+}
+
 /* -- x' = z + a, y' = -z - a - g, where a is g added to itself `doublings` times */
 
 static uint32_t invariants_of_doubled(int doublings, int with_g, double *w) {
@@ -194,6 +213,7 @@ int main(void) {
     cmocka_unit_test(neumann_series),
     cmocka_unit_test(chebyshev_to_powers),
     cmocka_unit_test(constants),
+    cmocka_unit_test(constants_of_tapes),
     cmocka_unit_test(invariants_are_exact),
   };
   return cmocka_run_group_tests_name("solver stiff: parts", tests, NULL, NULL);

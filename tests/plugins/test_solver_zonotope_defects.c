@@ -89,7 +89,7 @@ static void open_one(zono *z, maker *k, uint32_t op, const sizes *s) {
     for (uint32_t v = z->shape.eps; v < z->shape.pair[0]; v++) row[v] = 0;
     z->E[i] = s->parts & 4 && pick(2) ? s->data * draw(0, 1) : 0;
     row_norms_all(&z->shape, row);
-    row_scale(&z->shape, row, 1, row, row_parts(&z->shape, 0)); /* states hold what order 0 does */
+    row_over(&z->shape, row, 1, row, row_parts(&z->shape, 0)); /* states hold what order 0 does */
   }
   for (uint32_t i = 0; i < 4; i++)
     put_row(z, z->p_row + i * z->shape.stride, s->time * draw(-1, 1), s->time * s->data, s->parts),

@@ -246,7 +246,7 @@ static inline void draw_point(const zono *z, point *p, double h) {
 }
 
 static inline long double value_at(const shape *s, const double *x, const point *p) {
-  long double sum = x[0];
+  long double sum = (long double)x[0] + row_low(s, x);
   const double *pair = x + s->pair[0], *mixed = x + s->mix, *cube = x + s->cube;
   for (uint32_t i = 0; i < s->m; i++) sum += x[1 + i] * p->xi[i];
   for (uint32_t i = 0; i < s->nx; i++) sum += x[s->eps + i] * p->eps[i];

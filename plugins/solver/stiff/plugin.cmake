@@ -1,1 +1,1 @@
-set(AMBIT_PLUGIN_SHARED real_schur real_schur_vectors)
+set(AMBIT_PLUGIN_SHARED constant real_schur real_schur_vectors)

@@ -1,5 +1,6 @@
 /* series.c -- a tape over polynomials with remainders (series.h). */
 #include "series.h"
+#include "shared/constant.h"
 #include <string.h>
 
 /* -- memory and constants */
@@ -8,16 +9,6 @@ static int open_poly(const ambit_host *h, poly *p, size_t n) {
   p->hi = h->alloc(h, 2 * n * sizeof(double));
   p->lo = p->hi ? p->hi + n : NULL;
   return p->hi != NULL;
-}
-
-/* the enclosure, or what the text says if that is tighter */
-static void set_constant(poly *r, double lo, double hi, const char *text) {
-  double middle = 0.5 * lo + 0.5 * hi, error;
-  double radius = fmax(hi - middle, middle - lo) * (1 + 0x1p-40);
-  dd x;
-  poly_constant(r, (dd) { middle, 0 }, lo < hi ? radius + DD_TINY : 0);
-  if (lo < hi && text && constant_read(text, &x, &error) && error < radius && x.hi >= lo && x.hi <= hi)
-    poly_constant(r, x, error);
 }
 
 int series_open(const ambit_host *h, const ambit_num_service *num, const ambit_tape *t, uint32_t order, series *s) {
@@ -29,7 +20,11 @@ int series_open(const ambit_host *h, const ambit_num_service *num, const ambit_t
     if (!open_poly(h, &s->slot[i], order + 1u)) return 0;
   for (uint32_t i = 0; i < POLY_SCRATCH; i++)
     if (!open_poly(h, &s->scratch[i], 2u * order + 3u)) return 0;
-  for (uint32_t i = 0; i < t->nconst; i++) set_constant(&s->slot[i], t->lo[i], t->hi[i], t->text ? t->text[i] : NULL);
+  for (uint32_t i = 0; i < t->nconst; i++) {
+    dd x;
+    double error = constant_at(t, i, &x);
+    poly_constant(&s->slot[i], x, error);
+  }
   return 1;
 }
 

@@ -52,7 +52,4 @@ dd poly_dot(const poly *a, const poly *b, uint32_t from, uint32_t to, uint32_t k
 /* functions.c: r := op(a, b) for what is not a sum or a product */
 void series_function(series *s, uint32_t op, poly *r, const poly *a, const poly *b);
 void series_power(series *s, poly *r, const poly *a, int32_t n); /* a^n */
-
-/* constant.c: the number that a text says, as x +- *error; 0: not understood */
-int constant_read(const char *text, dd *x, double *error);
 #endif

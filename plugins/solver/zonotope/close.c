@@ -29,11 +29,11 @@ static void find_end(zono *z) {
       size += fabs(power) * row_moving(s, row), constant += fabs(power * row[0]);
     }
     for (uint32_t k = orders(z, slot); k-- > 0;)
-      centre = dd_add(dd_scale(centre, z->h), dd_make(row_at(z, slot, k)[0], 0));
+      centre = dd_add(dd_scale(centre, z->h), row_middle(s, row_at(z, slot, k)));
     row_norms_all(s, to);
     if (!(row_parts(s, 0) & TRIPLES)) *box(z, FROM_DEGREE, i) += row_c(s, to) * ABOVE, to[s->norms + NORM_C] = 0;
-    to[0] = centre.hi;
-    *box(z, FROM_START, i) += fabs(centre.lo) + 16 * (z->K + 2) * UNIT * UNIT * constant;
+    to[0] = centre.hi, to[s->norms + LOW] = centre.lo;
+    *box(z, FROM_START, i) += 16 * (z->K + 2) * UNIT * UNIT * constant;
     *box(z, FROM_START, i) += 2 * (z->K + 3) * UNIT * size + z->h_error * (p->high[out] + p->delta[out]);
   }
 }

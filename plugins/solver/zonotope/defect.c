@@ -8,22 +8,24 @@
 */
 #include "kink.h"
 #include "proof.h"
+#include "turn.h"
 #include "value.h"
 
 typedef struct sizes {
   double moving, constant; /* of products, with and without a coefficient that is no constant */
 } sizes;
 
-/* A coefficient of a sum of n products takes 10 n + 14 operations (zonotope.h). The constant's products with a double
-** are summed up with twice the digits and rounded once, by UNIT |constant|, which is not in this. */
+/* A coefficient of a sum of n products takes 10 n + 14 operations (zonotope.h), the constant has twice the digits. */
 static double rounding(double n, sizes size) {
-  double squared = 4 * (n + 2) * (n + 2) * UNIT * UNIT;
+  double squared = 16 * (n + 4) * (n + 4) * UNIT * UNIT;
   return (10 * n + 16) * UNIT * size.moving * ABOVE + squared * size.constant;
 }
 static double total(const zono *z, uint32_t slot, uint32_t k) { return z->proof->total[z->first[slot] + k]; }
 static double scaled(const zono *z, uint32_t slot, uint32_t k) { return z->proof->scaled[z->first[slot] + k]; }
 static double *drop_at(const zono *z, uint32_t slot) { return z->proof->drop + z->first[slot]; }
 static uint32_t last(const zono *z, uint32_t slot) { return orders(z, slot) - 1; }
+
+#define DOUBLE (8 * UNIT) /* what a function's value is off by, if it is one of the kernel's */
 
 /* -- what order k drops */
 
@@ -41,25 +43,12 @@ static double dropped(const zono *z, uint32_t u, uint32_t v, uint32_t k, int wei
   return sum;
 }
 
-/* u_0 v_k and u_k v_0: where the rest of a product is made first, its constant is what is left without these */
-static double ends_of(const zono *z, uint32_t u, uint32_t v, uint32_t k) {
-  double sum = 0;
-  if (k <= last(z, v)) sum += fabs(row_at(z, u, 0)[0] * row_at(z, v, k)[0]);
-  if (k <= last(z, u)) sum += fabs(row_at(z, u, k)[0] * row_at(z, v, 0)[0]);
-  return sum;
-}
-
-/* weights are j / k, and a factor is multiplied by one, in three roundings */
 static void drop_product(zono *z, uint32_t dst, uint32_t u, uint32_t v, int weighted) {
   double *drop = drop_at(z, dst);
   for (uint32_t k = (uint32_t)weighted; k <= last(z, dst); k++) {
     sizes size = { 0, 0 };
-    double lost = dropped(z, u, v, k, weighted, &size), constant = fabs(row_at(z, dst, k)[0]);
+    double lost = dropped(z, u, v, k, weighted, &size);
     drop[k] = lost + rounding(k + 1.0, size);
-    if (weighted)
-      drop[k] += UNIT * (constant + 4 * size.constant);
-    else
-      drop[k] += UNIT * (k ? 2 * constant + ends_of(z, u, v, k) : constant);
   }
 }
 
@@ -88,23 +77,28 @@ static void test(zono *z, double *drop, uint32_t count, uint32_t n, const produc
       lost += fabs(p[i].scale) * dropped(z, p[i].u, p[i].v, k, weighted, &size);
       for (uint32_t j = (uint32_t)weighted; j <= k && j <= last(z, p[i].u); j++)
         if (k - j <= last(z, p[i].v))
-          terms_product(
-              s, &sum, p[i].scale * (weighted ? (double)j / k : 1), row_at(z, p[i].u, j), row_at(z, p[i].v, k - j));
+          terms_share(
+              s, &sum, p[i].scale, weighted ? j : 1, weighted ? k : 1, row_at(z, p[i].u, j), row_at(z, p[i].v, k - j));
     }
     terms_sum(s, &sum, left, row_parts(&z->shape, k));
     drop[k] = row_total(s, left) * ABOVE + lost + 2 * rounding(n * (k + 1.0) + 2, size);
-    if (weighted) drop[k] += 4 * UNIT * size.constant;
   }
 }
 
 /* -- order 0 of functions: Taylor's remainder of degree 3; g: bounds of derivatives at the constant, the last one over
 ** the operand's range */
 
-static double remainder_of(const zono *z, uint32_t a, double g0, double g1, double g2, double g3, double g4) {
+/* What the low part of the constant (low) does beyond its linear term: it is one more term of an operand that moves by
+** A, and products with it are left out. g: of the second, third derivative. */
+static double beside_low(double low, double A, double g2, double g3) { return low * (A + low) * (g2 + g3 * (A + low)); }
+
+/* off: how much the value at c may be */
+static double remainder_of(const zono *z, uint32_t a, double off, double g1, double g2, double g3, double g4) {
   const double *x = row_at(z, a, 0);
-  double A = row_moving(&z->shape, x), size = g0 / 8 + g1 * A + g2 * A * A + g3 * A * A * A;
+  double A = row_moving(&z->shape, x), size = g1 * A + g2 * A * A + g3 * A * A * A, low = fabs(row_low(&z->shape, x));
+  double all = A + low;
   return 0.5 * g2 * row_dropped(&z->shape, x, x, row_parts(&z->shape, 0)) + g3 * row_dropped_cube(&z->shape, x) / 6 +
-         g4 * A * A * A * A / 24 + 64 * UNIT * size;
+         g4 * all * all * all * all / 24 + 64 * UNIT * (size + g1 * low) + beside_low(low, A, g2, g3) + off;
 }
 
 /* atan2: u - u w + u w^2 - u^3 / 3, sizes of u and w at most A / r; the angle's n-th derivative in any direction is at
@@ -112,15 +106,16 @@ static double remainder_of(const zono *z, uint32_t a, double g0, double g1, doub
 static double angle_remainder(const zono *z, uint32_t a, uint32_t b) {
   const shape *s = &z->shape;
   const double *y = row_at(z, a, 0), *x = row_at(z, b, 0);
-  double A = row_moving(s, x) + row_moving(s, y), r = length_of(x[0], y[0]) * (1 - 8 * UNIT), near = r - A;
+  double A = row_moving(s, x) + row_moving(s, y), r = length_of(x[0], y[0]) * (1 - 8 * UNIT);
+  double low = fabs(row_low(s, x)) + fabs(row_low(s, y)), all = A + low, near = r - all;
   if (!(near > 0)) return INFINITY;
   uint32_t parts = row_parts(s, 0);
   double lost = 0.5 * (row_dropped(s, x, x, parts) + row_dropped(s, y, y, parts)) + row_dropped(s, x, y, parts);
   double far = A - (row_l(s, x) + row_l(s, y)) + x[s->norms + NORM_L_FAR] + y[s->norms + NORM_L_FAR] + 8 * UNIT * A;
   if (!(parts & TRIPLES)) far = A;
   double ratio = A / r, size = ratio + ratio * ratio + ratio * ratio * ratio;
-  return lost / (r * r) + 4 * ratio * ratio * far / r + A * A * A * A / (4 * near * near * near * near) +
-         64 * UNIT * (0.5 + 2 * size);
+  return lost / (r * r) + 4 * ratio * ratio * far / r + all * all * all * all / (4 * near * near * near * near) +
+         64 * UNIT * (0.5 + 2 * size + low / r) + beside_low(low, A, 1 / (r * r), 2 / (r * r * r));
 }
 
 /* 1 - tanh(x)^2 <= 4 e^-2|x| and 1 */
@@ -132,9 +127,10 @@ static double tanh_slope_above(const zono *z, double x) {
 ** 8 q and 4.1. That phase 1 has q as (1 - v) (1 + v), off by 8 units, is in the last terms. */
 static double tanh_remainder(const zono *z, uint32_t a) {
   const double *x = row_at(z, a, 0);
-  double A = row_moving(&z->shape, x), q = tanh_slope_above(z, x[0]) + 32 * UNIT, near = fmax(fabs(x[0]) - A, 0);
+  double A = row_moving(&z->shape, x), q = tanh_slope_above(z, x[0]) + 32 * UNIT;
+  double near = fmax(fabs(x[0]) - A - fabs(row_low(&z->shape, x)), 0);
   double fourth = fmin(4.1, 8 * tanh_slope_above(z, near));
-  return remainder_of(z, a, 1, q, fmin(0.77, 2 * q) + 32 * UNIT, fmin(2, 4 * q) + 64 * UNIT, fourth * ABOVE) +
+  return remainder_of(z, a, DOUBLE, q, fmin(0.77, 2 * q) + 32 * UNIT, fmin(2, 4 * q) + 64 * UNIT, fourth * ABOVE) +
          64 * UNIT * (A + A * A + A * A * A);
 }
 
@@ -142,21 +138,26 @@ static double order0(const zono *z, uint32_t i) {
   const ambit_tape *t = z->program.tape;
   uint32_t op = t->op[i], a = t->a[i];
   const double *x = row_at(z, a, 0);
-  double A = row_moving(&z->shape, x), c = x[0], near = c - A, n = 1 / c, v;
+  double c = x[0], A = row_moving(&z->shape, x) + fabs(row_low(&z->shape, x)), near = c - A, n = 1 / c, v;
+  dd sine, cosine;
   switch (op) {
   case AMBIT_OP_SIN:
-  case AMBIT_OP_COS: v = fabs(value_of(z, op, c, 0)); return remainder_of(z, a, v, 1, v + 8 * UNIT, 1, 1);
-  case AMBIT_OP_EXP: v = value_of(z, op, c, 0); return remainder_of(z, a, v, v, v, v, value_of(z, op, c + A, 0));
+  case AMBIT_OP_COS:
+    v = fabs(value_of(z, op, c, 0));
+    return remainder_of(z, a, turn_at(c, &sine, &cosine) ? TURN_ERROR : DOUBLE * v, 1, v + 8 * UNIT, 1, 1);
+  case AMBIT_OP_EXP:
+    v = value_of(z, op, c, 0);
+    return remainder_of(z, a, DOUBLE * v, v, v, v, value_of(z, op, c + A, 0));
   case AMBIT_OP_SINH:
   case AMBIT_OP_COSH:
     v = value_of(z, AMBIT_OP_COSH, c, 0);
-    return remainder_of(z, a, v, v, v, v, value_of(z, AMBIT_OP_COSH, fabs(c) + A, 0));
+    return remainder_of(z, a, DOUBLE * v, v, v, v, value_of(z, AMBIT_OP_COSH, fabs(c) + A, 0));
   case AMBIT_OP_TANH: return tanh_remainder(z, a);
-  case AMBIT_OP_ATAN: return remainder_of(z, a, 2, 1, 1, 2, 6);
+  case AMBIT_OP_ATAN: return remainder_of(z, a, DOUBLE * 2, 1, 1, 2, 6);
   case AMBIT_OP_LOG:
     if (!(near > 0)) return INFINITY;
     v = fabs(value_of(z, op, c, 0));
-    return remainder_of(z, a, v, n, n * n, 2 * n * n * n, 6 / (near * near * near * near));
+    return remainder_of(z, a, DOUBLE * v, n, n * n, 2 * n * n * n, 6 / (near * near * near * near));
   case AMBIT_OP_ATAN2: return angle_remainder(z, a, t->b[i]);
   default: return 0;
   }
@@ -166,10 +167,12 @@ static double order0(const zono *z, uint32_t i) {
 
 static double size_of(const zono *z, uint32_t slot, uint32_t k) { return k <= last(z, slot) ? total(z, slot, k) : 0; }
 
-static void drop_sum(zono *z, uint32_t dst) {
+static void drop_sum(zono *z, uint32_t i) {
+  const ambit_tape *t = z->program.tape;
+  uint32_t dst = t->dst[i], a = t->a[i], b = t->op[i] == AMBIT_OP_NEG ? a : t->b[i];
   for (uint32_t k = 0; k <= last(z, dst); k++) {
-    const double *row = row_at(z, dst, k);
-    drop_at(z, dst)[k] = UNIT * (fabs(row[0]) + 2 * row_moving(&z->shape, row));
+    double size = size_of(z, a, k) + size_of(z, b, k);
+    drop_at(z, dst)[k] = 2 * UNIT * row_moving(&z->shape, row_at(z, dst, k)) + 16 * 36 * UNIT * UNIT * size;
   }
 }
 
@@ -199,7 +202,7 @@ static void prepare(zono *z, uint32_t i) {
   switch (op) {
   case AMBIT_OP_ADD:
   case AMBIT_OP_SUB:
-  case AMBIT_OP_NEG: drop_sum(z, dst); return;
+  case AMBIT_OP_NEG: drop_sum(z, i); return;
   case AMBIT_OP_MUL: drop_product(z, dst, a, b, 0); return;
   case AMBIT_OP_SQR: drop_product(z, dst, a, a, 0); return;
   case AMBIT_OP_DIV: test(z, drop, orders(z, dst), 1, &quotient, a, 0, 0); return;
@@ -370,8 +373,11 @@ static void bound_outputs(zono *z, double length) {
     uint32_t slot = slot_out(z)[o];
     double sum = 0, power = 1;
     for (uint32_t k = 0; k <= last(z, slot); k++, power *= length) {
-      double share = o >= z->nx || k == z->K ? 1 : k & (k + 1) ? 4 * UNIT : 0; /* 1 / (k + 1) may be exact */
-      sum += total(z, slot, k) * power * share;
+      const double *row = row_at(z, slot, k);
+      if (o >= z->nx || k == z->K)
+        sum += total(z, slot, k) * power;
+      else if (k & (k + 1)) /* else it is divided exactly */
+        sum += (4 * UNIT * row_moving(&z->shape, row) + 64 * UNIT * UNIT * fabs(row[0])) * power;
       if (o < z->nx) sum += row_lost(&z->shape, row_at(z, slot, k), row_parts(&z->shape, k + 1)) * power;
     }
     z->rr_out[o] = sum * ABOVE + LEAST;
@@ -381,9 +387,7 @@ static void bound_outputs(zono *z, double length) {
 int defect_evaluate(zono *z, double length) {
   const ambit_tape *t = z->program.tape;
   bound_slots(z, length);
-  for (uint32_t j = 0; j < t->nconst; j++) z->r[j] = 0.5 * (t->hi[j] - t->lo[j]) * ABOVE + UNIT * fabs(t->lo[j]);
-  for (uint32_t j = 0; j < t->nconst; j++)
-    if (t->hi[j] == t->lo[j]) z->r[j] = 0;
+  for (uint32_t j = 0; j < t->nconst; j++) z->r[j] = z->constant_off[j];
   for (uint32_t j = t->nconst; j < t->nconst + t->nin; j++) z->r[j] = 0;
   for (uint32_t i = 0; i < z->np; i++) {
     double lost = row_lost(&z->shape, z->p_row + (size_t)i * z->shape.stride, row_parts(&z->shape, 0));

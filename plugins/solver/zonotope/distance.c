@@ -202,6 +202,10 @@ static void refine(zono *z, const sums *sum) {
 uint32_t distance_add(zono *z, uint32_t at) {
   proof *p = z->proof;
   uint32_t nx = z->nx;
+  if (is_certain(z)) {
+    for (uint32_t i = 0; i < nx; i++) *box(z, FROM_TIME, i) += p->zeta[i];
+    return at;
+  }
   sums sum = { p->work, p->work + 3 * (size_t)nx, p->work + nx };
   memset(p->work, 0, 4 * nx * sizeof(double));
   at = add_lumps(z, at, &sum);

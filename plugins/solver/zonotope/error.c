@@ -10,6 +10,9 @@
 
 #define TRIES 8
 #define STEADY 0.1
+#define MOST_GROWTH 4.0 /* of a distance in a step, e to this power, where there are no data */
+#define ENOUGH 1e-3     /* share of it that terms of a series may be, which are bounded together */
+#define SERIES 60
 #define ROOMY 1.2 /* a new guess over the bound that the last one gave */
 
 /* -- |Delta| of all slots, and lumps: what an operation fails by, and terms of second order */
@@ -126,27 +129,66 @@ static double reach_of(const zono *z, uint32_t n, const double *lump) {
   return sum;
 }
 
-/* zeta_new, alpha_new from lumps and zeta */
-static void bound(zono *z, const double *lump, const double *zeta) {
+/* to := (|J| + dJ) x; returns the largest to_i / unit_i */
+static double through_sizes(const zono *z, const double *x, double *to) {
+  const proof *p = z->proof;
+  double most = 0;
+  for (uint32_t i = 0; i < z->nx; i++) {
+    const double *size = p->jacobian_size + (size_t)i * z->nx, *dJ = p->dJ + (size_t)i * z->nx;
+    to[i] = 0;
+    for (uint32_t j = 0; j < z->nx; j++) to[i] += (size[j] + dJ[j]) * x[j];
+    most = larger(most, to[i] / p->unit[i]);
+  }
+  return most * ABOVE;
+}
+
+/* zeta_new: |z| <= u with u' = (|J| + dJ) u + rate, u(0) = 0, a series. In the units its terms fall by norm / (k + 1) at
+** least; once that is below 1/2, all further terms together are at most the last one's largest share of a unit. */
+static int grow_bound(zono *z, const double *rate) {
+  proof *p = z->proof;
+  uint32_t n = z->nx, k = 0;
+  double *term = p->grow_path, *next = p->zeta_new + n, h = fabs(z->h) * ABOVE, last = INFINITY, total = 0;
+  double norm = through_sizes(z, p->unit, next) * h;
+  if (!(norm < MOST_GROWTH)) return 0;
+  for (uint32_t i = 0; i < n; i++) p->zeta_new[i] = term[i] = (rate[i] + LEAST) * h;
+  while (k + 2 < 2 * norm || (last > ENOUGH * total && k < SERIES)) {
+    last = through_sizes(z, term, next) * h / (++k + 1);
+    total += last;
+    for (uint32_t i = 0; i < n; i++) term[i] = next[i] * h / (k + 1) * ABOVE, p->zeta_new[i] += term[i];
+  }
+  for (uint32_t i = 0; i < n; i++) p->zeta_new[i] = (p->zeta_new[i] + last * p->unit[i]) * ABOVE;
+  return 1;
+}
+
+/* zeta_new by the kernel, or (0) no bound */
+static int bound_by_kernel(zono *z, double *rate, const double *zeta) {
   proof *p = z->proof;
   uint32_t nx = z->nx;
-  double *target = p->work, *rate = p->grow;
-  for (uint32_t n = 0; n < p->ntarget; n++) target[n] = reach_of(z, n, lump);
-  for (uint32_t i = 0; i < nx; i++) {
-    rate[i] = z->rr_out[i] + (p->link[i] == LINK_STATE ? 0 : target[p->link_to[i]]);
+  for (uint32_t i = 0; i < nx; i++)
     for (uint32_t j = 0; j < nx; j++) rate[i] += p->dJ[(size_t)i * nx + j] * zeta[j];
-  }
   for (uint32_t i = 0; i < nx; i++) {
     double sum = LEAST;
     for (uint32_t j = 0; j < nx; j++) sum += p->reach[(size_t)i * nx + j] * rate[j];
     p->zeta_new[i] = sum * ABOVE;
   }
+  return 1;
+}
+
+/* zeta_new, alpha_new from lumps and zeta; 0: none */
+static int bound(zono *z, const double *lump, const double *zeta) {
+  proof *p = z->proof;
+  uint32_t nx = z->nx;
+  double *target = p->work, *rate = p->grow;
+  for (uint32_t n = 0; n < p->ntarget; n++) target[n] = reach_of(z, n, lump);
+  for (uint32_t i = 0; i < nx; i++) rate[i] = z->rr_out[i] + (p->link[i] == LINK_STATE ? 0 : target[p->link_to[i]]);
+  if (!(is_certain(z) ? grow_bound(z, rate) : bound_by_kernel(z, rate, zeta))) return 0;
   for (uint32_t k = 0; k < z->na; k++) {
     const double *C = p->C + (size_t)k * z->nslot + slot_x(z, 0), *dC = p->dC + (size_t)k * z->nslot + slot_x(z, 0);
     double sum = target[k] + LEAST;
     for (uint32_t j = 0; j < nx; j++) sum += (fabs(C[j]) + dC[j]) * zeta[j];
     p->alpha_new[k] = sum * ABOVE;
   }
+  return 1;
 }
 
 static int within(uint32_t n, const double *a, const double *b) {
@@ -163,15 +205,14 @@ static int close_bound(zono *z) {
   proof *p = z->proof;
   uint32_t nx = z->nx, na = z->na;
   memset(p->zeta, 0, nx * sizeof(double)), memset(p->alpha, 0, na * sizeof(double));
-  bound(z, z->r, p->zeta);
+  if (!bound(z, z->r, p->zeta)) return z->why = WHY_GROWTH, 0;
   for (uint32_t try = 0; try < TRIES; try++) {
     guess_again(nx, p->zeta, p->zeta_new);
     guess_again(na, p->alpha, p->alpha_new);
     memset(p->input, 0, z->program.tape->nin * sizeof(double));
     memcpy(p->input, p->zeta, nx * sizeof(double)), memcpy(p->input + nx, p->alpha, na * sizeof(double));
     if (!zono_spread(z, p->input, p->delta)) return 0;
-    bound(z, z->rr, p->zeta);
-    if (within(nx, p->zeta_new, p->zeta) && within(na, p->alpha_new, p->alpha)) {
+    if (bound(z, z->rr, p->zeta) && within(nx, p->zeta_new, p->zeta) && within(na, p->alpha_new, p->alpha)) {
       memcpy(p->zeta, p->zeta_new, nx * sizeof(double));
       return 1;
     }
@@ -201,4 +242,7 @@ static int is_steady(zono *z) {
   return z->why = WHY_GROWTH, 0;
 }
 
-int zono_prove(zono *z) { return sweep_coefficients(z) && kernel_find(z) && is_steady(z) && close_bound(z); }
+int zono_prove(zono *z) {
+  if (is_certain(z)) return sweep_coefficients(z) && kernel_units(z) && close_bound(z);
+  return sweep_coefficients(z) && kernel_find(z) && is_steady(z) && close_bound(z);
+}

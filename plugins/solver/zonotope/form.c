@@ -24,6 +24,24 @@ void form_add(const forms *f, double *to, double scale, const double *a) {
   to[4 + f->n] += 1;
 }
 
+/* l_a l_b, with T_i T_j = (T_(i+j) + T_|i-j|) / 2; what is above degree n into the radius */
+static void multiply_powers(const forms *f, double *to, double scale, const double *a, const double *b) {
+  double high = 0;
+  for (uint32_t i = 1; i <= f->n; i++) {
+    double half = 0.5 * scale * a[i];
+    for (uint32_t j = 1; j <= f->n; j++) {
+      double part = half * b[j];
+      to[i > j ? i - j : j - i] += part;
+      if (i + j <= f->n)
+        to[i + j] += part;
+      else
+        high += fabs(part);
+    }
+  }
+  to[1 + f->n] += high;
+  to[4 + f->n] += 2 * f->n; /* additions to each coefficient, at most */
+}
+
 void form_product(const forms *f, double *to, double scale, const double *a, const double *b) {
   double ca = scale * a[0], cb = scale * b[0], size = fabs(scale);
   double ra = a[1 + f->n], rb = b[1 + f->n], la = a[2 + f->n], lb = b[2 + f->n];
@@ -34,8 +52,10 @@ void form_product(const forms *f, double *to, double scale, const double *a, con
     for (uint32_t v = 1; v <= f->n; v++) to[v] += cb * a[v];
   else
     for (uint32_t v = 1; v <= f->n; v++) to[v] += ca * b[v] + cb * a[v];
-  to[1 + f->n] += fabs(ca) * rb + fabs(cb) * ra + size * (la + ra) * (lb + rb);
-  to[3 + f->n] += fabs(ca) * (fabs(b[0]) + lb) + fabs(cb) * la;
+  double square = size * la * lb;
+  to[1 + f->n] += fabs(ca) * rb + fabs(cb) * ra + size * (la * rb + ra * (lb + rb)) + (f->powers ? 0 : square);
+  to[3 + f->n] += fabs(ca) * (fabs(b[0]) + lb) + fabs(cb) * la + (f->powers ? square : 0);
+  if (f->powers && square > 0) multiply_powers(f, to, scale, a, b);
   to[4 + f->n] += 1;
 }
 

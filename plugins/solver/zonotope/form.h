@@ -18,9 +18,10 @@
 
 typedef struct forms {
   uint32_t n, stride; /* sigmas; doubles of a form */
+  int powers;         /* sigma_v is Chebyshev's polynomial T_v of one sigma, time */
 } forms;
 
-static inline forms forms_of(uint32_t n) { return (forms) { n, (n + 5 + 3) & ~3u }; }
+static inline forms forms_of(uint32_t n, int powers) { return (forms) { n, (n + 5 + 3) & ~3u, powers }; }
 static inline double *form_rad(const forms *f, double *x) { return x + 1 + f->n; }
 static inline double form_norm(const forms *f, const double *x) { return x[2 + f->n]; }
 static inline double form_mass(const forms *f, const double *x) { return x[3 + f->n]; }

@@ -1,5 +1,6 @@
 /* functions.c -- rows of quotients, roots and elementary functions. */
 #include "implicit.h"
+#include "turn.h"
 #include "value.h"
 
 typedef struct instr {
@@ -17,7 +18,8 @@ static instr instruction(const zono *z, uint32_t i, uint32_t k) {
 static void put_angle(const zono *z, const instr *n, double *to) {
   const shape *s = &z->shape;
   const double *y = row_at(z, n->a, 0), *x = row_at(z, n->b, 0);
-  double r = x[0] * x[0] + y[0] * y[0], *u = s->scratch, *w = u + s->stride, *square = w + s->stride;
+  double r = x[0] * x[0] + y[0] * y[0], turned = x[0] * row_low(s, y) - y[0] * row_low(s, x), *u = s->scratch,
+         *w = u + s->stride, *square = w + s->stride;
   uint32_t parts = row_parts(s, 0);
   terms sum;
   terms_clear(&sum);
@@ -31,7 +33,7 @@ static void put_angle(const zono *z, const instr *n, double *to) {
   terms_moving(s, &sum, -1, w);
   terms_sum(s, &sum, square, parts); /* w^2 - u^2 / 3 - w */
   terms_clear(&sum);
-  sum.c = value_of(z, AMBIT_OP_ATAN2, y[0], x[0]);
+  sum.c = value_of(z, AMBIT_OP_ATAN2, y[0], x[0]), sum.low = turned / r;
   terms_moving(s, &sum, 1, u), terms_outer(s, &sum, 1, u, square);
   terms_sum(s, &sum, to, row_parts(s, 0));
 }
@@ -87,6 +89,15 @@ static int derivatives(const zono *z, uint32_t op, double c, double g[4]) {
   }
 }
 
+/* at the constant of a, its low part included: to twice the digits, if turn.h or arithmetic knows so many */
+static dd middle_of(const shape *s, uint32_t op, const double *a, const double g[4]) {
+  dd sine = { 0, 0 }, cosine = { 0, 0 }, value = { g[0], 0 };
+  if (op == AMBIT_OP_SQRT) return dd_sqrt(row_middle(s, a));
+  if ((op == AMBIT_OP_SIN || op == AMBIT_OP_COS) && turn_at(a[0], &sine, &cosine))
+    value = op == AMBIT_OP_SIN ? sine : cosine;
+  return dd_make(value.hi, value.lo + g[1] * row_low(s, a));
+}
+
 int zono_function_order0(zono *z, uint32_t i) {
   const instr n = instruction(z, i, 0);
   const double *a = row_at(z, n.a, 0);
@@ -100,18 +111,18 @@ int zono_function_order0(zono *z, uint32_t i) {
     return put_angle(z, &n, to), 1;
   }
   if (!derivatives(z, n.op, a[0], g)) return 0;
-  row_function(&z->shape, to, a, g);
+  row_function(&z->shape, to, a, middle_of(&z->shape, n.op, a, g), g);
   return 1;
 }
 
 /* -- order k > 0: recurrences */
 
-/* sum += scale sum_{from <= j <= to} j u_j (*) v_(k-j) */
+/* sum += scale / k sum_{from <= j <= to} j u_j (*) v_(k-j) */
 static void add_weighted(
     const zono *z, terms *sum, double scale, uint32_t u, uint32_t v, uint32_t k, uint32_t from, uint32_t to) {
   uint32_t nu = orders(z, u), nv = orders(z, v);
   for (uint32_t j = from; j <= to && j < nu; j++)
-    if (k - j < nv) terms_product(&z->shape, sum, scale * j, row_at(z, u, j), row_at(z, v, k - j));
+    if (k - j < nv) terms_share(&z->shape, sum, scale, j, k, row_at(z, u, j), row_at(z, v, k - j));
 }
 
 /* what is divided by the inverse at order k; the function's own rows below k are known */
@@ -128,12 +139,12 @@ static void add_dividend(const zono *z, terms *sum, const instr *n) {
     for (uint32_t j = 1; 2 * j < k; j++) terms_product(s, sum, -2, row_at(z, n->dst, j), row_at(z, n->dst, k - j));
     if (k % 2 == 0) terms_product(s, sum, -1, row_at(z, n->dst, k / 2), row_at(z, n->dst, k / 2));
     break;
-  case AMBIT_OP_LOG: add_weighted(z, sum, -1.0 / k, n->dst, n->a, k, 1, k - 1); break;
-  case AMBIT_OP_ATAN: add_weighted(z, sum, -1.0 / k, n->dst, n->aux, k, 1, k - 1); break;
+  case AMBIT_OP_LOG: add_weighted(z, sum, -1, n->dst, n->a, k, 1, k - 1); break;
+  case AMBIT_OP_ATAN: add_weighted(z, sum, -1, n->dst, n->aux, k, 1, k - 1); break;
   default:
-    add_weighted(z, sum, 1.0 / k, n->a, n->b, k, 1, k);
-    add_weighted(z, sum, -1.0 / k, n->b, n->a, k, 1, k);
-    add_weighted(z, sum, -1.0 / k, n->dst, n->aux, k, 1, k - 1);
+    add_weighted(z, sum, 1, n->a, n->b, k, 1, k);
+    add_weighted(z, sum, -1, n->b, n->a, k, 1, k);
+    add_weighted(z, sum, -1, n->dst, n->aux, k, 1, k - 1);
   }
 }
 
@@ -145,7 +156,7 @@ static int find_inverse(zono *z, uint32_t i, const instr *n) {
   const double *a = row_at(z, of, 0);
   if (a[0] == 0) return 0;
   row_inverse(s, zono_inverse(z, i), a);
-  if (n->op == AMBIT_OP_SQRT) row_scale(s, zono_inverse(z, i), 0.5, zono_inverse(z, i), row_parts(s, 0));
+  if (n->op == AMBIT_OP_SQRT) row_over(s, zono_inverse(z, i), 2, zono_inverse(z, i), row_parts(s, 0));
   return 1;
 }
 
@@ -156,12 +167,12 @@ int zono_function(zono *z, uint32_t i, uint32_t k) {
   terms sum;
   terms_clear(&sum);
   switch (n.op) {
-  case AMBIT_OP_EXP: add_weighted(z, &sum, 1.0 / k, n.a, n.dst, k, 1, k); break;
+  case AMBIT_OP_EXP: add_weighted(z, &sum, 1, n.a, n.dst, k, 1, k); break;
   case AMBIT_OP_SIN:
   case AMBIT_OP_SINH:
   case AMBIT_OP_COSH:
-  case AMBIT_OP_TANH: add_weighted(z, &sum, 1.0 / k, n.a, n.aux, k, 1, k); break;
-  case AMBIT_OP_COS: add_weighted(z, &sum, -1.0 / k, n.a, n.aux, k, 1, k); break;
+  case AMBIT_OP_TANH: add_weighted(z, &sum, 1, n.a, n.aux, k, 1, k); break;
+  case AMBIT_OP_COS: add_weighted(z, &sum, -1, n.a, n.aux, k, 1, k); break;
   default:
     if (!z->has_inverse[i]) return 0;
     if (k == 1 && !find_inverse(z, i, &n)) return 0;

@@ -7,8 +7,8 @@ static double *entry(const zono *z, const sweeps *w, double *matrix, uint32_t i,
   return proof_form(w, matrix, (size_t)i * z->na + j);
 }
 
-/* 1 / a to first order */
-static int reciprocal(const forms *f, double *to, const double *a) {
+/* 1 / a to first order; twice more by Newton's method where forms are polynomials in time */
+static int reciprocal(const forms *f, double *to, const double *a, double *left) {
   double c = 1 / a[0];
   if (!isfinite(c)) return 0;
   form_clear(f, to);
@@ -16,6 +16,14 @@ static int reciprocal(const forms *f, double *to, const double *a) {
   for (uint32_t v = 1; v <= f->n; v++) to[v] = -c * c * a[v];
   to[4 + f->n] = 1;
   form_close(f, to);
+  for (int turn = 0; turn < 2 && f->powers; turn++) {
+    double *next = left + f->stride;
+    form_constant(f, left, 1), form_close(f, left);
+    form_product(f, left, -1, a, to), form_close(f, left);
+    form_clear(f, next), form_add(f, next, 1, to), form_product(f, next, 1, to, left), form_close(f, next);
+    memcpy(to, next, f->stride * sizeof *to);
+    *form_rad(f, to) = 0;
+  }
   return 1;
 }
 
@@ -25,7 +33,7 @@ static int factor(zono *z, const sweeps *w) {
   uint32_t n = z->na;
   for (uint32_t p = 0; p < n; p++) {
     double *inverse = proof_form(w, w->pivot, p), *l = proof_form(w, w->scratch, 0);
-    if (!reciprocal(f, inverse, entry(z, w, w->matrix, p, p)))
+    if (!reciprocal(f, inverse, entry(z, w, w->matrix, p, p), proof_form(w, w->scratch, 1)))
       return z->why = WHY_PIVOT, z->culprit = z->proof->order[p], 0;
     for (uint32_t i = p + 1; i < n; i++) {
       double *left = entry(z, w, w->matrix, i, p);

@@ -42,7 +42,7 @@ static void find_units(const zono *z, double length) {
   proof *p = z->proof;
   uint32_t n = z->nx;
   double *u = p->unit, *next = p->grow;
-  memcpy(u, p->spread, n * sizeof *u);
+  memcpy(u, is_certain(z) ? p->natural : p->spread, n * sizeof *u);
   for (int turn = 0; turn < TURNS; turn++) {
     double most = 0;
     for (uint32_t i = 0; i < n; i++) {
@@ -85,16 +85,23 @@ static void add_rest(const zono *z, double length, double rest) {
     }
 }
 
+int kernel_units(zono *z) {
+  proof *p = z->proof;
+  size_t all = (size_t)z->nx * z->nx;
+  for (size_t e = 0; e < all; e++) p->jacobian_size[e] = fabs(p->J[e]) * ABOVE;
+  find_units(z, fabs(z->h) * ABOVE);
+  return 1;
+}
+
 int kernel_find(zono *z) {
   proof *p = z->proof;
   uint32_t n = z->nx, k = 0;
   size_t all = (size_t)n * n, bytes = all * sizeof(double);
   double length = fabs(z->h) * ABOVE;
+  kernel_units(z);
   memset(p->mean, 0, bytes), memset(p->tilt, 0, bytes), memset(p->reach, 0, bytes), memset(p->wobble, 0, bytes);
   memset(p->power, 0, bytes), memset(p->size, 0, bytes);
   for (uint32_t i = 0; i < n; i++) p->power[(size_t)i * n + i] = p->size[(size_t)i * n + i] = 1;
-  for (size_t e = 0; e < all; e++) p->jacobian_size[e] = fabs(p->J[e]) * ABOVE;
-  find_units(z, length);
   double step = norm(z, p->jacobian_size) * length, now = 1;
   if (!(step < 4)) return z->why = WHY_GROWTH, 0;
   for (;; k++) {

@@ -89,7 +89,8 @@ static int open_targets(zono *z) {
   return doubles(h, c, &p->C) && doubles(h, c, &p->dC) && doubles(h, c, &p->dC_new) && doubles(h, l, &p->dL_new) &&
          doubles(h, l, &p->rho) && doubles(h, l, &p->close) && doubles(h, c, &p->weight) && doubles(h, l, &p->L) &&
          doubles(h, l, &p->dL) && doubles(h, l, &p->weight_L) && doubles(h, z->program.tape->nin, &p->input) &&
-         sweep_open(z, &p->forms, z->shape.m + z->shape.nx + 1) && sweep_open(z, &p->points, 0);
+         sweep_open(z, &p->forms, is_certain(z) ? POWERS : z->shape.m + z->shape.nx + 1, is_certain(z)) &&
+         sweep_open(z, &p->points, 0, 0);
 }
 
 static int open_states(zono *z) {
@@ -101,11 +102,11 @@ static int open_states(zono *z) {
     &p->size_new, &p->jacobian_size };
   for (size_t n = 0; n < sizeof matrix / sizeof *matrix; n++)
     if (!doubles(h, square, matrix[n])) return 0;
-  return doubles(h, nx, &p->zeta) && doubles(h, nx, &p->zeta_new) && doubles(h, z->na, &p->alpha) &&
+  return doubles(h, nx, &p->zeta) && doubles(h, 2 * nx, &p->zeta_new) && doubles(h, z->na, &p->alpha) &&
          doubles(h, z->na, &p->alpha_new) && doubles(h, nx, &p->grow) && doubles(h, nx, &p->grow_path) &&
          doubles(h, ORIGINS * nx, &p->boxes) && doubles(h, nx, &p->spread) && doubles(h, nx, &p->largest) &&
-         doubles(h, nx, &p->budget) && doubles(h, 3 * nx, &p->worth) && doubles(h, nx, &p->unit) &&
-         doubles(h, 4 * (nx + z->na), &p->work) && doubles(h, columns * nx, &p->columns) &&
+         doubles(h, nx, &p->budget) && doubles(h, nx, &p->natural) && doubles(h, 4 * nx, &p->worth) &&
+         doubles(h, nx, &p->unit) && doubles(h, 4 * (nx + z->na), &p->work) && doubles(h, columns * nx, &p->columns) &&
          doubles(h, (z->ngen_max + nx) * (nx + 1), &p->turned) && doubles(h, nx * (nx + 3), &p->moves) &&
          doubles(h, columns, &p->score) && (p->origin = h->alloc(h, columns + 1)) != NULL &&
          (p->from = h->alloc(h, z->ngen_max + nx + 1)) != NULL &&
@@ -118,7 +119,7 @@ int zono_open_proof(zono *z) {
   proof *p = z->proof = z->host->alloc(z->host, sizeof *p);
   if (!p || !open_slots(z) || !open_targets(z) || !open_states(z)) return 0;
   if (!quartic_open(z) || !residual_open(z) || !modes_open(z) || !cycle_open(z) || !basis_open(z)) return 0;
-  slope_open(p->gap);
+  slope_open(p);
   if ((z->problem.wish & AMBIT_WISH_DENSE) && z->nx && !dense_open(z)) return 0;
   return !(z->problem.wish & AMBIT_WISH_SET) || !z->nx || set_open(z);
 }

@@ -3,14 +3,16 @@
 #include "implicit.h"
 #include "jump.h"
 #include "kink.h"
+#include "shared/constant.h"
 #include <ambit/code.h>
 
 #define ROOM 400e6    /* bytes that rows may take at the highest order */
 #define ORDER_MOST 40 /* that may be asked for */
-#define ORDER_HIGH 24 /* that is chosen */
+#define ORDER_HIGH 30 /* that is chosen */
 #define ORDER_LEAST 8
 #define SORTED 27   /* data: fewer are held all alike */
 #define HISTORY 60  /* generators kept for each state, */
+#define BOXES 40    /* without data: boxes of so many steps, */
 #define VARYING 600 /* and so many more for all that varies together, */
 #define EACH 32u    /* or for the mean and the moment of each */
 
@@ -78,8 +80,11 @@ int zono_open_rows(zono *z) {
   size_t stride = z->shape.stride, rows = 0, inverses = 0, at = 0;
   z->nslot = t->nslot, z->nout = t->nout;
   z->num = h->service(h, AMBIT_NUM_SERVICE);
+  z->constant = room(h, t->nconst, sizeof *z->constant), z->constant_off = doubles(h, t->nconst);
   z->first = room(h, t->nslot, sizeof *z->first), z->at = room(h, t->nslot, sizeof *z->at);
   z->has_inverse = room(h, t->ninstr, sizeof *z->has_inverse);
+  if (!z->constant || !z->constant_off) return 0;
+  for (uint32_t i = 0; i < t->nconst; i++) z->constant_off[i] = constant_at(t, i, &z->constant[i]);
   if (!z->num || !z->first || !z->at || !z->has_inverse || !open_program(z) || !kinks_open(z)) return 0;
   for (uint32_t i = 0; i < t->nslot; i++) {
     size_t n = t->degree[i] ? z->K_max + 1u : 1u, cubed = z->shape.room < n ? z->shape.room : n;
@@ -110,7 +115,7 @@ static int open_set(zono *z) {
   size_t nx = z->nx;
   uint32_t sources = vary_sources(z), each = VARYING / (sources ? sources : 1);
   z->vary_room = sources * (each > EACH ? each : EACH);
-  z->ngen_max = (z->options.history ? z->options.history : HISTORY) * z->nx + z->vary_room;
+  z->ngen_max = (z->options.history ? z->options.history : is_certain(z) ? BOXES : HISTORY) * z->nx + z->vary_room;
   z->P = doubles(h, nx * z->shape.stride), z->E = doubles(h, nx), z->G = doubles(h, nx * (z->ngen_max + nx));
   z->lo = doubles(h, nx), z->hi = doubles(h, nx), z->tube_lo = doubles(h, nx), z->tube_hi = doubles(h, nx);
   z->limit = doubles(h, nx);

@@ -13,16 +13,19 @@
 #define LESS 1.25      /* where lumps matter so much that quartic.c is at work: it knows them at one time of the step */
 #define FROM_REST 1e-4 /* most that a step may add, as a share of a state that starts at 0 */
 #define OF_SET 0.03    /* or of its set: terms of higher degree in the data are some part of it from the start */
+#define SHARE_EXACT 0.1
 #define SHARE 0.001    /* of its set: what a state may be widened by in a whole run without more ado; */
 #define MANY 20.0      /* data; of fewer, triples cost less, by the cube, and that much less is given away */
 #define FADED 0.1      /* of a set that was larger once, as if it still were so large */
 #define ORDER_DATA 8   /* in time, with data; */
-#define ORDER_EXACT 18 /* without, and least */
+#define ORDER_EXACT 30 /* without, and least */
 #define ORDER_LEAST 10
-#define ORDER_SHORT 3 /* least between jumps; */
-#define SETTLE 2      /* steps until a lower one is tried, */
-#define RELAX 100     /* or after one that was too low */
-#define LEFT 0.7      /* of the length that was chosen: the proof bore less */
+#define ORDER_SHORT 3  /* least between jumps; */
+#define SETTLE 2       /* steps until a lower one is tried, */
+#define RELAX 100      /* or after one that was too low */
+#define FLOOR 1e-4     /* of the largest of these: states that are at rest for a while */
+#define DIGITS 0x1p-10 /* what rounding to doubles would add, times this: where there are no data */
+#define LEFT 0.7       /* of the length that was chosen: the proof bore less */
 #define TRIES 60
 #define REFINE 4
 #define BESIDE_SET 1e-5     /* share of the set that truncation may add in a step */
@@ -79,12 +82,46 @@ static int is_of_like_order(const zono *z, uint32_t i, double length, double rat
 void pace_budget(zono *z, double length) {
   proof *p = z->proof;
   const double *time = z->problem.time;
-  double span = fabs(time[z->problem.ntime - 1] - time[0]), many = fmin(z->m / MANY, 1);
+  double span = fabs(time[z->problem.ntime - 1] - time[0]), many = is_certain(z) ? 1 : fmin(z->m / MANY, 1);
   for (uint32_t i = 0; i < z->nx; i++) {
     double size, set;
     find_sizes(z, i, length, &size, &set);
-    p->budget[i] = SHARE * many * many * many * fmax(set, FADED * p->largest[i]) / span;
+    p->budget[i] = (is_certain(z) ? SHARE_EXACT : SHARE * many * many * many) * fmax(set, FADED * p->largest[i]) / span;
   }
+}
+
+/* the rates that rounding every operation to doubles would have */
+static void find_natural(zono *z) {
+  const ambit_tape *t = z->program.tape;
+  proof *p = z->proof;
+  const double *total = p->total;
+  memset(z->r, 0, z->nslot * sizeof *z->r);
+  for (uint32_t i = 0; i < t->ninstr; i++) {
+    int sum = t->op[i] == AMBIT_OP_ADD || t->op[i] == AMBIT_OP_SUB;
+    double size = sum ? total[z->first[t->a[i]]] + total[z->first[t->b[i]]] : total[z->first[t->dst[i]]];
+    z->r[t->dst[i]] = UNIT * size;
+  }
+  memset(z->rr_out, 0, z->nout * sizeof *z->rr_out);
+  find_rates(z, p->natural);
+  double most[2] = { 0, 0 }; /* of integrals of states, and of others */
+  for (uint32_t i = 0; i < z->nx; i++) {
+    p->natural[i] += UNIT * total[z->first[slot_out(z)[i]]];
+    most[p->link[i] == LINK_STATE] = fmax(most[p->link[i] == LINK_STATE], p->natural[i]);
+  }
+  for (uint32_t i = 0; i < z->nx; i++) p->natural[i] = fmax(p->natural[i], FLOOR * most[p->link[i] == LINK_STATE]);
+}
+
+/* a state that is another one's integral is off by what that is off by over the step, too */
+static double natural_of(const zono *z, uint32_t i, double length) {
+  const proof *p = z->proof;
+  return p->natural[i] + (p->link[i] == LINK_STATE ? p->natural[p->link_to[i]] * length : 0);
+}
+
+/* what truncation may add to a state: less than rounding would if the order in time can be what it needs to be */
+static double allowed_beside_rounding(const zono *z, uint32_t i, double size, double length) {
+  const options *o = &z->options;
+  double share = o->time_order && o->tolerance == 0 ? EXACT : o->tolerance, digits = o->time_order ? 1 : DIGITS;
+  return share * size + (digits * natural_of(z, i, length) + z->proof->budget[i]) * length;
 }
 
 /* 1: short enough; start: rates over a step of length 0 */
@@ -100,7 +137,9 @@ static int fits(zono *z, double length, const double *start) {
     double size, set;
     find_sizes(z, i, length, &size, &set);
     double allowed = share_of(z, size, set) * size + BESIDE_SET * set + p->budget[i] * length;
+    if (is_certain(z)) allowed = allowed_beside_rounding(z, i, size, length);
     if (length * rate[i] <= growth * length * start[i] + allowed) continue;
+    if (is_certain(z)) return 0;
     if (!known && !defect_evaluate(z, 0.5 * length)) return 0;
     if (!known) find_rates(z, half), known = 1;
     if (!is_of_like_order(z, i, length, rate[i], half[i])) return 0;
@@ -126,6 +165,7 @@ double zono_choose_step(zono *z, double h_most) {
   if (!defect_evaluate(z, 0) || !sweep_weights(z)) return 0;
   kinks_start(z, most);
   find_rates(z, start);
+  find_natural(z);
   for (uint32_t n = 0; n < TRIES && !fits(z, length, start); n++) above = length, length *= 0.5;
   for (uint32_t n = 0; n < REFINE && above > 0; n++) {
     double middle = sqrt(length * above);

@@ -9,9 +9,10 @@
 
 #define SHARE 0.25  /* of the budget, for each kind of parts */
 #define FADING 0.97 /* of the usual length of a step, from one to the next */
+#define LONGER 1.2  /* without data, where it may be 3 times as long after a short one */
 #define AHEAD 2.0   /* the next step may be so much longer; else what is left out would keep steps short */
 
-enum kind { KIND_PAIRS, KIND_MIXED, KIND_TRIPLES, KINDS };
+enum kind { KIND_PAIRS, KIND_MIXED, KIND_TRIPLES, KIND_ERRORS, KINDS };
 
 /* Sizes of what a (*) b has of each kind. is_a, is_b: that operand is of the order of the product, and would not hold
 ** the part either. */
@@ -20,6 +21,7 @@ static void add_worth(
   double x = is_b ? 0 : w * fabs(a[0]), y = is_a ? 0 : w * fabs(b[0]), la = w * row_l(s, a), lb = w * row_l(s, b);
   worth[KIND_PAIRS] += x * row_q(s, b) + y * row_q(s, a) + la * row_l(s, b);
   worth[KIND_MIXED] += x * row_x(s, b) + y * row_x(s, a) + la * row_r(s, b) + lb * row_r(s, a);
+  worth[KIND_ERRORS] += x * row_r(s, b) + y * row_r(s, a);
   worth[KIND_TRIPLES] += x * row_c(s, b) + y * row_c(s, a) + la * row_q(s, b) + lb * row_q(s, a);
 }
 
@@ -56,7 +58,7 @@ static void find_worth(const zono *z, uint32_t i, uint32_t k, double worth[KINDS
 }
 
 /* rates of order k of each kind by the budgets: the largest over the states. rate [nx x KINDS] is scratch. */
-static void find_shares(const zono *z, uint32_t k, double power, double *rate, double share[KINDS]) {
+static void find_shares(const zono *z, uint32_t k, double power, double before, double *rate, double share[KINDS]) {
   const proof *p = z->proof;
   const ambit_tape *t = z->program.tape;
   memset(rate, 0, z->nx * KINDS * sizeof *rate);
@@ -64,12 +66,15 @@ static void find_shares(const zono *z, uint32_t k, double power, double *rate, d
     double worth[KINDS] = { 0 };
     if (k >= orders(z, t->dst[i])) continue;
     find_worth(z, i, k, worth);
-    for (uint32_t x = 0; x < z->nx && worth[KIND_PAIRS] + worth[KIND_MIXED] + worth[KIND_TRIPLES] > 0; x++) {
+    for (uint32_t x = 0;
+         x < z->nx && worth[KIND_PAIRS] + worth[KIND_MIXED] + worth[KIND_TRIPLES] + worth[KIND_ERRORS] > 0; x++) {
       if (p->link[x] == LINK_STATE) continue;
       double c = fabs(p->C[(size_t)p->link_to[x] * z->nslot + t->dst[i]]) * power;
       for (int n = 0; n < KINDS; n++) rate[x * KINDS + (uint32_t)n] += c * worth[n];
     }
   }
+  for (uint32_t x = 0; x < z->nx && k > 0; x++)
+    rate[x * KINDS + KIND_ERRORS] += row_r(&z->shape, coefficient(z, slot_out(z)[x], k - 1)) * before;
   for (uint32_t x = 0; x < z->nx; x++)
     for (int n = 0; n < KINDS; n++) {
       double by = p->budget[x] > 0 ? rate[x * KINDS + (uint32_t)n] / p->budget[x] : INFINITY;
@@ -89,12 +94,13 @@ void parts_choose(zono *z) {
   const double *usual = &z->proof->usual;
   double share[TIME_ORDERS][KINDS], power = 1, length = fabs(z->h);
   shape *s = &z->shape;
-  if (z->m == 0) return;
+  if (z->m == 0 && !is_certain(z)) return;
   if (length < *usual) length = fmin(*usual, AHEAD * length);
+  if (is_certain(z)) length = fmax(LONGER * fabs(z->h), fmin(*usual, 3 * fabs(z->h)));
   z->proof->usual = fmax(fabs(z->h), FADING * *usual);
   for (uint32_t k = 0; k <= z->K; k++, power *= length) {
     memset(share[k], 0, sizeof share[k]);
-    find_shares(z, k, power, z->proof->worth, share[k]);
+    find_shares(z, k, power, power / length, z->proof->worth, share[k]);
   }
   for (uint32_t i = 0; i < z->nx; i++) { /* triples of the states become errors once */
     double once =
@@ -105,4 +111,7 @@ void parts_choose(zono *z) {
   s->paired = paired > 0 ? paired : 1, s->mixing = count_orders(share, z->K, KIND_MIXED);
   s->cubed = cubed < s->room ? cubed : s->room;
   if (s->cubed > s->paired) s->paired = s->cubed;
+  if (!is_certain(z)) return;
+  uint32_t erring = count_orders(share, z->K, KIND_ERRORS);
+  s->erring = erring > 0 ? erring : 1;
 }

@@ -11,6 +11,7 @@
 #include "zonotope.h"
 
 #define TIME_ORDERS 64 /* room for orders in time */
+#define POWERS 4       /* degree in time of forms where there are no data */
 
 /* how x'_i depends on what was swept */
 enum link { LINK_STATE, LINK_UNKNOWN, LINK_TARGET };
@@ -46,8 +47,9 @@ typedef struct proof {
   double *high, *low;            /* [nslot] bounds of |V| over the step; low 0 where it may vanish */
   double *delta;                 /* [nslot] |v* - V| */
   double gap[TIME_ORDERS];       /* of each power of time from its chord, at most; slope.c */
-  uint32_t *slope_at;            /* [nslot] its first derivative form, or AMBIT_NO_SLOT */
-  uint32_t *order;               /* [na] unknowns in the order of elimination */
+  double chebyshev[TIME_ORDERS][POWERS + 1]; /* of each power of time; slope.c */
+  uint32_t *slope_at;                        /* [nslot] its first derivative form, or AMBIT_NO_SLOT */
+  uint32_t *order;                           /* [na] unknowns in the order of elimination */
   uint32_t ntarget, nslope;
   uint32_t *target_out;                  /* [ntarget - na] the x' that target na + n is */
   uint32_t *link;                        /* [nx] kind of x'_i: enum link */
@@ -72,6 +74,7 @@ typedef struct proof {
   double *end;                /* [nx x stride] rows at the end of the step */
   double *spread;             /* [nx] sizes of states' sets, for weights */
   double *largest;            /* [nx] of these, of the whole run */
+  double *natural;            /* [nx] rates that rounding to doubles would have: pace.c */
   double *budget;             /* [nx] rates at which each state may be widened: pace.c */
   double *worth, usual;       /* parts.c: [3 nx]; length of steps */
   double *unit;               /* [nx] of the states, for norms */
@@ -100,7 +103,7 @@ typedef struct proof {
 void defect_prepare(zono *z);                /* from the rows: once a step */
 int defect_evaluate(zono *z, double length); /* z->r, z->rr_out, high, low over [0, length] */
 /* sweep.c */
-int sweep_open(zono *z, sweeps *w, uint32_t sigmas);
+int sweep_open(zono *z, sweeps *w, uint32_t sigmas, int powers);
 int sweep_coefficients(zono *z); /* C, L, J of proof from forms over [0, h] */
 int sweep_weights(zono *z);      /* weight, weight_L: at the centre and the start */
 /* inverse.c: w->lambda from w->matrix; 0: a pivot is 0 */
@@ -108,7 +111,7 @@ int inverse_find(zono *z, const sweeps *w);
 /* origin.c: where the width comes from, as text that follows a clause; empty where there is nothing to say */
 void origin_text(const zono *z, char *text, size_t room);
 /* slope.c: forms of slots and of derivatives */
-void slope_open(double gaps[TIME_ORDERS]);
+void slope_open(proof *p);
 int slope_forms(zono *z, const sweeps *w, double h);
 /* pace.c: budgets for a step of this length */
 void pace_budget(zono *z, double length);
@@ -130,7 +133,9 @@ uint32_t mixed_add(zono *z, uint32_t at);
 uint32_t distance_add(zono *z, uint32_t at);
 /* close.c: the set after a jump, whose rows are p->end; put: what adds columns to those of the old generators */
 void close_jump(zono *z, uint32_t (*put)(zono *z, const zono *by, uint32_t at), const zono *by);
-/* kernel.c: mean, reach, wobble from J and |h|; 0: too long */
+/* kernel.c: sizes of J, and units in which J h is small; */
+int kernel_units(zono *z);
+/* mean, reach, wobble from J and |h|; 0: too long */
 int kernel_find(zono *z);
 
 /* what goes into the box */

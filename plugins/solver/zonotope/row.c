@@ -17,7 +17,7 @@ void shape_place(shape *s) {
     if (s->reach[i] < s->cubic) s->cubic = i;
   if (s->room == 0) s->cubic = 0;
   if (s->cubic == 0) s->cubed = s->room = 0;
-  s->cube = (s->norms + NORMS + 4) / 4 * 4;
+  s->cube = (s->norms + ENDS + 4) / 4 * 4;
   s->triples = s->cubic * (s->cubic + 1) * (s->cubic + 2) / 6;
   s->stride = s->triples ? (s->cube + s->triples + 3 + 3) / 4 * 4 : s->cube; /* the last vector may run over */
 }
@@ -26,7 +26,7 @@ void shape_place(shape *s) {
 #define CUBIC_MOST 27 /* and if there are */
 #define CUBED 3       /* orders that have room for triples */
 
-void shape_hold_all(shape *s) { s->paired = s->mixing = UINT32_MAX, s->cubed = s->room; }
+void shape_hold_all(shape *s) { s->paired = s->mixing = s->erring = UINT32_MAX, s->cubed = s->room; }
 
 int shape_open(const ambit_host *h, shape *s, uint32_t m, uint32_t nx) {
   *s = (shape) {
@@ -67,7 +67,7 @@ void row_norms_all(const shape *s, double *x) {
 
 void row_constant(const shape *s, double *to, double c) {
   memset(to, 0, s->pair[0] * sizeof *to);
-  memset(to + s->norms, 0, NORMS * sizeof *to);
+  memset(to + s->norms, 0, ENDS * sizeof *to);
   to[0] = c;
 }
 
@@ -80,7 +80,7 @@ typedef struct range {
 /* the ranges of a row's parts that are there */
 static uint32_t ranges_of(const shape *s, const double *x, range at[4]) {
   uint32_t n = 0;
-  at[n++] = (range) { 0, s->pair[0] };
+  at[n++] = (range) { 0, row_r(s, x) > 0 ? s->pair[0] : s->eps };
   if (row_q(s, x) > 0) at[n++] = (range) { s->pair[0], s->mix };
   if (row_x(s, x) > 0) at[n++] = (range) { s->mix, s->norms };
   if (row_c(s, x) > 0) at[n++] = (range) { s->cube, s->cube + s->triples };
@@ -88,7 +88,8 @@ static uint32_t ranges_of(const shape *s, const double *x, range at[4]) {
 }
 
 double row_lost(const shape *s, const double *x, uint32_t parts) {
-  return (parts & PAIRS ? 0 : row_q(s, x)) + (parts & MIXED ? 0 : row_x(s, x)) + (parts & TRIPLES ? 0 : row_c(s, x));
+  return (parts & PAIRS ? 0 : row_q(s, x)) + (parts & MIXED ? 0 : row_x(s, x)) + (parts & TRIPLES ? 0 : row_c(s, x)) +
+         (parts & ERRORS ? 0 : row_r(s, x));
 }
 
 /* norms of parts that `to` does not hold := 0 */
@@ -96,15 +97,20 @@ static void leave_out(const shape *s, double *to, uint32_t parts) {
   if (!(parts & PAIRS)) to[s->norms + NORM_Q] = to[s->norms + NORM_Q_FAR] = 0;
   if (!(parts & MIXED)) to[s->norms + NORM_X] = 0;
   if (!(parts & TRIPLES)) to[s->norms + NORM_C] = 0;
+  if (!(parts & ERRORS)) to[s->norms + NORM_R] = 0;
 }
 
-void row_scale(const shape *s, double *to, double scale, const double *a, uint32_t parts) {
+void row_over(const shape *s, double *to, double over, const double *a, uint32_t parts) {
   range at[4];
-  for (uint32_t i = s->norms; i < s->norms + NORMS; i++) to[i] = fabs(scale) * a[i];
+  double scale = 1 / over;
+  dd middle = over == 1 ? row_middle(s, a) : dd_div(row_middle(s, a), dd_make(over, 0));
+  for (uint32_t i = s->norms; i < s->norms + NORMS; i++) to[i] = scale * a[i];
   leave_out(s, to, parts);
+  if (row_r(s, to) == 0) memset(to + s->eps, 0, s->nx * sizeof *to);
   uint32_t n = ranges_of(s, to, at);
   for (uint32_t r = 0; r < n; r++)
     for (uint32_t i = at[r].from; i < at[r].to; i++) to[i] = scale * a[i];
+  to[0] = middle.hi, to[s->norms + LOW] = middle.lo;
 }
 
 void row_add(const shape *s, double *to, double scale, const double *a) {
@@ -117,7 +123,7 @@ void row_add(const shape *s, double *to, double scale, const double *a) {
 void row_copy(const shape *s, double *to, const double *a) {
   memset(to, 0, s->stride * sizeof *to);
   row_add(s, to, 1, a);
-  memcpy(to + s->norms, a + s->norms, NORMS * sizeof *to);
+  memcpy(to + s->norms, a + s->norms, ENDS * sizeof *to);
 }
 
 /* pairs of linear terms that are not held: what row i misses is at its end */
@@ -172,14 +178,23 @@ void terms_moving(const shape *s, terms *t, double scale, const double *x) {
   t->row[t->nrow].scale = scale, t->row[t->nrow++].x = x;
 }
 
-/* the constant += a b: twice the digits, rounded when it is read [Ogita, Rump, Oishi 2005] */
-static void add_constant(terms *t, double a, double b) {
-  dd product = two_product(a, b), sum = two_sum(t->c, product.hi);
+/* what is left of a times b when its high part is taken: all errors of it are of order 2^-106 */
+static double product_low(dd a, dd b, double rest) { return rest + (a.hi * b.lo + a.lo * b.hi); }
+
+/* the constant += scale a b: twice the digits [Ogita, Rump, Oishi 2005] */
+static void add_constant(terms *t, dd scale, dd a, dd b) {
+  dd product = two_product(a.hi, b.hi);
+  product.lo = product_low(a, b, product.lo);
+  if (scale.hi != 1) {
+    dd scaled = two_product(product.hi, scale.hi);
+    product = dd_make(scaled.hi, product_low(product, scale, scaled.lo));
+  }
+  dd sum = two_sum(t->c, product.hi);
   t->c = sum.hi, t->low += sum.lo + product.lo;
 }
 
 void terms_row(const shape *s, terms *t, double scale, const double *x) {
-  add_constant(t, scale, x[0]);
+  add_constant(t, dd_make(1, 0), dd_make(scale, 0), row_middle(s, x));
   terms_moving(s, t, scale, x);
 }
 
@@ -192,22 +207,32 @@ void terms_outer(const shape *s, terms *t, double scale, const double *a, const 
   if (lb * row_q(s, a) > 0) t->bend[t->nbend].scale = scale, t->bend[t->nbend].a = b, t->bend[t->nbend++].b = a;
 }
 
+static void add_product(const shape *s, terms *t, dd scale, const double *a, const double *b) {
+  add_constant(t, scale, row_middle(s, a), row_middle(s, b));
+  terms_moving(s, t, scale.hi * a[0], b);
+  terms_moving(s, t, scale.hi * b[0], a);
+  terms_outer(s, t, scale.hi, a, b);
+}
+
 void terms_product(const shape *s, terms *t, double scale, const double *a, const double *b) {
-  add_constant(t, scale * a[0], b[0]);
-  terms_moving(s, t, scale * a[0], b);
-  terms_moving(s, t, scale * b[0], a);
-  terms_outer(s, t, scale, a, b);
+  add_product(s, t, dd_make(scale, 0), a, b);
+}
+
+void terms_share(const shape *s, terms *t, double scale, uint32_t j, uint32_t k, const double *a, const double *b) {
+  add_product(s, t, j == k ? dd_make(scale, 0) : dd_div(dd_make(scale * j, 0), dd_make(k, 0)), a, b);
 }
 
 void terms_sum(const shape *s, const terms *t, double *to, uint32_t parts) {
+  dd middle = two_sum(t->c, t->low);
   if (!t->nrow && !t->nouter && !t->nbend)
-    row_constant(s, to, t->c + t->low);
+    row_constant(s, to, 0);
   else
     s->sum(s, t, to, parts);
+  to[0] = middle.hi, to[s->norms + LOW] = middle.lo;
 }
 
 /* d = a - its constant: g0 + g1 d + g2 / 2 d^2 + g3 / 6 d^3 */
-void row_function(const shape *s, double *to, const double *a, const double g[4]) {
+void row_function(const shape *s, double *to, const double *a, dd value, const double g[4]) {
   double *square = s->scratch;
   uint32_t parts = row_parts(s, 0);
   terms t;
@@ -215,7 +240,7 @@ void row_function(const shape *s, double *to, const double *a, const double g[4]
   terms_outer(s, &t, 1, a, a);
   terms_sum(s, &t, square, parts);
   terms_clear(&t);
-  t.c = g[0];
+  t.c = value.hi, t.low = value.lo;
   terms_moving(s, &t, g[1], a), terms_moving(s, &t, g[2] / 2, square);
   terms_outer(s, &t, g[3] / 6, a, square);
   terms_sum(s, &t, to, parts);
@@ -223,5 +248,5 @@ void row_function(const shape *s, double *to, const double *a, const double g[4]
 
 void row_inverse(const shape *s, double *to, const double *a) {
   double i = 1 / a[0], g[4] = { i, -i * i, 2 * i * i * i, -6 * i * i * i * i };
-  row_function(s, to, a, g);
+  row_function(s, to, a, dd_div(dd_make(1, 0), row_middle(s, a)), g);
 }

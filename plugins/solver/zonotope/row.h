@@ -1,7 +1,7 @@
 /* row.h -- rows: polynomials with point coefficients, of degree 3 in xi [m], 1 in eps [nx], and 1 in each of xi and
 ** eps.
 **
-** A row is  c | xi [m] | eps [nx] | xi xi | xi eps | norms | xi xi xi:  pairs xi_i xi_j of i <= j, row by row,
+** A row is  c | xi [m] | eps [nx] | xi xi | xi eps | norms | low | xi xi xi:  the constant is c + low; pairs xi_i xi_j of i <= j, row by row,
 ** j < reach[i] only; xi_j eps_i for j < mixed, j-major; triples of i <= j <= k < cubic, in the same order. Rows of
 ** higher orders in time do not hold all of these parts (row_parts): what they would add is small, for it has a power of
 ** the step before it. A monomial that a row does not hold is dropped from every product; sums lose nothing, for what
@@ -17,8 +17,8 @@
 #include <string.h>
 
 struct terms;
-enum part { PAIRS = 1, MIXED = 2, TRIPLES = 4 }; /* of a row, besides its constant and its linear terms */
-enum { NORM_L, NORM_R, NORM_Q, NORM_X, NORM_C, NORM_L_FAR, NORM_Q_FAR, NORMS };
+enum part { PAIRS = 1, MIXED = 2, TRIPLES = 4, ERRORS = 8 }; /* of a row: xi xi, xi eps, xi xi xi, eps */
+enum { NORM_L, NORM_R, NORM_Q, NORM_X, NORM_C, NORM_L_FAR, NORM_Q_FAR, NORMS, LOW = NORMS, ENDS };
 
 typedef struct shape {
   uint32_t m, nx;
@@ -27,7 +27,8 @@ typedef struct shape {
   uint32_t eps;                   /* 1 + m: where linear terms in eps start */
   uint32_t mix;                   /* where xi eps starts */
   uint32_t cubic;                 /* data that have triples; reach[i] >= cubic for each of them */
-  uint32_t paired, mixing, cubed; /* orders in time whose rows hold pairs, xi eps, triples; cubed <= paired */
+  uint32_t paired, mixing, cubed; /* orders in time whose rows hold pairs, xi eps, triples; cubed <= paired; */
+  uint32_t erring;                /* eps; mixing <= erring */
   uint32_t room;                  /* orders in time whose rows have room for triples; cubed <= room */
   uint32_t norms;                 /* where norms are; also the number of coefficients before them */
   uint32_t cube;                  /* where triples start; a multiple of 4, and the length of a row without them */
@@ -44,7 +45,8 @@ void shape_place(shape *s);    /* offsets, from reach, mixed and cubic */
 
 /* what rows of order k hold */
 static inline uint32_t row_parts(const shape *s, uint32_t k) {
-  return (k < s->paired ? PAIRS : 0u) | (k < s->mixing ? MIXED : 0u) | (k < s->cubed ? TRIPLES : 0u);
+  return (k < s->paired ? PAIRS : 0u) | (k < s->mixing ? MIXED : 0u) | (k < s->cubed ? TRIPLES : 0u) |
+         (k < s->erring ? ERRORS : 0u);
 }
 static inline double row_l(const shape *s, const double *x) { return x[s->norms + NORM_L]; }
 static inline double row_r(const shape *s, const double *x) { return x[s->norms + NORM_R]; }
@@ -54,6 +56,9 @@ static inline double row_c(const shape *s, const double *x) { return x[s->norms 
 /* of degree 2 and more; everything but the constant; everything */
 static inline double row_bent(const shape *s, const double *x) { return row_q(s, x) + row_x(s, x) + row_c(s, x); }
 static inline double row_moving(const shape *s, const double *x) { return row_l(s, x) + row_r(s, x) + row_bent(s, x); }
+/* the constant: |low| <= 2^-53 |c| */
+static inline double row_low(const shape *s, const double *x) { return x[s->norms + LOW]; }
+static inline dd row_middle(const shape *s, const double *x) { return dd_make(x[0], row_low(s, x)); }
 static inline double row_total(const shape *s, const double *x) { return fabs(x[0]) + row_moving(s, x); }
 
 /* sum of absolute values of all coefficients that a product of these rows has and a (*) b, which holds these parts,
@@ -67,9 +72,9 @@ double row_lost(const shape *s, const double *x, uint32_t parts);
 void row_constant(const shape *s, double *to, double c);
 void row_norms(const shape *s, double *x);     /* brings norms up to date, all but that of triples: C stays */
 void row_norms_all(const shape *s, double *x); /* of a row with triples */
-/* to := scale a, of the parts that it is to hold; may be a */
-void row_scale(const shape *s, double *to, double scale, const double *a, uint32_t parts);
-/* to += scale a, but for norms; all parts are there in `to` */
+/* to := a / n, of the parts that it is to hold; may be a */
+void row_over(const shape *s, double *to, double n, const double *a, uint32_t parts);
+/* to += scale a, but for norms and low; all parts are there in `to` */
 void row_add(const shape *s, double *to, double scale, const double *a);
 /* to := a, and 0 for parts that are not there */
 void row_copy(const shape *s, double *to, const double *a);
@@ -102,10 +107,12 @@ void terms_moving(const shape *s, terms *t, double scale, const double *x); /* s
 void terms_row(const shape *s, terms *t, double scale, const double *x);
 void terms_outer(const shape *s, terms *t, double scale, const double *a, const double *b); /* without constants */
 void terms_product(const shape *s, terms *t, double scale, const double *a, const double *b);
+/* scale j / k, to twice the digits for the constant */
+void terms_share(const shape *s, terms *t, double scale, uint32_t j, uint32_t k, const double *a, const double *b);
 /* with norms and these parts; `to` is none of the operands */
 void terms_sum(const shape *s, const terms *t, double *to, uint32_t parts);
-/* to := the function with these value and derivatives at the constant of a; a row of order 0 */
-void row_function(const shape *s, double *to, const double *a, const double g[4]);
+/* to := the function with this value, and derivatives g[1] on, at the constant of a; a row of order 0 */
+void row_function(const shape *s, double *to, const double *a, dd value, const double g[4]);
 void row_inverse(const shape *s, double *to, const double *a);
 
 void sum_portable(const shape *s, const terms *t, double *to, uint32_t parts);

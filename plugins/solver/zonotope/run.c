@@ -11,6 +11,7 @@
 #include <ambit/code.h>
 #include <stdio.h>
 
+#define GRID 20       /* bits of a step's length that count */
 #define GROW 3.0      /* longest step, in multiples of the last one */
 #define CREEP 1e6     /* steps to the end, at the present pace, that are too many ... */
 #define SHRUNK 0.0625 /* if steps are so much shorter than they have been, or ... */
@@ -30,11 +31,17 @@ static double ahead(const zono *z) {
   return fmin(time, jump_next(z)) < time ? jump_next(z) : time;
 }
 
+/* about t + h, with so few bits that differences of such instants are doubles; not beyond the goal */
+static double on_grid(double t, double h, double goal) {
+  double end = t + h, grid = ldexp(1, ilogb(h) - GRID), near = rint(end / grid) * grid;
+  return h != 0 && fabs(end) < 0x1p50 * grid && fabs(near - t) < fabs(goal - t) ? near : end;
+}
+
 /* z->t_next, h and h_error for a length */
 static void set_end(zono *z, double h) {
   double goal = ahead(z);
   int at_goal = !(fabs(h) < fabs(goal - z->t) * (1 - 0x1p-40));
-  z->t_next = at_goal ? goal : z->t + h;
+  z->t_next = at_goal ? goal : on_grid(z->t, h, goal);
   z->h = z->t_next - z->t;
   /* a difference is rounded by half of that, if at all; bounds over [0, h] hold for it, too */
   z->h_error = two_sum(z->t_next, -z->t).lo != 0 ? 0x1p-52 * fabs(z->h) : 0;

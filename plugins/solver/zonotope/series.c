@@ -97,14 +97,17 @@ static void put_errors(const zono *z, uint32_t i, double *x) {
 static void put_inputs(zono *z) {
   const ambit_tape *t = z->program.tape;
   const shape *s = &z->shape;
-  for (uint32_t i = 0; i < t->nconst; i++) row_constant(s, row_at(z, i, 0), 0.5 * (t->lo[i] + t->hi[i]));
+  for (uint32_t i = 0; i < t->nconst; i++) {
+    row_constant(s, row_at(z, i, 0), z->constant[i].hi);
+    row_at(z, i, 0)[s->norms + LOW] = z->constant[i].lo;
+  }
   for (uint32_t i = 0; i < z->nx; i++) {
     double *x = row_at(z, slot_x(z, i), 0);
     memcpy(x, z->P + (size_t)i * s->stride, s->stride * sizeof *x);
     put_errors(z, i, x);
   }
   for (uint32_t i = 0; i < z->np; i++)
-    row_scale(s, row_at(z, slot_p(z, i), 0), 1, z->p_row + (size_t)i * s->stride, row_parts(s, 0));
+    row_over(s, row_at(z, slot_p(z, i), 0), 1, z->p_row + (size_t)i * s->stride, row_parts(s, 0));
   if (!z->program.uses_time) return;
   row_constant(s, row_at(z, slot_t(z), 0), z->t);
   if (z->K > 0) row_constant(s, row_at(z, slot_t(z), 1), 1);
@@ -112,7 +115,7 @@ static void put_inputs(zono *z) {
 
 static void integrate(zono *z, uint32_t k) {
   for (uint32_t i = 0; i < z->nx; i++)
-    row_scale(&z->shape, row_at(z, slot_x(z, i), k + 1), 1 / (k + 1.0), coefficient(z, slot_out(z)[i], k),
+    row_over(&z->shape, row_at(z, slot_x(z, i), k + 1), k + 1.0, coefficient(z, slot_out(z)[i], k),
         row_parts(&z->shape, k + 1));
 }
 
@@ -159,9 +162,7 @@ static int find_unknowns(zono *z, uint32_t stage, uint32_t k) {
   ** triples, and M_0's constants are all that corrects them. */
   int cubed = row_parts(&z->shape, k) & TRIPLES;
   if (!(cubed && k == 0 ? find_without_triples(z, stage) : solve_stage(z, stage, k, FIRST))) return 0;
-  /* Rounding is all that there is: less of it. Not from rest: what states at 0 become by rounding is less then than
-  ** what they are off by, and pace.c would take ever shorter steps. */
-  if ((cubed || (z->m == 0 && z->guess > 0)) && !solve_stage(z, stage, k, AGAIN)) return 0;
+  if (cubed && !solve_stage(z, stage, k, AGAIN)) return 0;
   return evaluate_level(z, stage + 1, k, ALL);
 }
 

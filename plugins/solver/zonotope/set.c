@@ -92,7 +92,7 @@ const ambit_set *zono_describe_set(zono *z) {
     sink terms = { to + 1, z->E[x], small / p->set.nterm };
     to[0] = row[0];
     add_terms(z, row, &terms);
-    p->rest[x] = terms.rest * ABOVE;
+    p->rest[x] = (terms.rest + fabs(row_low(&z->shape, row))) * ABOVE;
   }
   return &p->set;
 }

@@ -14,8 +14,34 @@ static double gap(uint32_t k) {
   return tau - tau * below + fabs(1 - k * below) + 4 * k * UNIT;
 }
 
-void slope_open(double gaps[TIME_ORDERS]) {
-  for (uint32_t k = 0; k < TIME_ORDERS; k++) gaps[k] = k < 2 ? 0 : gap(k);
+void slope_open(proof *p) {
+  for (uint32_t k = 0; k < TIME_ORDERS; k++) {
+    double *c = p->chebyshev[k], middle = 1; /* of tau^k: C(2 k, k - v) / 4^k, twice that for v > 0 */
+    p->gap[k] = k < 2 ? 0 : gap(k);
+    for (uint32_t j = 1; j <= k; j++) middle *= (2 * j - 1.0) / (2 * j);
+    for (uint32_t v = 0; v <= POWERS; v++) {
+      c[v] = v > k ? 0 : v ? 2 * middle : middle;
+      if (v < k) middle *= (k - v) / (k + v + 1.0);
+    }
+  }
+}
+
+/* as polynomials in time alone: all coefficients of tau^k are positive, and those of higher degree are 1 less the others */
+static void power_form(const zono *z, const forms *f, uint32_t j, double h, double *to) {
+  const shape *s = &z->shape;
+  uint32_t count = orders(z, j);
+  double power = 1, rad = 0, size = 0;
+  form_clear(f, to);
+  for (uint32_t k = 0; k < count; k++, power *= h) {
+    const double *row = row_at(z, j, k), *c = z->proof->chebyshev[k];
+    double part = row[0] * power, high = 1;
+    for (uint32_t v = 0; v <= f->n && v <= k; v++) to[v] += part * c[v], high -= c[v];
+    if (k > f->n) rad += fabs(part) * (fmax(high, 0) + 4 * k * UNIT);
+    rad += row_moving(s, row) * fabs(power), size += row_total(s, row) * fabs(power);
+  }
+  *form_rad(f, to) = rad * ABOVE + 8 * (count + 2) * UNIT * size;
+  to[4 + f->n] = 1;
+  form_close(f, to);
 }
 
 /* of slot j; w->forms.n is m + nx + 1, or 0 with h = 0: the centre of the set at the start of the step */
@@ -24,6 +50,10 @@ static void slot_form(const zono *z, const sweeps *w, uint32_t j, double h, doub
   const forms *f = &w->forms;
   uint32_t n = s->m + s->nx, count = orders(z, j);
   double power = 1, rad = 0, size = 0, time = 0;
+  if (f->powers) {
+    power_form(z, f, j, h, to);
+    return;
+  }
   form_clear(f, to);
   to[0] = row_at(z, j, 0)[0];
   if (f->n) {

@@ -136,7 +136,8 @@ void zono_start(zono *z) {
   shape_hold_all(&z->shape);
   if (z->modes) modes_start(z), z->basis->is_turned = 0;
   size_t bytes = z->shape.stride * sizeof(double);
-  z->t = z->problem.time[0], z->next = 1, z->jumped = 0, z->guess = 0, z->ngen = 0, z->why = WHY_NOTHING, z->detail = NULL;
+  z->t = z->problem.time[0], z->next = 1, z->jumped = 0, z->guess = 0, z->ngen = 0, z->why = WHY_NOTHING,
+  z->detail = NULL;
   memcpy(z->P, z->start, z->nx * bytes);
   memcpy(z->p_row, z->start_p, z->np * bytes), memcpy(z->p_rad, z->start_p_rad, z->np * sizeof(double));
   for (uint32_t i = 0; i < z->nx; i++) {

@@ -199,7 +199,7 @@ static void sum_norms(const shape *s, double *x, uint32_t parts) {
     q = sum_sizes(x + s->pair[0], s->mix - s->pair[0]);
   }
   double mixed = parts & MIXED ? sum_sizes(x + s->mix, s->norms - s->mix) : 0;
-  norm[NORM_L] = sum_sizes(x + 1, s->m), norm[NORM_R] = sum_sizes(x + s->eps, s->nx);
+  norm[NORM_L] = sum_sizes(x + 1, s->m), norm[NORM_R] = parts & ERRORS ? sum_sizes(x + s->eps, s->nx) : 0;
   norm[NORM_L_FAR] = sum_sizes(x + 1 + s->cubic, s->m - s->cubic);
   norm[NORM_Q] = q, norm[NORM_Q_FAR] = far, norm[NORM_X] = mixed;
   norm[NORM_C] = parts & TRIPLES ? sum_sizes(x + s->cube, s->triples) : 0;
@@ -207,9 +207,9 @@ static void sum_norms(const shape *s, double *x, uint32_t parts) {
 
 void VARIANT(const shape *s, const terms *t, double *to, uint32_t parts) {
   const picked all = { t->nrow, 0, t->row, NULL };
-  uint32_t made = 0;
-  to[0] = t->c + t->low;
-  sum_segment(&all, to, 1, s->m + s->nx, 0, 0, 0);
+  uint32_t made = parts & ERRORS;
+  sum_segment(&all, to, 1, made ? s->m + s->nx : s->m, 0, 0, 0);
+  if (!made) memset(to + s->eps, 0, s->nx * sizeof *to);
   if ((parts & PAIRS) && sum_pairs(s, t, to)) made |= PAIRS;
   if ((parts & MIXED) && sum_mixed(s, t, to)) made |= MIXED;
   if ((parts & TRIPLES) && sum_triples(s, t, to)) made |= TRIPLES;

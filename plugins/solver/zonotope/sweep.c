@@ -11,7 +11,7 @@
 #include "residual.h"
 
 #define TURNS 12
-#define POWERS 6
+#define SQUARES 6
 #define MOST_RHO 0.9
 #define GOOD_RHO 0.1 /* above it a shorter step is tried, */
 #define GAIN 0.7     /* and again as long as half of the step makes rho less than this share; */
@@ -29,9 +29,9 @@ static int doubles(const ambit_host *h, size_t n, double **to) {
   return *to != NULL;
 }
 
-int sweep_open(zono *z, sweeps *w, uint32_t sigmas) {
+int sweep_open(zono *z, sweeps *w, uint32_t sigmas, int powers) {
   const ambit_host *h = z->host;
-  w->forms = forms_of(sigmas);
+  w->forms = forms_of(sigmas, powers);
   size_t f = w->forms.stride, na = z->na;
   size_t slopes = z->proof->nslope;
   return doubles(h, f * z->nslot, &w->value) && doubles(h, f * slopes, &w->slope) &&
@@ -235,7 +235,7 @@ static int close_series(const zono *z, const double *unit, double most) {
   for (uint32_t t = 0; t < p->ntarget; t++) {
     double *sum = p->close + (size_t)t * n, size = 0;
     memcpy(now, p->rho + (size_t)t * n, row), memcpy(sum, now, row);
-    for (int power = 0; power < POWERS; power++) {
+    for (int power = 0; power < SQUARES; power++) {
       memset(next, 0, row);
       for (uint32_t i = 0; i < n; i++)
         for (uint32_t j = 0; j < n; j++) next[j] += now[i] * p->rho[(size_t)i * n + j];
@@ -281,7 +281,7 @@ static int close_rows(zono *z) {
     if (!(sum / unit[i] <= worst)) worst = sum / unit[i], z->culprit = i;
   }
   if (!(worst * ABOVE < MOST_RHO)) return z->why = WHY_PIVOT, 0;
-  if (worst > GOOD_RHO && is_worth_less(z, worst)) return z->why = WHY_GROWTH, 0;
+  if (worst > GOOD_RHO && !is_certain(z) && is_worth_less(z, worst)) return z->why = WHY_GROWTH, 0;
   return close_series(z, unit, worst * ABOVE);
 }
 

@@ -79,6 +79,8 @@ typedef struct zono {
   uint32_t K, K_max; /* order in time of the present step; most that there is room for */
   /* -- rows */
   double *row;           /* [sum of orders_max x shape.stride] */
+  dd *constant;          /* [nconst] of the tape, */
+  double *constant_off;  /* [nconst] and what they are off by */
   double *zero;          /* [stride] */
   double *scratch;       /* [stride] */
   size_t *first;         /* [nslot] number of row 0 of the slot */
@@ -146,6 +148,9 @@ static inline uint32_t slot_a(const zono *z, uint32_t i) { return z->program.tap
 static inline uint32_t slot_p(const zono *z, uint32_t i) { return z->program.tape->nconst + z->nx + z->na + i; }
 static inline uint32_t slot_t(const zono *z) { return z->program.tape->nconst + z->nx + z->na + z->np; }
 static inline const uint32_t *slot_out(const zono *z) { return z->program.tape->out; }
+
+/* no data, and no functions of time: all that is not known is rounding, and what is left of it */
+static inline int is_certain(const zono *z) { return z->m == 0 && z->problem.nvarying == 0; }
 
 /* -- open.c, start.c, run.c, plugin.c (phase 1) */
 

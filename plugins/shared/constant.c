@@ -1,5 +1,5 @@
 /* constant.c -- decimal texts of constants to double-double: "0.04", "-3e7", "8/3", "pi". */
-#include "series.h"
+#include "constant.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -78,4 +78,17 @@ int constant_read(const char *text, dd *x, double *error) {
   *x = negative ? dd_neg(a.x) : a.x;
   *error = 1.01 * a.units * DD_U * DD_U * fabs(a.x.hi) + DD_TINY;
   return 1;
+}
+
+double constant_at(const ambit_tape *t, uint32_t i, dd *x) {
+  double lo = t->lo[i], hi = t->hi[i], middle = 0.5 * lo + 0.5 * hi, error;
+  const char *text = t->text ? t->text[i] : NULL;
+  *x = dd_make(middle, 0);
+  if (!(lo < hi)) return 0;
+  double radius = fmax(hi - middle, middle - lo) * (1 + 0x1p-40) + DD_TINY;
+  dd read;
+  if (!text || !constant_read(text, &read, &error) || !(error < radius && read.hi >= lo && read.hi <= hi))
+    return radius;
+  *x = read;
+  return error;
 }
