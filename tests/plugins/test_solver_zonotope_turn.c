@@ -1,4 +1,4 @@
-/* Sine and cosine to twice the digits, against 300 bits: everywhere, near multiples of right angles, tiny, too large. */
+/* Sine and cosine to twice the digits, against 300 bits: everywhere, near right angles, tiny, and too large. */
 #include "solver/zonotope/turn.c"
 #include <setjmp.h>
 #include <stdarg.h>

@@ -101,7 +101,7 @@ static dd middle_of(const shape *s, uint32_t op, const double *a, const double g
 int zono_function_order0(zono *z, uint32_t i) {
   const instr n = instruction(z, i, 0);
   const double *a = row_at(z, n.a, 0);
-  double *to = row_at(z, n.dst, 0), g[4];
+  double *to = row_at(z, n.dst, 0), g[4] = { 0 };
   if (n.op == AMBIT_OP_DIV) {
     if (row_at(z, n.b, 0)[0] == 0) return 0;
     return put_quotient(z, i, &n, to), 1;
