@@ -149,8 +149,8 @@ static inline uint32_t slot_p(const zono *z, uint32_t i) { return z->program.tap
 static inline uint32_t slot_t(const zono *z) { return z->program.tape->nconst + z->nx + z->na + z->np; }
 static inline const uint32_t *slot_out(const zono *z) { return z->program.tape->out; }
 
-/* no data, and no functions of time: all that is not known is rounding, and what is left of it */
-static inline int is_certain(const zono *z) { return z->m == 0 && z->problem.nvarying == 0; }
+/* no data, no functions of time and no jumps: all that is not known is rounding, and what is left of it */
+static inline int is_certain(const zono *z) { return z->m == 0 && z->problem.nvarying == 0 && z->problem.njump == 0; }
 
 /* -- open.c, start.c, run.c, plugin.c (phase 1) */
 
