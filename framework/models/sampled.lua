@@ -232,6 +232,18 @@ function sampled.attach(system, list)
   for _, self in ipairs(list) do core.system_jump(system.system, self.period, self.start, jump(self, system)) end
 end
 
+-- Lets all states of a system that rests step by `law`, function(s, p, t), at 0, 1, 2, ...
+function sampled.step(system, law)
+  local units = {}
+  for i, name in ipairs(system.states) do units[name] = ode.unit(system, i) or "1" end
+  local to, what = {}, ("map `%s`: next"):format(system.name)
+  local values = read_results(formula.call(law, what, ode.arguments(system)), system.states, units, what)
+  for i, name in ipairs(system.states) do to[i] = values[name] end
+  system.sampled, system.defaults, system.declaration = {}, {}, false
+  for _, name in ipairs(system.states) do system.defaults[name] = {} end
+  core.system_jump(system.system, core.interval(1), core.interval(0), to)
+end
+
 -- All formulas of the laws, for who looks for data in them.
 function sampled.formulas(system)
   local all = {}

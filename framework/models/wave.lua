@@ -21,7 +21,8 @@ end
 function wave.formulas(system)
   local all = table.move(system.rates, 1, #system.rates, 1, {})
   if not system.sampled then return all end
-  return table.move(require "ambit.sampled".formulas(system), 1, #system.sampled * #system.states, #all + 1, all)
+  local laws = require "ambit.sampled".formulas(system)
+  return table.move(laws, 1, #laws, #all + 1, all)
 end
 
 -- A request without what varies: waves take its place; nil: of some of it no value is known to be allowed.

@@ -13,6 +13,13 @@ equations, forces and laws; each use of the same one is the same function.]],
 sampled { period = "1 ms", outputs = { "u" }, memory = { sum = 0 }, delay = 0, quantum = { x = "0.1" }, law =
 function(s, m, t) return { u = ... }, { sum = ... } end }: a controller with a clock. ambit.ode { ..., sampled =
 controller }, or m:sampled(controller).u.]],
+  map = [[
+map { states = { "x" }, parameters = { a = 2 }, next = function(s, p, k) return { x = p.a * s.x } end }: a system that
+steps; simulate, verify and sample take it, t counts steps.]],
+  network = [[
+network "file" or network { { weights = { { 1, 2 } }, bias = { 0 }, activation = "relu" }, ... }: dense layers, a
+function of a list of inputs that returns the list of outputs.]],
+  lookup = 'lookup { x = { 0, 1 }, y = { 2, 3 } }: f(x), lines between the points, constant beyond them.',
   number = 'number(x [, unit]): an expression: number "8/3", number("35 mm", "m").',
   interval = [[
 interval(lo, hi), interval "[0.1, 0.2]": an enclosure to calculate with. It has lo, hi, partial, width(), mid(), rad(),

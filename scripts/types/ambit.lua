@@ -101,6 +101,21 @@ function ambit.varying(lo, hi, name) end
 ---@return ambit.sampled
 function ambit.sampled(t) end
 
+---A system that steps: x+ = next(x, p, k).
+---@param t { [1]: string?, name: string?, states: string[]|table<string, string>, parameters: table<string, ambit.datum>?, next: (fun(s: table<string, ambit.expression>, p: table<string, ambit.expression>, k: ambit.expression): table<string, ambit.datum>), check_units: boolean? }
+---@return ambit.ode
+function ambit.map(t) end
+
+---A neural network of dense layers, from a file or from a list of layers.
+---@param layers string|{ weights: number[][], bias: number[]?, activation: "linear"|"relu"|"tanh"|"sigmoid"|nil }[]
+---@return fun(inputs: ambit.datum[]): ambit.expression[]
+function ambit.network(layers) end
+
+---Lines between points, constant beyond them.
+---@param t { x: ambit.datum[], y: ambit.datum[] }
+---@return fun(x: ambit.datum): ambit.expression
+function ambit.lookup(t) end
+
 ---@param is_exact boolean true: arithmetic on texts is Ambit's, as in the command; false: Lua's, which rounds
 ---@return "ambit"|"lua"|"watched" # whose it was
 function ambit.text_arithmetic(is_exact) end
