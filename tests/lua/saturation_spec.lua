@@ -86,3 +86,39 @@ describe("Coulomb friction, made smooth", function()
     end
   end)
 end)
+
+describe("a wide set that comes to rest on a slope of tanh", function()
+  it("becomes as narrow as its hull, in any unit of time", function()
+    for _, load in ipairs { 0, 0.3, -0.6 } do
+      for _, width in ipairs { 0.5, 1, 2, 5 } do
+        for _, scale in ipairs { 0x1p-20, 1, 0x1p20 } do
+          local o = linear({ "x" }, function(s) return { (load - tanh(s.x)) / scale } end)
+          local run = ambit.simulate { o, initial = { around(0, width) }, t = { 0, 80 * scale }, solver = "zonotope" }
+          assert.equal("complete", run.status, run.reason)
+          local rest = 0.5 * math.log((1 + load) / (1 - load))
+          assert.is_true(run.x.x.lo <= rest + 1e-15 and run.x.x.hi >= rest - 1e-15 and run.x.x:width() < 1e-4)
+        end
+      end
+    end
+  end)
+
+  it("does so where friction holds what has slipped, in two coordinates", function()
+    local first, second, grip = around("0.25", "2%"), around("1.6", "2%"), around(180, "5%")
+    local o = linear({ "slip", "momentum" }, function(s, _, t)
+      local torque = grip * (1 - exp(-t / "0.2")) * tanh(s.slip / 2)
+      local car = (s.momentum - first * s.slip) / (first + second)
+      return { (60 - torque) / first - (torque - "0.05" * car) / second, 60 - "0.05" * car }
+    end)
+    local q = { o, initial = { 150, 150 * first }, t = { 0, 1, 2 } }
+    local run = ambit.simulate(q)
+    assert.equal("complete", run.status, run.reason)
+    local seen = ambit.sample { o, initial = q.initial, t = q.t, n = 60 }
+    assert.is_nil(run:overestimation(seen).contradiction)
+    for _, name in ipairs(run.states) do
+      for i = 2, 3 do
+        local hull = seen:at(q.t[i])[name]
+        assert.is_true(run:at(q.t[i])[name]:width() < 1.1 * (hull.hi - hull.lo))
+      end
+    end
+  end)
+end)

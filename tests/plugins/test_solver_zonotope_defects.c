@@ -94,6 +94,7 @@ static void open_one(zono *z, maker *k, uint32_t op, const sizes *s) {
   for (uint32_t i = 0; i < 4; i++)
     put_row(z, z->p_row + i * z->shape.stride, s->time * draw(-1, 1), s->time * s->data, s->parts),
         z->p_rad[i] = pick(2) ? 0.1 * s->time * draw(0, 1) : 0;
+  put_generators(z);
 }
 
 /* what extended precision may be off by */

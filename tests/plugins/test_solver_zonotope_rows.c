@@ -285,6 +285,7 @@ static void rows_satisfy_their_relations(void **unused) {
   for (uint32_t n = 0; n < 60; n++) {
     uint32_t na = n % 4 == 3 ? UNKNOWNS : n % 3, nx = 2 + n % 3;
     open_case(&z, &k, nx, na, n % 2);
+    assert_true(zono_open_proof(&z));
     if (!zono_series(&z)) fail_msg("tape %u: why %d, slot %u", n, z.why, z.culprit);
     multiply(NULL, NULL, 0, NULL, NULL, 0), list_monomials(&z.shape);
     checker c = { &z, lend(&host, (z.shape.stride + 1) * sizeof(long double)), 0 };

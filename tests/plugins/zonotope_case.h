@@ -203,6 +203,12 @@ static inline void make(maker *k, uint32_t nx, uint32_t na) {
   k->tape.nslot = 3 + k->tape.nin + k->tape.ninstr;
 }
 
+/* errors of the states one by one: kinks ask for generators, not for their sums E */
+static inline void put_generators(zono *z) {
+  z->ngen = z->nx, z->G = lend(&host, (size_t)z->nx * z->nx * sizeof *z->G);
+  for (uint32_t i = 0; i < z->nx; i++) z->G[i * z->nx + i] = z->E[i];
+}
+
 static inline void open_case(zono *z, maker *k, uint32_t nx, uint32_t na, int thin) {
   static const uint32_t stage_end[2] = { 2, UNKNOWNS };
   static const uint32_t pivot[UNKNOWNS] = { 1, 0, 2 };
@@ -228,6 +234,7 @@ static inline void open_case(zono *z, maker *k, uint32_t nx, uint32_t na, int th
     z->E[i] = draw(0, 1e-3);
   }
   for (uint32_t i = 0; i < 2; i++) fill(&z->shape, z->p_row + i * z->shape.stride, 5);
+  put_generators(z);
 }
 
 /* -- points: values of xi, eps and s, and what rows are there */

@@ -62,8 +62,7 @@ static int take_modes(zono *z) {
   return 1;
 }
 
-/* a bound of sum_i y_i e_i at the end of the step */
-static double size_along(zono *z, const double *y) {
+double basis_along(zono *z, const double *y) {
   uint32_t n = z->nx;
   double sum = 0, rounded = 0;
   for (uint32_t c = 0; c < z->ngen; c++) {
@@ -81,7 +80,7 @@ static int scale(zono *z) {
   uint32_t n = z->nx;
   double largest = 0;
   for (uint32_t k = 0; k < n; k++) {
-    double *row = b->inverse + (size_t)k * n, size = size_along(z, row) * ROOM;
+    double *row = b->inverse + (size_t)k * n, size = basis_along(z, row) * ROOM;
     if (!(size > 0 && size < INFINITY)) return 0;
     for (uint32_t i = 0; i < n; i++) row[i] /= size, b->columns[(size_t)i * n + k] *= size;
   }

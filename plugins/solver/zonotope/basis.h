@@ -11,6 +11,8 @@ typedef struct basis {
 } basis;
 
 int basis_open(zono *z); /* 0: no memory */
+/* a bound of sum_i y_i e_i between two steps: of the set at the end of the last one, the start of the next */
+double basis_along(zono *z, const double *y);
 /* for the set at the end of the step, whose modes are z->modes->now */
 void basis_choose(zono *z);
 /* y [nx], coefficients of eps := coefficients of e. Returns a bound of |y eps - (y e)|, the rounding. */

@@ -242,7 +242,12 @@ static int is_steady(zono *z) {
   return z->why = WHY_GROWTH, 0;
 }
 
+static int fits_kinks(zono *z) {
+  if (kinks_steady(z)) return 1;
+  return z->why = WHY_GROWTH, 0;
+}
+
 int zono_prove(zono *z) {
-  if (is_certain(z)) return sweep_coefficients(z) && kernel_units(z) && close_bound(z);
-  return sweep_coefficients(z) && kernel_find(z) && is_steady(z) && close_bound(z);
+  if (is_certain(z)) return sweep_coefficients(z) && kernel_units(z) && close_bound(z) && fits_kinks(z);
+  return sweep_coefficients(z) && kernel_find(z) && is_steady(z) && close_bound(z) && fits_kinks(z);
 }

@@ -7,6 +7,7 @@
 ** the start of the step, moved on as far as in the last step. Proof: docs/numerics/zonotope.md, section 5a.
 */
 #include "kink.h"
+#include "basis.h"
 #include "vary.h"
 #include "proof.h"
 
@@ -14,7 +15,7 @@
 
 /* of tanh: */
 #define SATURATED 22 /* |d| from which it is 1 or -1 to rounding, also some way further on; */
-#define WIDE 0.5     /* half width of d from which a line may be better than a polynomial; */
+#define WIDE 0.05    /* half width of d from which a line may be better than a polynomial; */
 #define STEEP 0.01   /* what a line misses from which on it is a kink that the set crosses, not a smooth function */
 
 static double larger(double a, double b) { return a > b ? a : b; }
@@ -29,14 +30,28 @@ static void add_operand(const zono *z, terms *sum, uint32_t i, uint32_t k, doubl
   if (!is_unary(t->op[i])) terms_row(&z->shape, sum, -scale, coefficient(z, t->b[i], k));
 }
 
+/* The size of all but the constant of kinks->row. Errors are not independent: what moves both operands alike has no
+** part in their difference. */
+static double moving_of(zono *z) {
+  const shape *s = &z->shape;
+  double *row = z->kinks->row, *errors = z->kinks->errors, size = row_moving(s, row), single = row_r(s, row);
+  if (!(single > 0)) return size;
+  memcpy(errors, row + s->eps, z->nx * sizeof *errors);
+  for (uint32_t k = 0; k < z->nx; k++)
+    if (errors[k] != 0 && !(z->E[k] > 0)) return size; /* eps_k stands for no error */
+  double together = basis_resolve(z, errors);
+  together += basis_along(z, errors);
+  return smaller(size, (larger(size - single, 0) + together) * ABOVE + (8 + z->nx) * UNIT * size);
+}
+
 /* constant and the size of the rest of order 0 (plus scale times order 1) of the operand */
-static double centre_of(const zono *z, uint32_t i, double scale, double *moving) {
+static double centre_of(zono *z, uint32_t i, double scale, double *moving) {
   terms sum;
   terms_clear(&sum);
   add_operand(z, &sum, i, 0, 1);
   if (scale != 0) add_operand(z, &sum, i, 1, scale);
   terms_sum(&z->shape, &sum, z->kinks->row, row_parts(&z->shape, 0));
-  *moving = row_moving(&z->shape, z->kinks->row);
+  *moving = moving_of(z);
   return z->kinks->row[0];
 }
 
@@ -81,13 +96,21 @@ static void choose_line(zono *z, uint32_t i) {
   k->offset = -lo * (hi / (hi - lo));
 }
 
-/* A line for tanh where Taylor's polynomial of degree 3 is further off, or where nothing but 1 or -1 is left of it. */
+/* About what Taylor's polynomial of degree 3 is off by: what rows drop of its square and its cube, the remainder, and
+** as much again over the step. */
+static double polynomial_misses(const zono *z, uint32_t i, double c, double m) {
+  const double *x = row_at(z, z->program.tape->a[i], 0);
+  double dropped = row_dropped(&z->shape, x, x, row_parts(&z->shape, 0)), v = tanh(c);
+  return 2 * ((fabs(v) * (1 - v * v) + m / 3) * dropped + m * m * m * m / 6);
+}
+
+/* A line for tanh where Taylor's polynomial is further off, or where nothing but 1 or -1 is left of it. */
 void tanh_choose(zono *z, uint32_t i) {
   kink *k = &z->kinks->of[i];
   double m, c = centre_of(z, i, 0, &m), lo = c - m, hi = c + m, drift = k->is_line ? k->drift : 0;
   tanh_line(z, k, lo, hi);
   double missed = tanh_miss(z, k, lo, hi);
-  k->is_line = fabs(c) - m > SATURATED || (m > WIDE && missed < m * m * m * m / 6);
+  k->is_line = fabs(c) - m > SATURATED || (m > WIDE && missed < polynomial_misses(z, i, c, m));
   if (!k->is_line || missed < STEEP) return;
   double ahead = fmin(fabs(drift), m);
   tanh_line(z, k, drift < 0 ? lo - ahead : lo, drift > 0 ? hi + ahead : hi);
@@ -156,12 +179,14 @@ double kink_second(const zono *z, uint32_t i, double distance) {
   double lo = k->lo - distance, hi = k->hi + distance;
   if (!k->is_line && !z->kinks->may_cross[i] && lo <= 0 && hi >= 0) return -1;
   double share = fabs(offset_share(z->program.tape->op[i])), most = miss(z, k, lo, hi);
-  return share * (larger(most - miss(z, k, k->lo, k->hi), 0) + 4 * UNIT * most);
+  z->kinks->of[i].more = larger(most - miss(z, k, k->lo, k->hi), 0);
+  return share * (k->more + 4 * UNIT * most);
 }
 
 /* -- the length of a step: lines are chosen at its start, so what they miss may grow only so much until its end */
 
 #define GROWTH 1.1
+#define STEADY 0.5
 #define BESIDE_WIDTH 0.01 /* of d; */
 #define BESIDE_STEP 1e-6  /* of what d moves in a step of the usual length: a kink between exact states; */
 #define BESIDE_SIZE 1e-13 /* of what d is the difference of: the same to rounding */
@@ -187,6 +212,16 @@ int kinks_fit(const zono *z, double length) {
     double allowed = BESIDE_WIDTH * k->width + least + BESIDE_SIZE * k->size;
     if (k->is_line) allowed = larger(BESIDE_WIDTH * k->width, k->missed < STEEP ? 2 * STEEP : 0);
     if (miss(z, k, k->lo, k->hi) > GROWTH * k->missed + allowed) return 0;
+  }
+  return 1;
+}
+
+/* Of tanh, which is bounded: distances that make a line miss much more, and so themselves larger, are those of too long
+** a step. */
+int kinks_steady(const zono *z) {
+  for (uint32_t i = 0; i < z->program.tape->ninstr; i++) {
+    const kink *k = &z->kinks->of[i];
+    if (k->is_line && k->more > STEADY * k->missed + BESIDE_WIDTH * k->width) return 0;
   }
   return 1;
 }
@@ -226,9 +261,9 @@ int kinks_open(zono *z) {
   if (!k) return 0;
   k->of = h->alloc(h, (t->ninstr + 1u) * sizeof *k->of);
   k->may_cross = h->alloc(h, t->ninstr + 1u);
-  k->row = h->alloc(h, z->shape.stride * sizeof(double));
+  k->row = h->alloc(h, z->shape.stride * sizeof(double)), k->errors = h->alloc(h, (z->nx + 1u) * sizeof(double));
   k->is_slot = h->alloc(h, t->nslot);
-  if (!k->of || !k->may_cross || !k->row || !k->is_slot) return 0;
+  if (!k->of || !k->may_cross || !k->row || !k->errors || !k->is_slot) return 0;
   for (uint32_t i = 0; i < t->ninstr; i++)
     if ((is_kinked(t->op[i]) || t->op[i] == AMBIT_OP_TANH) &&
         !(k->of[i].total = h->alloc(h, (z->K_max + 1u) * sizeof(double))))

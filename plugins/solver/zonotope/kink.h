@@ -10,17 +10,18 @@ typedef struct kink {
   double moved, drift;  /* of d's constant in this step, in the last one */
   double size;          /* of the operands over the step */
   double *total;        /* [K_max + 1] of each order of d */
+  double more;          /* what a line misses more because of the distance from the polynomials */
   double missed, width; /* at the start of the step: by how much the line differs, half width of d */
   int is_line;          /* of tanh: a line stands for it in this step */
   uint32_t twin;        /* an earlier min or max of the same operands, of which this is a + b less; itself: none */
 } kink;
 
 typedef struct kinks {
-  kink *of;           /* [ninstr] */
-  uint8_t *may_cross; /* [ninstr] 0: an equation that is solved for unknowns depends on them through it */
-  double *row;        /* [stride] */
-  double usual;       /* length of steps away from kinks */
-  uint8_t *is_slot;   /* [nslot] of a kinked instruction, or a parameter that varies: lumps that short steps do not
+  kink *of;             /* [ninstr] */
+  uint8_t *may_cross;   /* [ninstr] 0: an equation that is solved for unknowns depends on them through it */
+  double *row, *errors; /* [stride], [nx] scratch */
+  double usual;         /* length of steps away from kinks */
+  uint8_t *is_slot;     /* [nslot] of a kinked instruction, or a parameter that varies: lumps that short steps do not
                       ** make smaller */
 } kinks;
 
@@ -49,5 +50,6 @@ double kink_second(const zono *z, uint32_t i, double distance);
 void kinks_start(zono *z, double longest); /* defects are those of length 0; the longest step that may be tried */
 /* are defects over this length, the last that were found, small enough? No proof depends on it. */
 int kinks_fit(const zono *z, double length);
-void kinks_note(zono *z); /* the step is done */
+int kinks_steady(const zono *z); /* is the step short enough for the distances that its proof found? */
+void kinks_note(zono *z);        /* the step is done */
 #endif
