@@ -2,6 +2,7 @@
 #include "algebra/difference.h"
 #include "base/vector.h"
 #include "algebra/difference_pair.h"
+#include "graph/series_lowering.h"
 #include "graph/walk.h"
 #include <stdlib.h>
 
@@ -167,8 +168,8 @@ ambit_status ambit_graph_difference(ambit_graph *g, size_t n, const ambit_expr *
   ambit_pairs p = { .g = g, .clamps = clamps };
   ambit_expr *root = malloc(2 * n * sizeof *root);
   for (size_t i = 0; i < n && root; i++) root[i] = u[i], root[n + i] = w[i];
-  bool done = root && open_pairs(&p, 2 * n, root, nleaf, leaf, delta) && seed(&p, nleaf, leaf, delta) &&
-              solve_all(&p, n, u, w, out);
+  bool done = root && ambit_functions_write(g, 2 * n, root) && open_pairs(&p, 2 * n, root, nleaf, leaf, delta) &&
+              seed(&p, nleaf, leaf, delta) && solve_all(&p, n, root, root + n, out);
   free(root), free(p.shifted), free(p.pair), free(p.link), free(p.table);
   return done ? AMBIT_OK : ambit_fail(f, AMBIT_NOMEM, "out of memory while subtracting models");
 }

@@ -3,7 +3,8 @@
 ** For a model and a reduced one, run together: x' = f(x) and, for e = x - y with y' = g(y), e' = f(x) - g(x - e). Taken
 ** as it stands, the right-hand side is a difference of two large numbers, and an enclosure of it never becomes small.
 ** Here it is rewritten by identities of real functions: sin u - sin v = 2 cos(u - D/2) sin(D/2) with D = u - v, the
-** product rule u v - u~ v~ = D[u] v + u~ D[v], and so on; equal terms and factors of u and w meet each other.
+** product rule u v - u~ v~ = D[u] v + u~ D[v], and so on; equal terms and factors of u and w meet each other. Functions
+** that the kernel describes (AMBIT_FUNCTIONS) are written in other operations first.
 **
 ** Every rule is an identity wherever u(x) and w(x - d) are both defined (docs/numerics/reduction.md), with one
 ** exception: the square root, D/(sqrt u + sqrt v), is not defined at u = v = 0, where the root has no derivative.

@@ -27,9 +27,7 @@ static int by_number(const void *p, const void *q) {
 }
 
 static bool is_leaf(const ambit_node *x) { return x->op >= AMBIT_LEAF_CONSTANT; }
-#define ARITY(NAME, arity, symbol) [AMBIT_OP_##NAME] = arity,
-static const uint8_t arity[] = { AMBIT_OPS(ARITY) };
-static bool is_binary(const ambit_node *x) { return !is_leaf(x) && arity[x->op] == 2 && x->op != AMBIT_OP_POWN; }
+static bool is_binary(const ambit_node *x) { return ambit_op_arity(x->op) == 2; }
 
 static bool push(ambit_affine *a, size_t *depth, ambit_expr e) {
   ambit_expr *stack = ambit_vector_reserve(a->stack, &a->stack_capacity, *depth + 1, sizeof *stack);

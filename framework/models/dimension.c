@@ -1,6 +1,6 @@
 /* dimension.c -- dimensions under operations, and their names. */
 #include "models/dimension.h"
-#include <ambit/tape.h>
+#include "num/function.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -90,6 +90,13 @@ static bool angle(ambit_dimension a, ambit_dimension b, ambit_dimension *out) {
   return ambit_dimension_agree(a, b);
 }
 
+static bool described(ambit_function_unit unit, ambit_dimension a, ambit_dimension b, ambit_dimension *out) {
+  if (unit == AMBIT_FUNCTION_KEEPS) return sum(a, b, out);
+  if (unit == AMBIT_FUNCTION_OF_NUMBERS) return function(a, out);
+  *out = ambit_dimension_power(a, AMBIT_POWER_ONE / 3);
+  return true;
+}
+
 bool ambit_dimension_op(uint32_t op, ambit_dimension a, ambit_dimension b, ambit_dimension *out) {
   switch (op) {
   case AMBIT_OP_ADD:
@@ -103,7 +110,7 @@ bool ambit_dimension_op(uint32_t op, ambit_dimension a, ambit_dimension b, ambit
   case AMBIT_OP_SQR: *out = ambit_dimension_power(a, 2 * AMBIT_POWER_ONE); return true;
   case AMBIT_OP_SQRT: *out = ambit_dimension_power(a, AMBIT_POWER_ONE / 2); return true;
   case AMBIT_OP_ATAN2: return angle(a, b, out);
-  default: return function(a, out);
+  default: return ambit_op_is_function(op) ? described(ambit_function_of(op)->unit, a, b, out) : function(a, out);
   }
 }
 

@@ -10,12 +10,15 @@
 #include <string.h>
 
 static const struct {
-  const char *name;
+  const char *name; /* NULL: no opcode */
   int arity;
   const char *symbol;
-} opcode[] = {
-#define AMBIT_X(name, arity, symbol) { #name, arity, symbol },
+} opcode[AMBIT_OP_END] = {
+#define AMBIT_X(name, arity, symbol) [AMBIT_OP_##name] = { #name, arity, symbol },
   AMBIT_OPS(AMBIT_X)
+#undef AMBIT_X
+#define AMBIT_X(name, arity, symbol) [AMBIT_OP_##name] = { #name, arity, #symbol },
+      AMBIT_FUNCTIONS(AMBIT_X)
 #undef AMBIT_X
 };
 
@@ -183,6 +186,14 @@ void ambit_lua_open_functions(lua_State *L, ambit_lua *core) {
     push_function(L, core, op == AMBIT_OP_MIN || op == AMBIT_OP_MAX ? fold : function, op, name);
     lua_setfield(L, -2, name);
   }
+  lua_newtable(L); /* described_functions -> {"log1p", ...} */
+  for (uint32_t op = AMBIT_OP_FUNCTIONS; op < AMBIT_OP_END; op++) {
+    lua_pushstring(L, opcode[op].symbol);
+    lua_rawseti(L, -2, (lua_Integer)(op - AMBIT_OP_FUNCTIONS) + 1);
+    push_function(L, core, function, op, opcode[op].symbol);
+    lua_setfield(L, -3, opcode[op].symbol);
+  }
+  lua_setfield(L, -2, "described_functions");
   push_function(L, core, power, AMBIT_OP_POWN, "pow");
   lua_setfield(L, -2, "pow");
 }

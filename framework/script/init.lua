@@ -51,6 +51,7 @@ for _, name in ipairs {
 } do
   ambit[name] = core[name]
 end
+for _, name in ipairs(core.described_functions) do ambit[name] = core[name] end
 
 -- A number, or what a text says, as an expression; unit: the SI unit that it must agree with.
 function ambit.number(value, unit)

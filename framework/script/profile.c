@@ -207,16 +207,16 @@ static void push_works(lua_State *L) {
   }
 }
 
-/* opcodes -> {"ADD", ...} in the order of the opcodes */
+/* opcodes -> {"ADD", ...} in the order of the opcodes; "" where there is none */
 static void push_operations(lua_State *L) {
-  static const char *const name[] = {
-#define AMBIT_X(name, arity, symbol) #name,
-    AMBIT_OPS(AMBIT_X)
+  static const char *const name[AMBIT_OP_END] = {
+#define AMBIT_X(name, arity, symbol) [AMBIT_OP_##name] = #name,
+    AMBIT_OPS(AMBIT_X) AMBIT_FUNCTIONS(AMBIT_X)
 #undef AMBIT_X
   };
-  lua_createtable(L, AMBIT_OP_COUNT, 0);
-  for (int op = 0; op < AMBIT_OP_COUNT; op++) {
-    lua_pushstring(L, name[op]);
+  lua_createtable(L, AMBIT_OP_END, 0);
+  for (int op = 0; op < AMBIT_OP_END; op++) {
+    lua_pushstring(L, name[op] ? name[op] : "");
     lua_rawseti(L, -2, op + 1);
   }
 }

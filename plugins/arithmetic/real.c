@@ -151,9 +151,57 @@ static uint32_t run_POWN(const ambit_arithmetic *self, void *ctx, void *base, si
   return flags;
 }
 
+/* -- functions, by the C library's of the same name */
+
+typedef double (*function)(double x);
+typedef double (*function_of_pair)(double x, double y);
+#define ONE_1(symbol) symbol
+#define ONE_2(symbol) 0
+#define TWO_1(symbol) 0
+#define TWO_2(symbol) symbol
+
+/* Poles lie in [-1, 1], where nothing overflows: an infinity there is no value. */
+static double value_of(uint32_t op, double x) {
+#define ROW(NAME, arity, symbol) ONE_##arity(symbol),
+  static const function f[] = { AMBIT_FUNCTIONS(ROW) };
+#undef ROW
+  double z = f[op - AMBIT_OP_FUNCTIONS](x);
+  return isinf(z) && fabs(x) <= 1 ? NAN : z;
+}
+
+static double value_of_pair(uint32_t op, double x, double y) {
+#define ROW(NAME, arity, symbol) TWO_##arity(symbol),
+  static const function_of_pair f[] = { AMBIT_FUNCTIONS(ROW) };
+#undef ROW
+  return isnan(x) || isnan(y) ? NAN : f[op - AMBIT_OP_FUNCTIONS](x, y);
+}
+
+static uint32_t run_function(const ambit_arithmetic *self, void *ctx, uint32_t op, void *base, size_t pitch,
+    size_t lanes, size_t count, const uint32_t *dst, const uint32_t *a, const uint32_t *b) {
+  (void)self, (void)ctx;
+  double *slot = base;
+  uint64_t odd = 0;
+  int two = ambit_op_arity(op) == 2;
+  for (size_t i = 0; i < count; i++)
+    for (size_t l = 0; l < lanes; l++) {
+      double x = slot[a[i] * pitch + l];
+      double z = two ? value_of_pair(op, x, slot[b[i] * pitch + l]) : value_of(op, x);
+      slot[dst[i] * pitch + l] = z;
+      odd |= oddness(z);
+    }
+  return odd ? inspect_run(slot, pitch, lanes, count, dst, a, b) : 0;
+}
+
 #define ENTRY(NAME, arity, symbol) [AMBIT_OP_##NAME] = run_##NAME,
 static const ambit_arithmetic arithmetic = {
-  .size = sizeof arithmetic, .rigorous = 0, .elem = elem, .set = set, .bounds = bounds, .run = { AMBIT_OPS(ENTRY) }
+  .size = sizeof arithmetic,
+  .rigorous = 0,
+  .elem = elem,
+  .set = set,
+  .bounds = bounds,
+  .run = { AMBIT_OPS(ENTRY) },
+  .function = run_function,
+  .pair = run_function,
 };
 
 static const void *get(const char *interface_id) {

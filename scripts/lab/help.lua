@@ -1,5 +1,6 @@
 -- help.lua -- ambit.help(name): a function of the API in a few lines, or the manual of a plugin.
 local check = require "ambit.check"
+local core = require "ambit.core"
 local manual = require "ambit.manual"
 
 local topics = {
@@ -130,6 +131,9 @@ shows of a mechanism; otherwise nothing happens.]],
 for _, name in ipairs { "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log", "sqrt",
   "sqr", "abs" } do
   topics[name] = name .. "(x): of numbers, texts, expressions and enclosures."
+end
+for _, name in ipairs(core.described_functions) do
+  topics[name] = topics[name] or name .. "(x): of numbers, texts, expressions and enclosures."
 end
 topics.atan2 = "atan2(y, x): the angle of the point (x, y)."
 topics.pow = "pow(a, b), a ^ b: integer b for every a, half integers as powers of sqrt(a), otherwise exp(b log a)."

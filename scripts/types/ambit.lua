@@ -182,6 +182,30 @@ function ambit.sqr(x) end
 ---@param x ambit.datum
 ---@return ambit.expression|ambit.enclosure
 function ambit.abs(x) end
+---@param x ambit.datum
+---@return ambit.expression|ambit.enclosure
+function ambit.log1p(x) end
+---@param x ambit.datum
+---@return ambit.expression|ambit.enclosure
+function ambit.expm1(x) end
+---@param x ambit.datum
+---@return ambit.expression|ambit.enclosure
+function ambit.asinh(x) end
+---@param x ambit.datum
+---@return ambit.expression|ambit.enclosure
+function ambit.acosh(x) end
+---@param x ambit.datum
+---@return ambit.expression|ambit.enclosure
+function ambit.atanh(x) end
+---@param x ambit.datum
+---@return ambit.expression|ambit.enclosure
+function ambit.log2(x) end
+---@param x ambit.datum
+---@return ambit.expression|ambit.enclosure
+function ambit.log10(x) end
+---@param x ambit.datum
+---@return ambit.expression|ambit.enclosure
+function ambit.exp2(x) end
 ---Integer exponents for every base, half integers as powers of the square root, others as exp(b log a), a > 0.
 ---@param a ambit.datum
 ---@param b ambit.datum

@@ -392,16 +392,16 @@ static void shares_instructions(void **state) {
   assert_non_null(table);
   assert_null(table->next);
   assert_ptr_equal(table->frame, root);
-  assert_int_equal(table->columns, 2 * AMBIT_OP_COUNT + 2);
+  assert_int_equal(table->columns, 2 * AMBIT_OP_END + 2);
   const double *first = table->value, *second = table->value + table->columns;
   assert_string_equal(table->name[1], "second");
   /* p^2 and the product are for both, the sine for the second alone */
   assert_true(first[AMBIT_OP_SQR] == 0 && first[AMBIT_OP_MUL] == 0 && second[AMBIT_OP_SIN] == 1);
-  assert_true(first[AMBIT_OP_COUNT + AMBIT_OP_SQR] == 0.5 && second[AMBIT_OP_COUNT + AMBIT_OP_MUL] == 0.5);
-  assert_true(first[AMBIT_OP_COUNT + AMBIT_OP_SIN] == 0 && second[AMBIT_OP_COUNT + AMBIT_OP_SIN] == 1);
-  assert_true(first[2 * AMBIT_OP_COUNT + 1] == 2 && second[2 * AMBIT_OP_COUNT + 1] == 3);
+  assert_true(first[AMBIT_OP_END + AMBIT_OP_SQR] == 0.5 && second[AMBIT_OP_END + AMBIT_OP_MUL] == 0.5);
+  assert_true(first[AMBIT_OP_END + AMBIT_OP_SIN] == 0 && second[AMBIT_OP_END + AMBIT_OP_SIN] == 1);
+  assert_true(first[2 * AMBIT_OP_END + 1] == 2 && second[2 * AMBIT_OP_END + 1] == 3);
   double all = 0;
-  for (uint32_t k = 0; k < 2 * AMBIT_OP_COUNT; k++) all += k < AMBIT_OP_COUNT ? 0 : first[k] + second[k];
+  for (uint32_t k = 0; k < 2 * AMBIT_OP_END; k++) all += k < AMBIT_OP_END ? 0 : first[k] + second[k];
   assert_true(all == t->ninstr); /* the parts are the whole */
   ambit_profile_close(p);
   ambit_arena_close(arena);

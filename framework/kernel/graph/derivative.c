@@ -8,6 +8,7 @@
 #include "graph/fold.h"
 #include "graph/kink.h"
 #include "graph/name.h"
+#include "num/function.h"
 #include "graph/walk.h"
 #include <stdlib.h>
 
@@ -49,8 +50,16 @@ static ambit_expr slope(ambit_graph *g, ambit_expr e, uint32_t op, ambit_expr a,
   case AMBIT_OP_SINH: return unary(g, AMBIT_OP_COSH, a);
   case AMBIT_OP_COSH: return unary(g, AMBIT_OP_SINH, a);
   case AMBIT_OP_TANH: return subtract(g, AMBIT_ONE, unary(g, AMBIT_OP_SQR, e));
-  default: return AMBIT_NO_EXPR;
+  default: return ambit_op_is_function(op) ? ambit_function_of(op)->slope(g, e, a) : AMBIT_NO_EXPR;
   }
+}
+
+/* of a function of two operands */
+static ambit_expr total(ambit_graph *g, ambit_expr e, ambit_node x, ambit_expr da, ambit_expr db) {
+  const ambit_described *f = ambit_function_of(x.op);
+  ambit_expr first = da == AMBIT_ZERO ? da : times(g, f->partial(g, e, x.a, x.b, false), da);
+  ambit_expr second = db == AMBIT_ZERO ? db : times(g, f->partial(g, e, x.a, x.b, true), db);
+  return add(g, first, second);
 }
 
 /* d f(a, b) given da, db: e = f(a, b) is node x */
@@ -65,7 +74,9 @@ static ambit_expr differential(ambit_graph *g, ambit_expr e, ambit_node x, ambit
     ambit_expr turn = subtract(g, share(g, x.b, da), share(g, x.a, db));
     return over(g, turn, add(g, unary(g, AMBIT_OP_SQR, x.a), unary(g, AMBIT_OP_SQR, x.b)));
   }
-  default: return times(g, slope(g, e, x.op, x.a, x.b), da);
+  default:
+    if (ambit_op_is_function(x.op) && ambit_op_is_binary(x.op)) return total(g, e, x, da, db);
+    return times(g, slope(g, e, x.op, x.a, x.b), da);
   }
 }
 

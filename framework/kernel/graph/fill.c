@@ -5,6 +5,7 @@
 ** Elements travel in chunks through arrays on the stack, so that an elementary function sees many at once.
 */
 #include "graph/interpreter.h"
+#include "graph/tape.h"
 #include "num/interval.h"
 #include <string.h>
 
@@ -77,6 +78,17 @@ static const ambit_run_fn fallback[AMBIT_OP_COUNT] = {
 #undef AMBIT_X
 };
 
+static uint32_t fill_function(const ambit_arithmetic *self, void *ctx, uint32_t op, void *base, size_t pitch,
+    size_t lanes, size_t count, const uint32_t *dst, const uint32_t *a, const uint32_t *b) {
+  return fill(op, self, ctx, base, pitch, lanes, count, dst, a, b);
+}
+
+uint32_t ambit_arithmetic_seal(const ambit_arithmetic *full) {
+  uint32_t flags = full->set_text ? AMBIT_SEAL_KEEP : 0;
+  if (full->function == fill_function) flags |= AMBIT_SEAL_WRITE_FUNCTIONS;
+  return full->pair == fill_function ? flags | AMBIT_SEAL_WRITE_PAIRS : flags;
+}
+
 ambit_status ambit_arithmetic_complete(const ambit_arithmetic *plugin, ambit_arithmetic *full, ambit_failure *f) {
   memset(full, 0, sizeof *full);
   size_t size = plugin->size < sizeof *full ? plugin->size : sizeof *full;
@@ -89,5 +101,7 @@ ambit_status ambit_arithmetic_complete(const ambit_arithmetic *plugin, ambit_ari
         f, AMBIT_INVALID, "the arithmetic has no function '%s'; elem, set and bounds are required", missing);
   for (uint32_t op = 0; op < AMBIT_OP_COUNT; op++)
     if (!full->run[op]) full->run[op] = fallback[op];
+  if (!full->function) full->function = fill_function;
+  if (!full->pair) full->pair = fill_function;
   return AMBIT_OK;
 }

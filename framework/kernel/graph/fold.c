@@ -102,13 +102,13 @@ static ambit_expr fold(ambit_graph *g, uint32_t op, ambit_expr a, ambit_expr b) 
   case AMBIT_OP_ATAN2:
   case AMBIT_OP_MIN:
   case AMBIT_OP_MAX: return ambit_fold_pair(g, op, a, b);
-  default: return ambit_fold_function(g, op, a);
+  default: return ambit_op_is_binary(op) ? ambit_store_make(g, op, a, b) : ambit_fold_function(g, op, a);
   }
 }
 
 ambit_expr ambit_graph_op(ambit_graph *g, uint32_t op, ambit_expr a, ambit_expr b) {
   if (op == AMBIT_OP_POWN) return ambit_graph_pown(g, a, (int32_t)b);
-  if (op >= AMBIT_OP_COUNT) return AMBIT_NO_EXPR;
+  if (op >= AMBIT_OP_COUNT && !ambit_op_is_function(op)) return AMBIT_NO_EXPR;
   if (!ambit_op_is_binary(op)) b = a;
   if (a >= g->count || b >= g->count) return AMBIT_NO_EXPR;
   size_t before = g->count;

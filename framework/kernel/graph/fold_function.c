@@ -1,9 +1,10 @@
 /* fold_function.c -- functions of one operand, and atan2, min, max: parity, inverses, multiples of pi, known order. */
 #include "graph/fold.h"
+#include "num/function.h"
 
 static bool is_odd(uint32_t op) {
   return op == AMBIT_OP_SIN || op == AMBIT_OP_TAN || op == AMBIT_OP_ASIN || op == AMBIT_OP_ATAN ||
-         op == AMBIT_OP_SINH || op == AMBIT_OP_TANH;
+         op == AMBIT_OP_SINH || op == AMBIT_OP_TANH || (ambit_op_is_function(op) && ambit_function_of(op)->facts.odd);
 }
 
 static bool is_even(uint32_t op) { return op == AMBIT_OP_COS || op == AMBIT_OP_COSH || op == AMBIT_OP_ABS; }

@@ -175,6 +175,7 @@ static ambit_expr intern(ambit_graph *g, ambit_node node, uint64_t birth) {
   size_t place = find_place(g, &node, stored.hash);
   if (g->table[place] != AMBIT_NO_EXPR) return g->table[place];
   if (!ambit_op_is_leaf(node.op)) describe(g, &stored);
+  g->has_functions = g->has_functions || ambit_op_is_function(node.op);
   if (ambit_op_has_kink(node.op) || leaves_domain(g, &stored.node)) stored.node.text = g->maker;
   ambit_expr e = append_copy(g, &stored);
   if (e != AMBIT_NO_EXPR) g->table[place] = e;

@@ -104,8 +104,8 @@ static uint32_t run_all(ambit_block *block) {
   uint32_t flags = 0;
   for (uint32_t i = 0; i < t->nrun; i++) {
     const ambit_run *r = &t->run[i];
-    flags |= full->run[r->op](full, block->ctx, block->base, block->lanes, block->lanes, r->count, t->dst + r->first,
-        t->a + r->first, t->b + r->first);
+    flags |= ambit_arithmetic_run(full, block->ctx, r->op, block->base, block->lanes, block->lanes, r->count,
+        t->dst + r->first, t->a + r->first, t->b + r->first);
   }
   return flags;
 }
@@ -126,8 +126,8 @@ void ambit_block_run_each(ambit_block *block, uint32_t *flags) {
   const ambit_arithmetic *full = block->arithmetic;
   if (full->enter) full->enter(block->ctx);
   for (uint32_t i = 0; i < t->ninstr; i++)
-    flags[i] = full->run[t->op[i]](
-        full, block->ctx, block->base, block->lanes, block->lanes, 1, t->dst + i, t->a + i, t->b + i);
+    flags[i] = ambit_arithmetic_run(
+        full, block->ctx, t->op[i], block->base, block->lanes, block->lanes, 1, t->dst + i, t->a + i, t->b + i);
   if (full->leave) full->leave(block->ctx);
 }
 

@@ -9,6 +9,10 @@
 ** if a required function is missing. */
 ambit_status ambit_arithmetic_complete(const ambit_arithmetic *plugin, ambit_arithmetic *full, ambit_failure *f);
 
+/* The flags with which tapes for a completed arithmetic are sealed: KEEP if it reads constants, and functions written
+** in other operations if it leaves them out. */
+uint32_t ambit_arithmetic_seal(const ambit_arithmetic *full);
+
 typedef struct ambit_block ambit_block; /* slots x lanes of elements for one tape and one context */
 ambit_status ambit_block_open(
     const ambit_tape *t, const ambit_arithmetic *full, void *ctx, size_t lanes, ambit_block **block, ambit_failure *f);

@@ -5,6 +5,7 @@
 ** operands that straddle 0.
 */
 #include "graph/contract.h"
+#include "num/function.h"
 #include "num/interval.h"
 
 #define POSITIVE ((ambit_interval) { 0, INFINITY })
@@ -133,7 +134,14 @@ static ambit_interval half_turn(void) {
   return (ambit_interval) { -half, half };
 }
 
+static bool inverse_function(uint32_t op, ambit_interval r, ambit_interval *a, ambit_interval *b) {
+  const ambit_described *f = ambit_function_of(op);
+  if (ambit_op_arity(op) == 2) return f->contract(r, a, b);
+  return meet(&r, f->image) && meet(a, f->inverse(r));
+}
+
 bool ambit_inverse(uint32_t op, ambit_interval r, ambit_interval *a, ambit_interval *b) {
+  if (ambit_op_is_function(op)) return inverse_function(op, r, a, b);
   switch (op) {
   case AMBIT_OP_ADD: return meet(a, ambit_interval_sub(r, *b)) && meet(b, ambit_interval_sub(r, *a));
   case AMBIT_OP_SUB: return meet(a, ambit_interval_add(r, *b)) && meet(b, ambit_interval_sub(*a, r));

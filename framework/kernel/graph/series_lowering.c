@@ -1,4 +1,5 @@
-/* series_lowering.c -- TAN, ASIN, ACOS and POWN in opcodes that have simple recurrences for Taylor coefficients.
+/* series_lowering.c -- TAN, ASIN, ACOS and POWN in opcodes that have simple recurrences for Taylor coefficients;
+** functions as their descriptions say.
 **
 **   tan u  = sin u / cos u                      acos u = pi/2 - asin u
 **   asin u = atan(u / sqrt(1 - u^2)), |u| < 1   u^n    = (u^(n/2))^2 or u u^(n-1); n < 0: 1 / u^-n
@@ -9,7 +10,9 @@
 */
 #include "graph/series_lowering.h"
 #include "graph/fold.h"
+#include "graph/tape.h"
 #include "graph/walk.h"
+#include "num/function.h"
 #include <stdlib.h>
 
 static ambit_expr make(ambit_graph *g, uint32_t op, ambit_expr a, ambit_expr b) {
@@ -61,8 +64,11 @@ static ambit_expr lower_power(ambit_graph *g, ambit_expr u, int32_t n) {
 }
 
 /* The operation on operands that are lowered already. */
-static ambit_expr lower(ambit_graph *g, uint32_t op, ambit_expr a, ambit_expr b) {
+static ambit_expr lower(ambit_graph *g, uint32_t flags, uint32_t op, ambit_expr a, ambit_expr b) {
   if (a == AMBIT_NO_EXPR) return a;
+  uint32_t write = ambit_op_is_binary(op) ? AMBIT_SEAL_WRITE_PAIRS : AMBIT_SEAL_WRITE_FUNCTIONS;
+  if (ambit_op_is_function(op) && (flags & (write | AMBIT_TAPE_SERIES))) return ambit_function_of(op)->written(g, a, b);
+  if (!(flags & AMBIT_TAPE_SERIES)) return make(g, op, a, b);
   switch (op) {
   case AMBIT_OP_TAN: return make(g, AMBIT_OP_DIV, make(g, AMBIT_OP_SIN, a, a), make(g, AMBIT_OP_COS, a, a));
   case AMBIT_OP_DIV: return lower_quotient(g, a, b);
@@ -92,13 +98,14 @@ static bool needs_helper(uint32_t op) {
          op == AMBIT_OP_TANH || op == AMBIT_OP_ATAN || op == AMBIT_OP_ATAN2;
 }
 
-static ambit_expr bound(ambit_graph *g, uint32_t op, ambit_expr a, ambit_expr b) {
+static ambit_expr bound(ambit_graph *g, uint32_t flags, uint32_t op, ambit_expr a, ambit_expr b) {
+  (void)flags;
   return op == AMBIT_OP_DIV ? lower_quotient(g, a, b) : make(g, op, a, b);
 }
 
 /* Rewrites root[0..nout) in place. */
-static bool rewrite(ambit_graph *g, size_t nout, ambit_expr *root, ambit_walk_stop stop,
-    ambit_expr (*by)(ambit_graph *, uint32_t, ambit_expr, ambit_expr)) {
+static bool rewrite(ambit_graph *g, uint32_t flags, size_t nout, ambit_expr *root, ambit_walk_stop stop,
+    ambit_expr (*by)(ambit_graph *, uint32_t, uint32_t, ambit_expr, ambit_expr)) {
   ambit_walk w;
   if (!ambit_walk_open(g, nout, root, stop, &w)) return false;
   ambit_expr *now = malloc((w.count + 1) * sizeof *now);
@@ -108,7 +115,7 @@ static bool rewrite(ambit_graph *g, size_t nout, ambit_expr *root, ambit_walk_st
     const ambit_node x = *ambit_at(g, w.node[i]);
     bool leaf = ambit_op_is_leaf(x.op) || (stop && stop(g, w.node[i]));
     const char *other = ambit_graph_written_by(g, ambit_graph_writer(g, w.node[i]));
-    now[i] = leaf ? w.node[i] : by(g, x.op, now[w.a[i]], x.op == AMBIT_OP_POWN ? x.b : now[w.b[i]]);
+    now[i] = leaf ? w.node[i] : by(g, flags, x.op, now[w.a[i]], x.op == AMBIT_OP_POWN ? x.b : now[w.b[i]]);
     ambit_graph_written_by(g, other);
     done = now[i] != AMBIT_NO_EXPR;
   }
@@ -116,6 +123,10 @@ static bool rewrite(ambit_graph *g, size_t nout, ambit_expr *root, ambit_walk_st
   free(now);
   ambit_walk_close(&w);
   return done;
+}
+
+bool ambit_functions_write(ambit_graph *g, size_t n, ambit_expr *e) {
+  return !g->has_functions || rewrite(g, AMBIT_SEAL_WRITE_FUNCTIONS | AMBIT_SEAL_WRITE_PAIRS, n, e, NULL, lower);
 }
 
 /* *root: room for the helpers of all nodes below, appended. */
@@ -135,16 +146,18 @@ static bool append_helpers(ambit_graph *g, ambit_expr **root, size_t *nroot, amb
   return done;
 }
 
-bool ambit_series_bound(ambit_graph *g, size_t n, ambit_expr *e) { return rewrite(g, n, e, NULL, bound); }
+bool ambit_series_bound(ambit_graph *g, size_t n, ambit_expr *e) { return rewrite(g, 0, n, e, NULL, bound); }
 
-ambit_status ambit_series_lower(ambit_graph *g, size_t nout, const ambit_expr *out, bool series, bool keep,
-    ambit_expr **root, size_t *nroot, ambit_failure *f) {
-  ambit_walk_stop stop = keep ? NULL : ambit_tape_folds;
+ambit_status ambit_series_lower(ambit_graph *g, size_t nout, const ambit_expr *out, uint32_t flags, ambit_expr **root,
+    size_t *nroot, ambit_failure *f) {
+  ambit_walk_stop stop = flags & AMBIT_SEAL_KEEP ? NULL : ambit_tape_folds;
+  bool series = flags & AMBIT_TAPE_SERIES, write = flags & (AMBIT_SEAL_WRITE_FUNCTIONS | AMBIT_SEAL_WRITE_PAIRS);
   *nroot = nout;
   *root = calloc(nout + 1, sizeof **root);
   bool done = *root;
   for (size_t i = 0; i < nout && done; i++) (*root)[i] = out[i];
-  if (done && series) done = rewrite(g, nout, *root, stop, lower) && append_helpers(g, root, nroot, stop);
+  if (done && (series || (write && g->has_functions))) done = rewrite(g, flags, nout, *root, stop, lower);
+  if (done && series) done = append_helpers(g, root, nroot, stop);
   if (done) return AMBIT_OK;
   free(*root);
   *root = NULL;

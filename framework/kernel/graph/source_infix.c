@@ -9,13 +9,16 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *const symbol_of[AMBIT_OP_COUNT] = {
-#define AMBIT_X(name, arity, symbol) symbol,
+static const char *const symbol_of[AMBIT_OP_END] = {
+#define AMBIT_X(name, arity, symbol) [AMBIT_OP_##name] = symbol,
   AMBIT_OPS(AMBIT_X)
+#undef AMBIT_X
+#define AMBIT_X(name, arity, symbol) [AMBIT_OP_##name] = #symbol,
+      AMBIT_FUNCTIONS(AMBIT_X)
 #undef AMBIT_X
 };
 
-const char *ambit_op_symbol(uint32_t op) { return symbol_of[op]; }
+const char *ambit_op_symbol(uint32_t op) { return op < AMBIT_OP_END && symbol_of[op] ? symbol_of[op] : ""; }
 
 /* Does a product, as it is written, begin with a sign? */
 static bool begins_with_sign(const ambit_writer *w, ambit_expr e) {
@@ -53,7 +56,7 @@ ambit_layout ambit_layout_infix(const ambit_writer *w, ambit_expr e) {
   ambit_layout l = {
     .a = x->a, .b = x->b, .place_a = AMBIT_BINDS_SUM, .place_b = AMBIT_BINDS_SUM, .two = ambit_op_is_binary(x->op)
   };
-  const char *symbol = symbol_of[x->op];
+  const char *symbol = ambit_op_symbol(x->op);
   switch (x->op) {
   case AMBIT_OP_ADD:
   case AMBIT_OP_SUB:
@@ -73,6 +76,15 @@ ambit_layout ambit_layout_infix(const ambit_writer *w, ambit_expr e) {
     snprintf(l.middle, sizeof l.middle, ", ");
     snprintf(l.tail, sizeof l.tail, ")");
   }
+  return l;
+}
+
+ambit_layout ambit_layout_form(const ambit_function_form *form, const ambit_node *x, int place) {
+  ambit_layout l = { .a = x->a, .b = x->b, .place_a = form->tight ? AMBIT_BINDS_ATOM : place, .place_b = place };
+  l.two = form->middle != NULL;
+  snprintf(l.head, sizeof l.head, "%s", form->head);
+  if (l.two) snprintf(l.middle, sizeof l.middle, "%s", form->middle);
+  snprintf(l.tail, sizeof l.tail, "%s", form->tail);
   return l;
 }
 
@@ -141,8 +153,10 @@ const ambit_style ambit_style_lua = { "(", ")", lua_strength, lua_layout, lua_le
 /* ---- Modelica */
 
 static ambit_layout modelica_layout(const ambit_writer *w, ambit_expr e) {
-  ambit_layout l = ambit_layout_infix(w, e);
   const ambit_node *x = ambit_at(w->g, e);
+  if (ambit_op_is_function(x->op))
+    return ambit_layout_form(&ambit_function_of(x->op)->modelica, x, AMBIT_BINDS_PRODUCT);
+  ambit_layout l = ambit_layout_infix(w, e);
   int32_t n = (int32_t)x->b;
   if (x->op == AMBIT_OP_POWN && n < 0) snprintf(l.tail, sizeof l.tail, "^(%d)", (int)n);
   return l;

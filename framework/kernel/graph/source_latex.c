@@ -77,6 +77,7 @@ static void lay_function(uint32_t op, ambit_layout *l) {
 
 static ambit_layout layout(const ambit_writer *w, ambit_expr e) {
   const ambit_node *x = ambit_at(w->g, e);
+  if (ambit_op_is_function(x->op)) return ambit_layout_form(&ambit_function_of(x->op)->latex, x, AMBIT_BINDS_SUM);
   ambit_layout l = ambit_layout_infix(w, e);
   switch (x->op) {
   case AMBIT_OP_ADD:

@@ -4,6 +4,7 @@
 #include "graph/source.h"
 #include "graph/store.h"
 #include "num/decimal.h"
+#include "num/function.h"
 
 /* Binding strength of an expression, and what an operand's place demands. */
 enum {
@@ -61,4 +62,6 @@ const char *ambit_leaf_text(const ambit_graph *g, ambit_expr e, char buffer[AMBI
 const char *ambit_op_symbol(uint32_t op);
 /* The layout of an operation with usual operators and functions sin(a), atan2(a, b). */
 ambit_layout ambit_layout_infix(const ambit_writer *w, ambit_expr e);
+/* The layout of a function as its description says, its operands in such places. */
+ambit_layout ambit_layout_form(const ambit_function_form *form, const ambit_node *x, int place);
 #endif

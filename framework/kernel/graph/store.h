@@ -9,6 +9,7 @@
 #include <ambit/graph.h>
 #include "graph/kink.h"
 #include "graph/symbols.h"
+#include "num/function.h"
 #include <stdlib.h>
 
 typedef struct ambit_stored {
@@ -32,6 +33,7 @@ struct ambit_graph {
   ambit_symbols symbols;
   ambit_expr pi, time;   /* AMBIT_NO_EXPR until asked for */
   uint64_t made, births; /* nodes, leaves ever made */
+  bool has_functions;    /* was one of AMBIT_FUNCTIONS ever made? */
   const char *maker;     /* who writes formulas, see kink.h, or NULL */
   ambit_graph_tally tally;
   double sealing; /* s of CPU time that sealing tapes has taken */
@@ -67,18 +69,17 @@ static inline const ambit_node *ambit_at(const ambit_graph *g, ambit_expr e) { r
 static inline void ambit_store_expect(const ambit_graph *g, ambit_expr e) {
   if (g->forced && ambit_at(g, e)->op == AMBIT_LEAF_NONE) abort();
 }
-static inline bool ambit_op_is_binary(uint32_t op) {
-  return op == AMBIT_OP_ADD || op == AMBIT_OP_SUB || op == AMBIT_OP_MUL || op == AMBIT_OP_DIV || op == AMBIT_OP_ATAN2 ||
-         op == AMBIT_OP_MIN || op == AMBIT_OP_MAX;
-}
+static inline bool ambit_op_is_binary(uint32_t op) { return ambit_op_arity(op) == 2; }
 static inline bool ambit_op_is_leaf(uint32_t op) { return op >= AMBIT_LEAF_CONSTANT; }
 static inline bool ambit_is_exact(const ambit_graph *g, ambit_expr e) {
   const ambit_node *x = ambit_at(g, e);
   return x->op == AMBIT_LEAF_CONSTANT && x->value.lo == x->value.hi;
 }
-/* Defined everywhere and never 0. exp has the lower bound 0, which it does not take. */
+/* Defined everywhere and never 0. exp and its like have the lower bound 0, which they do not
+** take. */
 static inline bool ambit_is_nonzero(const ambit_graph *g, ambit_expr e) {
   const ambit_node *x = ambit_at(g, e);
-  return x->total && (x->range.lo > 0 || x->range.hi < 0 || x->op == AMBIT_OP_EXP);
+  bool positive = x->op == AMBIT_OP_EXP || (ambit_op_is_function(x->op) && ambit_function_of(x->op)->positive);
+  return x->total && (x->range.lo > 0 || x->range.hi < 0 || positive);
 }
 #endif

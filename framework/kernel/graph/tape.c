@@ -172,7 +172,7 @@ static ambit_status order_instructions(sealing *s, bool keep, size_t *ninstr) {
     if (s->level[i] > deepest) deepest = s->level[i];
     s->order[n++] = i;
   }
-  bool sorted = sort_by(s->order, n, op, AMBIT_OP_COUNT) && sort_by(s->order, n, s->level, (size_t)deepest + 1);
+  bool sorted = sort_by(s->order, n, op, AMBIT_OP_END) && sort_by(s->order, n, s->level, (size_t)deepest + 1);
   free(op);
   *ninstr = n;
   return sorted ? AMBIT_OK : no_memory(s->failure);
@@ -336,7 +336,7 @@ static ambit_status seal(ambit_graph *g, ambit_arena *arena, size_t nout, const 
   if (status != AMBIT_OK) return status;
   ambit_expr *root;
   size_t nroot;
-  status = ambit_series_lower(g, nout, out, flags & AMBIT_TAPE_SERIES, keep, &root, &nroot, f);
+  status = ambit_series_lower(g, nout, out, flags, &root, &nroot, f);
   if (status != AMBIT_OK) return status;
   s.tape = ambit_arena_alloc(arena, sizeof *s.tape);
   bool ready = s.tape && ambit_walk_open(g, nroot, root, keep ? NULL : ambit_tape_folds, &s.walk);

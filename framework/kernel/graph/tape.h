@@ -5,8 +5,10 @@
 #include <ambit/tape.h>
 
 /* Flags of sealing besides AMBIT_TAPE_SERIES. KEEP: do not fold inexact constants (for arithmetics of higher
-** precision). */
+** precision). WRITE_FUNCTIONS, WRITE_PAIRS: write AMBIT_FUNCTIONS of one operand, of two, in other operations. */
 #define AMBIT_SEAL_KEEP 0x10000u
+#define AMBIT_SEAL_WRITE_FUNCTIONS 0x20000u
+#define AMBIT_SEAL_WRITE_PAIRS 0x40000u
 
 /* Inputs are leaves, in this order; a reached leaf that is not among them is INVALID and named. The tape lives in the
 ** arena and needs the graph no longer. The first ntime_varying inputs count as functions of time for `degree` (TIME

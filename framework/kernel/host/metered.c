@@ -1,5 +1,7 @@
 /* metered.c -- frames around the services of the kernel and around the runs of an arithmetic. */
 #include "host/metered.h"
+#include "graph/interpreter.h"
+#include "graph/tape.h"
 #include "base/meter.h"
 #include "graph/contract.h"
 #include "graph/jet.h"
@@ -55,8 +57,17 @@ static ambit_status read(const char *text, double *lo, double *hi, char *message
 
 static size_t shortest(char *out, size_t room, double x) { return ambit_num_service_v1.shortest(out, room, x); }
 
+static uint32_t taylor(uint32_t op, uint32_t n, double *c, double lo, double hi) {
+  enter("num.taylor");
+  uint32_t flags = ambit_num_service_v1.taylor(op, n, c, lo, hi);
+  ambit_meter_leave();
+  return flags;
+}
+
+static const ambit_function_facts *facts(uint32_t op) { return ambit_num_service_v1.facts(op); }
+
 static const ambit_num_service num_service = { sizeof num_service, map, elementary, pown, read, shortest, convolve,
-  matmul };
+  matmul, taylor, facts };
 
 /* -- ambit.jet/1 */
 
@@ -142,16 +153,16 @@ static const ambit_contract_service contract_service = { sizeof contract_service
 
 /* -- ambit.meter/1 */
 
-static const char *const operation_name[] = {
-#define AMBIT_X(name, arity, symbol) #name,
-  AMBIT_OPS(AMBIT_X)
+static const char *const operation_name[AMBIT_OP_END] = {
+#define AMBIT_X(name, arity, symbol) [AMBIT_OP_##name] = #name,
+  AMBIT_OPS(AMBIT_X) AMBIT_FUNCTIONS(AMBIT_X)
 #undef AMBIT_X
 };
 
 static void enter_part(const char *name) { ambit_meter_enter(AMBIT_FRAME_SOLVER, name); }
 
 static void operation(uint32_t op) {
-  ambit_meter_mark(AMBIT_FRAME_OPERATION, op < AMBIT_OP_COUNT ? operation_name[op] : "other");
+  ambit_meter_mark(AMBIT_FRAME_OPERATION, op < AMBIT_OP_END && operation_name[op] ? operation_name[op] : "other");
 }
 
 static const ambit_meter_service meter_service = { sizeof meter_service, enter_part, ambit_meter_leave, operation };
@@ -168,7 +179,7 @@ const void *ambit_metered_service(const char *id, const void *service) {
 typedef struct metered {
   ambit_arithmetic full; /* first: what others see */
   const ambit_arithmetic *plain;
-  char label[AMBIT_OP_COUNT][AMBIT_FRAME_NAME]; /* "interval MUL" */
+  char label[AMBIT_OP_END][AMBIT_FRAME_NAME]; /* "interval MUL" */
 } metered;
 
 /* One function per opcode: a run function is not told its opcode. */
@@ -190,12 +201,24 @@ static const ambit_run_fn metered_run[AMBIT_OP_COUNT] = {
 #undef AMBIT_X
 };
 
+static uint32_t run_function(const ambit_arithmetic *self, void *ctx, uint32_t op, void *base, size_t pitch,
+    size_t lanes, size_t count, const uint32_t *dst, const uint32_t *a, const uint32_t *b) {
+  const metered *m = (const metered *)(const void *)self;
+  ambit_meter_enter(AMBIT_FRAME_OPERATION, m->label[op]);
+  uint32_t flags = ambit_arithmetic_run(m->plain, ctx, op, base, pitch, lanes, count, dst, a, b);
+  ambit_meter_leave();
+  return flags;
+}
+
 const ambit_arithmetic *ambit_metered_arithmetic(ambit_arena *arena, const ambit_arithmetic *plain, const char *name) {
   metered *m = ambit_arena_alloc(arena, sizeof *m);
   if (!m) return NULL;
   m->full = *plain, m->plain = plain;
-  for (int op = 0; op < AMBIT_OP_COUNT; op++)
-    snprintf(m->label[op], sizeof m->label[op], "%.30s %s", name, operation_name[op]);
+  for (int op = 0; op < AMBIT_OP_END; op++)
+    if (operation_name[op]) snprintf(m->label[op], sizeof m->label[op], "%.30s %s", name, operation_name[op]);
   memcpy(m->full.run, metered_run, sizeof metered_run);
+  uint32_t seal = ambit_arithmetic_seal(plain); /* what it leaves out stays the kernel's, and is known by that */
+  if (!(seal & AMBIT_SEAL_WRITE_FUNCTIONS)) m->full.function = run_function;
+  if (!(seal & AMBIT_SEAL_WRITE_PAIRS)) m->full.pair = run_function;
   return &m->full;
 }

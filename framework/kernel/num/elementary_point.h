@@ -129,4 +129,23 @@ INLINE enclosure tanh_at(lanes x) {
   pair y = tanh_kernel(x);
   return unit(widen_odd(x, y, magnitude(y.h) * AMBIT_ERROR_TANH, -1));
 }
+
+#if AMBIT_LANES == 1
+/* bounds of v 2^k for the positive normal doubles lo <= v <= hi; |k| < 2000 */
+INLINE enclosure scale(double lo, double hi, int64_t k) {
+  const double most = 0x1.fffffffffffffp1023, tiniest = 0x1p-1074, infinity = __builtin_inf();
+  int64_t half = k / 2;
+  double first = power_of_two((bits)half), second = power_of_two((bits)(k - half));
+  double down = lo * first * second, up = hi * first * second; /* the first product is exact */
+  if (down == infinity)
+    down = most;
+  else if (down > 0 && down / second / first > lo)
+    down = next_below(down);
+  if (up == 0)
+    up = tiniest;
+  else if (up < infinity && up / second / first < hi)
+    up = next_above(up);
+  return (enclosure) { down, up, 0 };
+}
+#endif
 #endif

@@ -21,22 +21,6 @@
 
 static double clamp(double x, double lo, double hi) { return x < lo ? lo : x > hi ? hi : x; }
 
-/* bounds of v 2^k for the positive normal doubles lo <= v <= hi; |k| < 2000 */
-static ambit_interval scale(double lo, double hi, int64_t k) {
-  int64_t half = k / 2;
-  double first = power_of_two((bits)half), second = power_of_two((bits)(k - half));
-  double down = lo * first * second, up = hi * first * second; /* the first product is exact */
-  if (down == INFINITY)
-    down = DBL_MAX;
-  else if (down > 0 && down / second / first > lo)
-    down = next_below(down);
-  if (up == 0)
-    up = TINIEST;
-  else if (up < INFINITY && up / second / first < hi)
-    up = next_above(up);
-  return (ambit_interval) { down, up };
-}
-
 static ambit_interval of(enclosure e) { return (ambit_interval) { e.lo, e.hi }; }
 
 static ambit_interval exp_point(double x) {
@@ -48,7 +32,7 @@ static ambit_interval exp_point(double x) {
   bits k;
   pair y = exp_kernel(x, &k);
   enclosure mantissa = widen(y, y.h * AMBIT_ERROR_EXP);
-  return scale(mantissa.lo, mantissa.hi, (int64_t)k);
+  return of(scale(mantissa.lo, mantissa.hi, (int64_t)k));
 }
 
 /* sinh or cosh at x > 700, where both are e^x / 2 up to a factor 1 +- 2^-2000 */
@@ -57,7 +41,7 @@ static ambit_interval half_exp(double x) {
   bits k;
   pair y = exp_kernel(x, &k);
   enclosure mantissa = widen(y, y.h * (2 * AMBIT_ERROR_EXP));
-  return scale(mantissa.lo, mantissa.hi, (int64_t)k - 1);
+  return of(scale(mantissa.lo, mantissa.hi, (int64_t)k - 1));
 }
 static ambit_interval sinh_point(double x) {
   enclosure e = sinh_at(x);

@@ -6,6 +6,7 @@
 */
 #include "num/interval.h"
 #include "num/elementary.h"
+#include "num/function.h"
 #include "num/power.h"
 #include "num/rounding.h"
 #include <float.h>
@@ -85,18 +86,7 @@ static ambit_interval maximum(ambit_interval a, ambit_interval b) {
   return (ambit_interval) { larger(a.lo, b.lo), larger(a.hi, b.hi) };
 }
 
-static bool is_binary(uint32_t op) {
-  switch (op) {
-  case AMBIT_OP_ADD:
-  case AMBIT_OP_SUB:
-  case AMBIT_OP_MUL:
-  case AMBIT_OP_DIV:
-  case AMBIT_OP_ATAN2:
-  case AMBIT_OP_MIN:
-  case AMBIT_OP_MAX: return true;
-  default: return false;
-  }
-}
+static bool is_binary(uint32_t op) { return ambit_op_arity(op) == 2; }
 
 static bool is_elementary(uint32_t op) { return (op >= AMBIT_OP_EXP && op <= AMBIT_OP_TANH); }
 
@@ -198,6 +188,7 @@ static uint32_t map_chunk(uint32_t op, size_t n, ambit_interval *r, const ambit_
 static AMBIT_WORKER uint32_t map(
     uint32_t op, size_t n, ambit_interval *r, const ambit_interval *a, const ambit_interval *b, int32_t exponent) {
   if (op == AMBIT_OP_POWN) return map_pown(n, r, a, exponent);
+  if (ambit_op_is_function(op)) return ambit_function_map(op, n, r, a, b);
   uint32_t flags = 0;
   for (size_t done = 0; done < n; done += CHUNK) {
     size_t m = n - done < CHUNK ? n - done : CHUNK;

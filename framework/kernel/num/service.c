@@ -7,6 +7,7 @@
 #include "num/service.h"
 #include "num/decimal.h"
 #include "num/elementary.h"
+#include "num/function.h"
 #include "num/interval.h"
 #include "num/product.h"
 #include <stdio.h>
@@ -44,5 +45,14 @@ static size_t shortest(char *out, size_t room, double x) {
   return (size_t)length;
 }
 
+static uint32_t taylor(uint32_t op, uint32_t n, double *c, double lo, double hi) {
+  return ambit_function_taylor(op, n, (ambit_interval *)(void *)c, (ambit_interval) { lo, hi });
+}
+
+static const ambit_function_facts *facts(uint32_t op) {
+  const ambit_described *f = ambit_function_of(op);
+  return f ? &f->facts : NULL;
+}
+
 const ambit_num_service ambit_num_service_v1 = { sizeof ambit_num_service_v1, map, ambit_elementary, pown, read,
-  shortest, ambit_product_convolve, ambit_product_matmul };
+  shortest, ambit_product_convolve, ambit_product_matmul, taylor, facts };

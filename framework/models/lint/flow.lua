@@ -57,6 +57,7 @@ local function is_maker(f)
       "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "log", "sqrt", "sqr", "pow", "abs", "min", "max" } do
       makers[ambit[name]] = true
     end
+    for _, name in ipairs(require "ambit.core".described_functions) do makers[ambit[name]] = true end
   end
   return makers[f]
 end

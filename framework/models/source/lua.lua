@@ -117,8 +117,11 @@ end
 local function imports(body)
   local code = body:gsub('\\.', ""):gsub('"[^"\n]*"', '""')
   local used, from = {}, {}
-  for _, name in ipairs { "abs", "acos", "asin", "atan", "atan2", "between", "cos", "cosh", "exp", "interval", "log",
-    "max", "min", "number", "pi", "sin", "sinh", "sqrt", "tan", "tanh" } do
+  local names = table.move(core.described_functions, 1, #core.described_functions, 21, { "abs", "acos", "asin", "atan",
+    "atan2", "between", "cos", "cosh", "exp", "interval", "log", "max", "min", "number", "pi", "sin", "sinh", "sqrt",
+    "tan", "tanh" })
+  table.sort(names)
+  for _, name in ipairs(names) do
     if code:find("%f[%w_.]" .. name .. "%f[^%w_]") then
       used[#used + 1], from[#from + 1] = name, "ambit." .. name
     end

@@ -35,7 +35,7 @@ static ambit_status prepare(job *j, ambit_failure *f) {
   size_t nu = j->bound.nunknown;
   status = ambit_context_open(q->registry, q->arithmetic, q->noption, q->option, (uint32_t)nu, &j->context, f);
   if (status != AMBIT_OK) return status;
-  j->seal = j->context.arithmetic->set_text ? AMBIT_SEAL_KEEP : 0;
+  j->seal = ambit_arithmetic_seal(j->context.arithmetic);
   status = ambit_tape_seal(q->graph, j->arena, q->nexpr, j->bound.expr, nu, j->bound.unknown, 0, j->seal, &j->tape, f);
   if (status != AMBIT_OK) return status;
   ambit_share_note(j->tape, "results", j->tape->nout, NULL);

@@ -1,6 +1,7 @@
 /* partial.c -- flags, operation by operation, carried on to the results. */
 #include "verbs/evaluate/partial.h"
 #include "graph/kink.h"
+#include "graph/source_style.h"
 #include "graph/walk.h"
 #include <stdio.h>
 #include <string.h>
@@ -60,22 +61,13 @@ static ambit_expr find_culprit(const ambit_partial *p, const ambit_walk *walk, u
   return AMBIT_NO_EXPR;
 }
 
-static const char *name_of(uint32_t op) {
-  static const char *const symbol[] = {
-#define AMBIT_X(name, arity, text) text,
-    AMBIT_OPS(AMBIT_X)
-#undef AMBIT_X
-  };
-  return op < AMBIT_OP_COUNT ? symbol[op] : "";
-}
-
 static ambit_status tell(const ambit_partial *p, size_t i, uint32_t op, char blame[AMBIT_BLAME_MAX], ambit_failure *f) {
   ambit_walk walk;
   if (!ambit_walk_open(p->graph, 1, &p->bound->expr[i], NULL, &walk)) return no_memory(f);
   ambit_expr e = find_culprit(p, &walk, op);
   ambit_walk_close(&walk);
   const char *text =
-      e == AMBIT_NO_EXPR ? name_of(op == UNTAINTED ? AMBIT_OP_COUNT : op) : ambit_kink_text(p->graph, e, p->arena);
+      e == AMBIT_NO_EXPR ? (op == UNTAINTED ? "" : ambit_op_symbol(op)) : ambit_kink_text(p->graph, e, p->arena);
   snprintf(blame, AMBIT_BLAME_MAX, "%s", text ? text : "");
   return AMBIT_OK;
 }

@@ -6,6 +6,7 @@
 ** where a further one cannot vanish hold none; but that a further one vanishes exactly is beyond enclosures.
 */
 #include <ambit/roots.h>
+#include "graph/interpreter.h"
 #include "graph/tape.h"
 #include "verbs/run/allocation.h"
 #include "verbs/run/context.h"
@@ -173,7 +174,7 @@ static ambit_status find_solver(job *j, ambit_failure *f) {
   if (!j->option) return ambit_fail(f, own.status, "%s", own.message);
   const ambit_arithmetic *arithmetic;
   status = ambit_registry_arithmetic(q->registry, j->arithmetic, &arithmetic, f);
-  if (status == AMBIT_OK) j->seal = arithmetic->set_text ? AMBIT_SEAL_KEEP : 0;
+  if (status == AMBIT_OK) j->seal = ambit_arithmetic_seal(arithmetic);
   return status;
 }
 

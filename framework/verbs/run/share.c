@@ -54,8 +54,8 @@ static void count(const reach *r, ambit_meter_table *table) {
       double *row = table->value + (size_t)e * table->columns;
       if (!has(set, e)) continue;
       if (users == 1) row[t->op[i]] += 1;
-      row[AMBIT_OP_COUNT + t->op[i]] += 1.0 / users;
-      for (uint32_t other = 0; other < r->n; other++) row[2 * AMBIT_OP_COUNT + other] += has(set, other);
+      row[AMBIT_OP_END + t->op[i]] += 1.0 / users;
+      for (uint32_t other = 0; other < r->n; other++) row[2 * AMBIT_OP_END + other] += has(set, other);
     }
   }
 }
@@ -64,7 +64,7 @@ void ambit_share_note(const ambit_tape *t, const char *title, uint32_t n, const 
   if (!t || n == 0 || n > MOST || !ambit_meter_is_on()) return;
   reach r = { .tape = t, .n = n, .words = (n + 63u) / 64u };
   r.set = calloc(t->nslot * r.words + 1, sizeof *r.set);
-  ambit_meter_table *table = r.set ? ambit_meter_tabulate(title, n, 2 * AMBIT_OP_COUNT + n) : NULL;
+  ambit_meter_table *table = r.set ? ambit_meter_tabulate(title, n, 2 * AMBIT_OP_END + n) : NULL;
   if (table) {
     for (uint32_t e = 0; e < n; e++) {
       if (name)

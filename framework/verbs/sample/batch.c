@@ -175,8 +175,8 @@ static uint32_t run_all(ambit_batch *batch, size_t lanes) {
   if (full->enter) full->enter(batch->ctx);
   for (uint32_t i = 0; i < t->nrun; i++) {
     const ambit_run *r = &t->run[i];
-    flags |= full->run[r->op](full, batch->ctx, batch->base, batch->width, lanes, r->count, batch->dst + r->first,
-        batch->a + r->first, batch->b + r->first);
+    flags |= ambit_arithmetic_run(full, batch->ctx, r->op, batch->base, batch->width, lanes, r->count,
+        batch->dst + r->first, batch->a + r->first, batch->b + r->first);
   }
   if (full->leave) full->leave(batch->ctx);
   return flags;

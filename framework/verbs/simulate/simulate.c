@@ -2,6 +2,7 @@
 ** each piece of a split.
 */
 #include <ambit/simulate.h>
+#include "graph/interpreter.h"
 #include "graph/tape.h"
 #include "verbs/run/processors.h"
 #include "verbs/run/allocation.h"
@@ -116,7 +117,8 @@ static ambit_status prepare(job *j, ambit_failure *f) {
   if (status != AMBIT_OK) return status;
   uint32_t want = ambit_pair_want(j->solver, j->option);
   j->splits = is_split(q);
-  status = build(j, want, arithmetic->set_text ? AMBIT_SEAL_KEEP : 0, f);
+  uint32_t written = want & AMBIT_WANT_SERIES ? AMBIT_SEAL_WRITE_FUNCTIONS | AMBIT_SEAL_WRITE_PAIRS : 0;
+  status = build(j, want, ambit_arithmetic_seal(arithmetic) | written, f);
   if (status == AMBIT_OK) status = count_threads(j, f);
   return status == AMBIT_OK ? open_contexts(j, want, f) : status;
 }

@@ -1,5 +1,6 @@
 /* approximate.c -- one operation after the other, in the C library's functions. */
 #include "verbs/split/approximate.h"
+#include "num/interval.h"
 #include <math.h>
 #include <string.h>
 
@@ -7,6 +8,12 @@ static double power(double x, uint32_t bits) {
   int32_t n;
   memcpy(&n, &bits, sizeof n);
   return pow(x, n);
+}
+
+static double function(uint32_t op, double a, double b) {
+  ambit_interval r, x = { a, a }, y = { b, b };
+  if (!ambit_op_is_function(op) || isnan(a) || isnan(b)) return NAN; /* newer than this file */
+  return ambit_interval_op(op, &r, x, y) & AMBIT_F_EMPTY ? NAN : ambit_interval_mid(r);
 }
 
 static double apply(uint32_t op, double a, double b) {
@@ -33,7 +40,7 @@ static double apply(uint32_t op, double a, double b) {
   case AMBIT_OP_ABS: return fabs(a);
   case AMBIT_OP_MIN: return a < b ? a : b;
   case AMBIT_OP_MAX: return a > b ? a : b;
-  default: return NAN; /* newer than this file */
+  default: return function(op, a, b);
   }
 }
 

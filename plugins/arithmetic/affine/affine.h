@@ -208,6 +208,8 @@ static inline __attribute__((always_inline)) uint32_t affine_run(affine_context 
       size_t count, const uint32_t *dst, const uint32_t *a, const uint32_t *b);
 AFFINE_RUNS(AFFINE_DECLARE)
 #undef AFFINE_DECLARE
+uint32_t affine_run_function(const ambit_arithmetic *self, void *ctx, uint32_t op, void *base, size_t pitch,
+    size_t lanes, size_t count, const uint32_t *dst, const uint32_t *a, const uint32_t *b);
 
 /* tape.c */
 uint32_t affine_eval_tape(void *ctx, const ambit_tape *t, void *base, size_t pitch, size_t lanes);

@@ -37,17 +37,23 @@ static uint32_t gather(const call *q, cursor at, size_t n, double *operand, doub
   return q->c->num->map(q->op, n, result, operand, NULL, q->power);
 }
 
-static double least(uint32_t op) {
+static double least(const affine_context *c, uint32_t op) {
+  const ambit_function_facts *facts = c->num->facts(op);
+  if (facts) return facts->least > -DBL_MAX ? facts->least : -DBL_MAX;
   return op == AMBIT_OP_SQRT ? 0 : op == AMBIT_OP_ASIN || op == AMBIT_OP_ACOS ? -1 : -DBL_MAX;
 }
-static double most(uint32_t op) { return op == AMBIT_OP_ASIN || op == AMBIT_OP_ACOS ? 1 : DBL_MAX; }
+static double most(const affine_context *c, uint32_t op) {
+  const ambit_function_facts *facts = c->num->facts(op);
+  if (facts) return facts->most < DBL_MAX ? facts->most : DBL_MAX;
+  return op == AMBIT_OP_ASIN || op == AMBIT_OP_ACOS ? 1 : DBL_MAX;
+}
 
 /* the entries that have coefficients and a bounded result, with their ranges inside the domain; the derivative of
 ** x^INT32_MIN has an exponent that is none */
 static void select_entries(const call *q, cursor at, size_t n, const double *operand, const double *result,
     linearise_chunk *k, size_t *entry) {
   int derivable = q->power > INT32_MIN;
-  double from = least(q->op), to = most(q->op);
+  double from = least(q->c, q->op), to = most(q->c, q->op);
   k->op = q->op == AMBIT_OP_SQR ? AMBIT_OP_POWN : q->op, k->power = q->op == AMBIT_OP_SQR ? 2 : q->power, k->n = 0;
   for (size_t i = 0; i < n; i++, step(&at)) {
     const affine_element *x = affine_at(q->c, q->base, place(q, &at, q->a));
@@ -136,6 +142,13 @@ DEFINE(ATAN)
 DEFINE(SINH)
 DEFINE(COSH)
 DEFINE(TANH)
+
+uint32_t affine_run_function(const ambit_arithmetic *self, void *ctx, uint32_t op, void *base, size_t pitch,
+    size_t lanes, size_t count, const uint32_t *dst, const uint32_t *a, const uint32_t *b) {
+  (void)self, (void)b;
+  const call q = { ctx, base, pitch, dst, a, op, 0 };
+  return run(&q, lanes, count);
+}
 
 uint32_t affine_run_POWN(const ambit_arithmetic *self, void *ctx, void *base, size_t pitch, size_t lanes, size_t count,
     const uint32_t *dst, const uint32_t *a, const uint32_t *b) {

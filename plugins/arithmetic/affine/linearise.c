@@ -36,9 +36,17 @@ static void include(linearise_chunk *k, size_t i, double x, double flo, double f
   k->glo[i] = smaller(k->glo[i], -(k->slope[i] * x - flo));
 }
 
-enum { CONVEX, CONCAVE, CONVEX_RIGHT, CONCAVE_RIGHT }; /* everywhere; where x > 0 (TAN: where f > 0), and not below */
+/* everywhere; where x > 0 (TAN: where f > 0), and not below */
+enum {
+  CONVEX = AMBIT_CONVEX,
+  CONCAVE = AMBIT_CONCAVE,
+  CONVEX_RIGHT = AMBIT_CONVEX_RIGHT,
+  CONCAVE_RIGHT = AMBIT_CONCAVE_RIGHT
+};
 
-static int shape(uint32_t op, int32_t power) {
+static int shape(const affine_context *c, uint32_t op, int32_t power) {
+  const ambit_function_facts *facts = c->num->facts(op);
+  if (facts) return facts->shape;
   switch (op) {
   case AMBIT_OP_SQRT:
   case AMBIT_OP_LOG: return CONCAVE;
@@ -57,12 +65,12 @@ static int shape(uint32_t op, int32_t power) {
 static int is_wave(uint32_t op) { return op == AMBIT_OP_SIN || op == AMBIT_OP_COS; }
 
 /* does f'' change its sign inside? */
-static int is_mixed(const linearise_chunk *k, size_t i) {
+static int is_mixed(const affine_context *c, const linearise_chunk *k, size_t i) {
   switch (k->op) {
   case AMBIT_OP_SIN:
   case AMBIT_OP_COS:
   case AMBIT_OP_TAN: return k->flo[i] < 0 && k->fhi[i] > 0;
-  default: return shape(k->op, k->power) >= CONVEX_RIGHT && k->a[i] < 0 && k->b[i] > 0;
+  default: return shape(c, k->op, k->power) >= CONVEX_RIGHT && k->a[i] < 0 && k->b[i] > 0;
   }
 }
 
@@ -82,8 +90,8 @@ static range zero_of(const linearise_chunk *k, size_t i) {
   return (range) { -(-turns * 0x1.921fb54442d18p+1), turns * 0x1.921fb54442d19p+1 };
 }
 
-static void find_tangents(const linearise_chunk *k, const double *touch, tangents *g) {
-  int form = shape(k->op, k->power), right = form == CONVEX_RIGHT;
+static void find_tangents(const affine_context *c, const linearise_chunk *k, const double *touch, tangents *g) {
+  int form = shape(c, k->op, k->power), right = form == CONVEX_RIGHT;
   g->n = 0;
   for (size_t i = 0; i < k->n; i++) {
     double a = k->a[i], b = k->b[i], t = touch[i];
@@ -150,7 +158,7 @@ static void inflected(const affine_context *c, linearise_chunk *k, const ends *e
   double low[LINEARISE_CHUNK], high[LINEARISE_CHUNK], flow[LINEARISE_CHUNK], fhigh[LINEARISE_CHUNK],
       unused[LINEARISE_CHUNK];
   for (size_t i = 0; i < k->n; i++) {
-    if (!is_mixed(k, i)) continue;
+    if (!is_mixed(c, k, i)) continue;
     low[n] = 0.75 * k->a[i] + 0.25 * k->b[i], high[n] = 0.25 * k->a[i] + 0.75 * k->b[i];
     which[n++] = i;
   }
@@ -180,7 +188,7 @@ static void chebyshev(const affine_context *c, linearise_chunk *k) {
     return;
   }
   linearise_touch(c, k->op, k->power, k->n, k->slope, touch);
-  find_tangents(k, touch, &g);
+  find_tangents(c, k, touch, &g);
   use_tangents(c, k, &g);
 }
 

@@ -33,14 +33,7 @@ static void use(affine_plan *p, uint32_t slot, uint32_t when) {
   p->last[slot] = when;
 }
 
-static int is_binary(uint32_t op) {
-  static const uint8_t arity[] = {
-#define ARITY(name, arity, symbol) arity,
-    AMBIT_OPS(ARITY)
-#undef ARITY
-  };
-  return arity[op] == 2;
-}
+static int is_binary(uint32_t op) { return ambit_op_arity(op) == 2; }
 
 static void make_plan(affine_plan *p, const ambit_tape *t) {
   memset(p->uses, 0, t->nslot * sizeof *p->uses);
@@ -102,8 +95,10 @@ uint32_t affine_eval_tape(void *ctx, const ambit_tape *t, void *base, size_t pit
     const ambit_run *run = &t->run[i];
     if (planned) prepare(c, t, run, base, pitch, lanes, &since);
     if (c->meter) c->meter->operation(run->op);
-    flags |= c->run[run->op](
-        NULL, c, base, pitch, lanes, run->count, t->dst + run->first, t->a + run->first, t->b + run->first);
+    const uint32_t *dst = t->dst + run->first, *a = t->a + run->first, *b = t->b + run->first;
+    flags |= ambit_op_is_function(run->op)
+                 ? affine_run_function(NULL, c, run->op, base, pitch, lanes, run->count, dst, a, b)
+                 : c->run[run->op](NULL, c, base, pitch, lanes, run->count, dst, a, b);
     since += run->count;
   }
   c->planned = 0;

@@ -33,8 +33,22 @@ static range clip(range x, double least) {
 
 static int is_served(uint32_t op) { return op >= AMBIT_OP_EXP && op <= AMBIT_OP_TANH; }
 
+/* of a function that the kernel describes: coefficient k of its series at each [a, b] */
+static void described(const affine_context *c, uint32_t op, uint32_t k, size_t n, const double *a, const double *b,
+    double *lo, double *hi) {
+  double series[4];
+  for (size_t i = 0; i < n; i++) {
+    c->num->taylor(op, k, series, a[i], b[i]);
+    lo[i] = series[2 * k], hi[i] = series[2 * k + 1];
+  }
+}
+
 void linearise_values(
     const affine_context *c, uint32_t op, int32_t power, size_t n, const double *x, double *lo, double *hi) {
+  if (ambit_op_is_function(op)) {
+    described(c, op, 0, n, x, x, lo, hi);
+    return;
+  }
   if (is_served(op)) {
     c->num->elementary(op, n, x, x, x, x, lo, hi);
     return;
@@ -83,6 +97,10 @@ static range slope_of(uint32_t op, int32_t power, range x, range f, range e) {
 void linearise_slopes(const affine_context *c, uint32_t op, int32_t power, size_t n, const double *a, const double *b,
     const double *flo, const double *fhi, double *lo, double *hi) {
   uint32_t other = companion(op);
+  if (ambit_op_is_function(op)) {
+    described(c, op, 1, n, a, b, lo, hi);
+    return;
+  }
   if (other != AMBIT_OP_COUNT) c->num->elementary(other, n, a, b, a, b, lo, hi);
   for (size_t i = 0; i < n; i++) {
     range e = { 0, 0 };
@@ -125,7 +143,10 @@ static double touch(uint32_t op, int32_t power, double s, double log_or_atan) {
 void linearise_touch(const affine_context *c, uint32_t op, int32_t power, size_t n, const double *slope, double *x) {
   double argument[LINEARISE_CHUNK], above[LINEARISE_CHUNK];
   int by_log = op == AMBIT_OP_EXP || op == AMBIT_OP_SINH || op == AMBIT_OP_COSH || op == AMBIT_OP_TANH;
+  const ambit_function_facts *facts = c->num->facts(op);
   memset(x, 0, n * sizeof *x);
+  for (size_t i = 0; i < n && facts; i++) x[i] = facts->touch(slope[i]);
+  if (facts) return;
   if (by_log || op == AMBIT_OP_TAN) {
     for (size_t i = 0; i < n; i++) {
       double v = prepare(op, slope[i]);

@@ -22,4 +22,5 @@ const ambit_arithmetic VARIANT = {
   .bounds = affine_bounds,
   .run = { [AMBIT_OP_ADD] = run_add, [AMBIT_OP_SUB] = run_sub, [AMBIT_OP_MUL] = run_mul, AFFINE_RUNS(AFFINE_ENTRY) },
   .eval_tape = affine_eval_tape,
+  .function = affine_run_function,
 };

@@ -110,11 +110,17 @@ static int32_t gradient(void *ctx, const void *src, double *lo, double *hi) {
   }
 AMBIT_OPS(RUN)
 
+static uint32_t run_function(const ambit_arithmetic *self, void *ctx, uint32_t op, void *base, size_t pitch,
+    size_t lanes, size_t count, const uint32_t *dst, const uint32_t *a, const uint32_t *b) {
+  (void)self;
+  return gradient_run(ctx, op, base, pitch, lanes, count, dst, a, b);
+}
+
 #define ENTRY(OP, arity, symbol) [AMBIT_OP_##OP] = run_##OP,
 #define ARITHMETIC(opener)                                                                                             \
   {                                                                                                                    \
     .size = sizeof(ambit_arithmetic), .rigorous = 1, .open = opener, .elem = elem, .enter = enter, .leave = leave,     \
-    .set = set, .bounds = bounds, .run = { AMBIT_OPS(ENTRY) }, .gradient = gradient,                                   \
+    .set = set, .bounds = bounds, .run = { AMBIT_OPS(ENTRY) }, .gradient = gradient, .function = run_function,         \
   }
 static const ambit_arithmetic fastest = ARITHMETIC(open_fastest), portable = ARITHMETIC(open_portable);
 

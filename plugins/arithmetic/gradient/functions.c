@@ -55,7 +55,15 @@ static pair one_plus_square(const call *f, pair x) {
   return pair_add(pair_point(1), image_of(f, AMBIT_OP_SQR, 0, x, NULL));
 }
 
+/* of a function that the kernel describes */
+static pair described_derivative(const call *f) {
+  double c[4];
+  f->c->num->taylor(f->op, 1, c, pair_lo(f->a), f->a.h);
+  return pair_of(c[2], c[3]);
+}
+
 static pair derivative_of(const call *f) {
+  if (ambit_op_is_function(f->op)) return described_derivative(f);
   switch (f->op) {
   case AMBIT_OP_SQR: return pair_add(f->a, f->a);
   case AMBIT_OP_POWN: return power_derivative(f);
@@ -79,6 +87,11 @@ static int sign_of(pair x) { return x.n <= 0 ? 1 : x.h <= 0 ? -1 : 0; }
 
 /* 1: convex on A, -1: concave, 0: neither or not known. The sign of g'' by that of the operand or of the result. */
 static int curvature(const call *f) {
+  const ambit_function_facts *facts = f->c->num->facts(f->op);
+  if (facts) {
+    int right = facts->shape == AMBIT_CONVEX || facts->shape == AMBIT_CONVEX_RIGHT ? 1 : -1;
+    return facts->shape >= AMBIT_CONVEX_RIGHT ? right * sign_of(f->a) : right;
+  }
   switch (f->op) {
   case AMBIT_OP_EXP:
   case AMBIT_OP_COSH:

@@ -8,7 +8,8 @@ INLINE uint32_t serve_run(void *ctx, const ambit_tape *t, const ambit_run *r, pl
   case AMBIT_OP_##OP: return run_##OP(NULL, ctx, at.slots, at.pitch / 2, at.lanes, r->count, dst, a, b);
     ELEMENTARY_OPERATIONS(CASE)
 #undef CASE
-  default: return run_POWN(NULL, ctx, at.slots, at.pitch / 2, at.lanes, r->count, dst, a, b);
+  case AMBIT_OP_POWN: return run_POWN(NULL, ctx, at.slots, at.pitch / 2, at.lanes, r->count, dst, a, b);
+  default: return run_function(NULL, ctx, r->op, at.slots, at.pitch / 2, at.lanes, r->count, dst, a, b);
   }
 }
 

@@ -148,21 +148,35 @@ INLINE void serve(findings *f, const ambit_num_service *num, uint32_t op, place 
 ELEMENTARY_OPERATIONS(DEFINE)
 #undef DEFINE
 
-/* POWN of instructions with the same exponent */
-INLINE uint32_t serve_power(
-    const ambit_num_service *num, int32_t exponent, place at, size_t total, const uint32_t *dst, const uint32_t *a) {
-  double pairs[2 * CHUNK];
-  cursor operand = { &at, a, 0 }, result = { &at, dst, 0 };
+/* the next n elements as pairs of a lower and an upper bound */
+INLINE void gather_bounds(cursor *c, size_t n, double *pairs) {
+  const double *x = gather(c, n, pairs);
+  for (size_t i = 0; i < n; i++) pairs[2 * i] = -x[2 * i], pairs[2 * i + 1] = x[2 * i + 1];
+}
+
+/* POWN of instructions with the same exponent, or a function; b: NULL if there is one operand */
+INLINE uint32_t serve_map(const ambit_num_service *num, uint32_t op, int32_t exponent, place at, size_t total,
+    const uint32_t *dst, const uint32_t *a, const uint32_t *b) {
+  double pairs[2 * CHUNK], others[2 * CHUNK];
+  cursor operand = { &at, a, 0 }, other = { &at, b, 0 }, result = { &at, dst, 0 };
   uint32_t flags = 0;
   for (size_t done = 0; done < total; done += CHUNK) {
     size_t n = total - done < CHUNK ? total - done : CHUNK;
-    const double *x = gather(&operand, n, pairs);
-    for (size_t i = 0; i < n; i++) pairs[2 * i] = -x[2 * i], pairs[2 * i + 1] = x[2 * i + 1];
-    flags |= num->map(AMBIT_OP_POWN, n, pairs, pairs, NULL, exponent);
+    gather_bounds(&operand, n, pairs);
+    if (b) gather_bounds(&other, n, others);
+    flags |= num->map(op, n, pairs, pairs, b ? others : NULL, exponent);
     for (size_t i = 0; i < n; i++) pairs[2 * i] = -pairs[2 * i];
     scatter(&result, n, pairs);
   }
   return flags;
+}
+
+static AMBIT_WORKER uint32_t run_function(const ambit_arithmetic *self, void *ctx, uint32_t op, void *base,
+    size_t pitch, size_t lanes, size_t count, const uint32_t *dst, const uint32_t *a, const uint32_t *b) {
+  (void)self;
+  const ambit_num_service *num = ((interval_context *)ctx)->num;
+  return serve_map(
+      num, op, 0, (place) { base, 2 * pitch, lanes }, lanes * count, dst, a, ambit_op_arity(op) == 2 ? b : NULL);
 }
 
 static AMBIT_WORKER uint32_t run_POWN(const ambit_arithmetic *self, void *ctx, void *base, size_t pitch, size_t lanes,
@@ -172,7 +186,8 @@ static AMBIT_WORKER uint32_t run_POWN(const ambit_arithmetic *self, void *ctx, v
   uint32_t flags = 0;
   for (size_t i = 0, same; i < count; i += same) {
     for (same = 1; i + same < count && b[i + same] == b[i];) same++;
-    flags |= serve_power(num, (int32_t)b[i], (place) { base, 2 * pitch, lanes }, lanes * same, dst + i, a + i);
+    flags |= serve_map(
+        num, AMBIT_OP_POWN, (int32_t)b[i], (place) { base, 2 * pitch, lanes }, lanes * same, dst + i, a + i, NULL);
   }
   return flags;
 }

@@ -30,4 +30,6 @@ const ambit_arithmetic VARIANT = {
   .dot = dot,
   .eval_tape = eval_tape,
   .jets = &JETS,
+  .function = run_function,
+  .pair = run_function,
 };

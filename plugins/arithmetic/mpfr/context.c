@@ -49,6 +49,8 @@ static ambit_status open_context(const ambit_host *h, const double *option, uint
   if (!there)
     return h->fail(h, AMBIT_NOMEM, "out of memory for %d numbers of %.0f bits, %zu bytes each", WORK + FINE, precision,
         mpfr_custom_get_size(bits));
+  c->num = h->service(h, AMBIT_NUM_SERVICE);
+  if (!c->num) return h->fail(h, AMBIT_INVALID, "this kernel does not lend `%s`", AMBIT_NUM_SERVICE);
   c->precision = bits;
   c->half = sizeof(half) + mpfr_custom_get_size(bits);
   *ctx = c;
@@ -193,6 +195,21 @@ static uint32_t run(context *c, operation f, int powers, block k, size_t lanes, 
   }
 AMBIT_OPS(RUN)
 
+static uint32_t run_function(const ambit_arithmetic *self, void *ctx, uint32_t op, void *base, size_t pitch,
+    size_t lanes, size_t count, const uint32_t *dst, const uint32_t *a, const uint32_t *b) {
+  (void)self;
+  context *c = ctx;
+  block k = { base, pitch, elem(ctx) };
+  c->facts = c->num->facts(op);
+  uint32_t flags = 0;
+  for (size_t i = 0; i < count; i++)
+    for (size_t lane = 0; lane < lanes; lane++) {
+      const set x = load(c, at(&k, a[i], lane)), y = load(c, at(&k, b[i], lane));
+      flags |= apply(c, sets_function, at(&k, dst[i], lane), &x, &y, (int32_t)op);
+    }
+  return flags;
+}
+
 static const ambit_param param[] = {
   { "precision", "1", "integer", "128", "digits of every bound, in bits: 53 are a double's, 333 are 100 decimals" },
   { NULL, NULL, NULL, NULL, NULL },
@@ -212,6 +229,8 @@ static const ambit_arithmetic arithmetic = {
   .bounds = bounds,
   .run = { AMBIT_OPS(ENTRY) },
   .set_text = set_text,
+  .function = run_function,
+  .pair = run_function,
 };
 
 static const void *get(const char *interface_id) {

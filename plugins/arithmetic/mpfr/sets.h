@@ -9,6 +9,7 @@
 #ifndef MPFR_SETS_H
 #define MPFR_SETS_H
 #include <ambit/arithmetic.h>
+#include <ambit/num.h>
 #include <ambit/rounding.h>
 #include <mpfr.h>
 
@@ -31,9 +32,11 @@ enum { WORK = 4, FINE = 3 };
 
 typedef struct context {
   mpfr_prec_t precision;
-  size_t half;       /* bytes of one bound in an element */
-  mpfr_t work[WORK]; /* of the precision */
-  mpfr_t fine[FINE]; /* of 64 bits more */
+  size_t half; /* bytes of one bound in an element */
+  const ambit_num_service *num;
+  const ambit_function_facts *facts; /* of the function that runs */
+  mpfr_t work[WORK];                 /* of the precision */
+  mpfr_t fine[FINE];                 /* of 64 bits more */
   environment outside;
 } context;
 
@@ -51,6 +54,9 @@ void sets_divide_by_positive(set *r, const set *a, const set *b);
 #define SETS_DECLARE(OP, arity, symbol) uint32_t sets_##OP(context *c, set *r, const set *a, const set *b, int32_t n);
 AMBIT_OPS(SETS_DECLARE)
 #undef SETS_DECLARE
+
+/* described.c: one of AMBIT_FUNCTIONS, of one operand or two; n is its opcode */
+uint32_t sets_function(context *c, set *r, const set *a, const set *b, int32_t n);
 
 /* text.c: 0 if it is no number, quotient of numbers, or "pi" */
 int32_t sets_read(context *c, set *r, const char *text);

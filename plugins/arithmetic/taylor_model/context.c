@@ -178,7 +178,8 @@ static void bounds(void *ctx, const void *src, size_t n, double *lo, double *hi)
     .leave = leave,                                                                                                    \
     .set = set,                                                                                                        \
     .bounds = bounds,                                                                                                  \
-    .run = { TAYLOR_FUNCTIONS(ENTRY) TAYLOR_OTHERS(ENTRY) } };
+    .run = { TAYLOR_FUNCTIONS(ENTRY) TAYLOR_OTHERS(ENTRY) },                                                           \
+    .function = taylor_run_function };
 
 ARITHMETIC(portable, &kernels_portable)
 #if defined(__x86_64__)

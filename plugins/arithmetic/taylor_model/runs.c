@@ -42,6 +42,17 @@ RUN(MIN, model_extremum(all.c, r, x, Y, AMBIT_OP_MIN))
 RUN(MAX, model_extremum(all.c, r, x, Y, AMBIT_OP_MAX))
 TAYLOR_FUNCTIONS(FUNCTION)
 
+uint32_t taylor_run_function(const ambit_arithmetic *self, void *ctx, uint32_t op, void *base, size_t pitch,
+    size_t lanes, size_t count, const uint32_t *dst, const uint32_t *a, const uint32_t *b) {
+  (void)self, (void)b;
+  block all = { ctx, base, pitch };
+  uint32_t flags = 0;
+  for (size_t i = 0; i < count; i++)
+    for (size_t lane = 0; lane < lanes; lane++)
+      flags |= model_function(all.c, op, at(&all, dst[i], lane), at(&all, a[i], lane), 0);
+  return flags;
+}
+
 /* as many at a time as the vector unit has lanes */
 static uint32_t products(
     const block *all, size_t lanes, size_t count, const uint32_t *dst, const uint32_t *a, const uint32_t *b) {

@@ -11,4 +11,6 @@
 TAYLOR_FUNCTIONS(TAYLOR_DECLARE)
 TAYLOR_OTHERS(TAYLOR_DECLARE)
 #undef TAYLOR_DECLARE
+uint32_t taylor_run_function(const ambit_arithmetic *self, void *ctx, uint32_t op, void *base, size_t pitch,
+    size_t lanes, size_t count, const uint32_t *dst, const uint32_t *a, const uint32_t *b);
 #endif

@@ -275,6 +275,25 @@ static void expand_atan(const task *t) {
   m = smallest(t->wide), t->s->slope = SLACK / (1 + m * m);
 }
 
+static int is_bounded(const series *s) {
+  double sum = fabs(s->rest.lo) + fabs(s->rest.hi) + s->slope;
+  for (uint32_t k = 0; k <= s->terms; k++) sum += fabs(s->mid[k]) + s->rad[k];
+  return sum < INFINITY; /* false for NaN */
+}
+
+/* a function that the kernel describes: by its derivatives, Lagrange's rest */
+static int expand_described(const task *t, uint32_t op) {
+  uint32_t n = t->s->terms;
+  double at[2 * (MONOMIALS_ORDER_MAX + 2)], over_range[2 * (MONOMIALS_ORDER_MAX + 2)], over_wide[4];
+  t->num->taylor(op, n, at, t->centre, t->centre);
+  t->num->taylor(op, n + 1, over_range, t->range.lo, t->range.hi);
+  t->num->taylor(op, 1, over_wide, t->wide.lo, t->wide.hi);
+  for (uint32_t k = 0; k <= n; k++) put(t, k, (interval) { at[2 * k], at[2 * k + 1] });
+  t->s->rest = (interval) { over_range[2 * n + 2], over_range[2 * n + 3] };
+  t->s->slope = largest((interval) { over_wide[2], over_wide[3] });
+  return is_bounded(t->s);
+}
+
 /* is the function smooth on all of x? tan: seen from an infinite slope */
 static int is_smooth(uint32_t op, int32_t exponent, interval x) {
   switch (op) {
@@ -286,12 +305,6 @@ static int is_smooth(uint32_t op, int32_t exponent, interval x) {
   case AMBIT_OP_ACOS: return x.lo > -1 && x.hi < 1;
   default: return 1;
   }
-}
-
-static int is_bounded(const series *s) {
-  double sum = fabs(s->rest.lo) + fabs(s->rest.hi) + s->slope;
-  for (uint32_t k = 0; k <= s->terms; k++) sum += fabs(s->mid[k]) + s->rad[k];
-  return sum < INFINITY; /* false for NaN */
 }
 
 AMBIT_WORKER int series_expand(const ambit_num_service *num, uint32_t op, int32_t exponent, double centre,
@@ -313,7 +326,7 @@ AMBIT_WORKER int series_expand(const ambit_num_service *num, uint32_t op, int32_
   case AMBIT_OP_ASIN:
   case AMBIT_OP_ACOS: expand_asin(&t, op); break;
   case AMBIT_OP_ATAN: expand_atan(&t); break;
-  default: return 0;
+  default: return ambit_op_is_function(op) && expand_described(&t, op);
   }
   return is_bounded(s);
 }

@@ -56,8 +56,8 @@ void table_load(table *t, const double *in, uint32_t count) {
   if (a->enter) a->enter(t->ctx);
   for (uint32_t i = 0; i < tape->nrun; i++) {
     const ambit_run *run = &tape->run[i];
-    a->run[run->op](a, t->ctx, t->base, t->width, count, run->count, tape->dst + run->first, tape->a + run->first,
-        tape->b + run->first);
+    ambit_arithmetic_run(a, t->ctx, run->op, t->base, t->width, count, run->count, tape->dst + run->first,
+        tape->a + run->first, tape->b + run->first);
   }
   if (a->leave) a->leave(t->ctx);
   get_outputs(t, count);

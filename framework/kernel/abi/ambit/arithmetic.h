@@ -23,6 +23,10 @@ typedef struct ambit_arithmetic ambit_arithmetic; /* `self` below is the kernel'
 typedef uint32_t (*ambit_run_fn)(const ambit_arithmetic *self, void *ctx, void *base, size_t pitch, size_t lanes,
     size_t count, const uint32_t *dst, const uint32_t *a, const uint32_t *b);
 
+/* [ctx] The same for one of AMBIT_FUNCTIONS, whose opcode it is told; b == a when unary. */
+typedef uint32_t (*ambit_function_fn)(const ambit_arithmetic *self, void *ctx, uint32_t op, void *base, size_t pitch,
+    size_t lanes, size_t count, const uint32_t *dst, const uint32_t *a, const uint32_t *b);
+
 /* Taylor coefficients of every slot of a SERIES tape in the arithmetic's own layout (tier 2; the kernel has a general
 ** form for arithmetics that offer none). Value coefficients u_k are given as midpoint +- radius. With ndir > 0 each
 ** slot also carries, for each direction j, a coefficient of the slope s_j: for all x in the box and the centre c,
@@ -94,7 +98,18 @@ struct ambit_arithmetic {
   int32_t (*gradient)(void *ctx, const void *src, double *lo, double *hi);
   /* the kernel's: where it notes what a rigorous arithmetic gave that is no enclosure; a plugin leaves it NULL */
   ambit_fault *fault;
+  /* AMBIT_FUNCTIONS of one operand, of two; by what the service "ambit.num/1" says of any of them (map, taylor,
+  ** facts). NULL: the tapes that this arithmetic gets have them written in other operations. */
+  ambit_function_fn function, pair;
 };
+
+/* [ctx] One run of a tape, in a completed arithmetic. */
+static inline uint32_t ambit_arithmetic_run(const ambit_arithmetic *a, void *ctx, uint32_t op, void *base, size_t pitch,
+    size_t lanes, size_t count, const uint32_t *dst, const uint32_t *first, const uint32_t *second) {
+  if (op < AMBIT_OP_COUNT) return a->run[op](a, ctx, base, pitch, lanes, count, dst, first, second);
+  ambit_function_fn f = ambit_op_arity(op) == 2 ? a->pair : a->function;
+  return f(a, ctx, op, base, pitch, lanes, count, dst, first, second);
+}
 
 /* [any] Notes a fault of a rigorous arithmetic; nothing that was computed with it is believed then. */
 static inline void ambit_fault_note(const ambit_arithmetic *a, int32_t what, double lo, double hi) {

@@ -64,8 +64,8 @@ static inline uint32_t ambit_lane_run(ambit_lane *lane) {
   if (a->enter) a->enter(lane->ctx);
   for (uint32_t i = 0; i < t->nrun; i++) {
     const ambit_run *run = &t->run[i];
-    flags |= a->run[run->op](
-        a, lane->ctx, lane->base, 1, 1, run->count, t->dst + run->first, t->a + run->first, t->b + run->first);
+    flags |= ambit_arithmetic_run(
+        a, lane->ctx, run->op, lane->base, 1, 1, run->count, t->dst + run->first, t->a + run->first, t->b + run->first);
   }
   if (a->leave) a->leave(lane->ctx);
   if (flags & AMBIT_F_EMPTY) ambit_empty_check(a, flags, lane->given_empty, __builtin_inf(), -__builtin_inf());

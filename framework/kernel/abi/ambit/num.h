@@ -9,10 +9,23 @@
 
 #define AMBIT_NUM_SERVICE "ambit.num/1"
 
+/* What is known of one of AMBIT_FUNCTIONS. With one operand it increases on its domain. With two it is monotone in each
+** of them on either side of 0; its domain is that of the first, and shape, odd and touch are of no account. */
+typedef struct ambit_function_facts {
+  uint32_t size;
+  int32_t shape;             /* AMBIT_CONVEX, ... */
+  double least, most;        /* the ends of its domain, maybe infinite */
+  int32_t open;              /* 1: they are outside */
+  int32_t odd;               /* 1: f(-x) = -f(x) */
+  double (*touch)(double s); /* about an x >= 0 (CONVEX, CONCAVE: x) with f'(x) = s; anything if there is none */
+} ambit_function_facts;
+/* everywhere convex, everywhere concave; convex where x > 0 and concave where x < 0, the other way round */
+enum { AMBIT_CONVEX, AMBIT_CONCAVE, AMBIT_CONVEX_RIGHT, AMBIT_CONCAVE_RIGHT };
+
 typedef struct ambit_num_service {
   uint32_t size;
-  /* n intervals, 2 n doubles each: r[i] := op(a[i], b[i]) for every AMBIT_OP_*; b may be NULL when unary; POWN:
-  ** a[i]^exponent. r may be a or b. + - * / sqr sqrt abs min max are the tightest doubles, the rest at most 1 ulp
+  /* n intervals, 2 n doubles each: r[i] := op(a[i], b[i]) for every AMBIT_OP_*, functions too; b may be NULL when unary;
+  ** POWN: a[i]^exponent. r may be a or b. + - * / sqr sqrt abs min max are the tightest doubles, the rest at most 1 ulp
   ** wider on each side. Returns flags. */
   uint32_t (*map)(uint32_t op, size_t n, double *r, const double *a, const double *b, int32_t exponent);
   /* [rlo[i], rhi[i]] := op([alo[i], ahi[i]]) for op in EXP .. TANH (ATAN2: b too), bounds in arrays of their own.
@@ -36,5 +49,9 @@ typedef struct ambit_num_service {
   /* Matrix product r := a b; a is rows x inner, b is inner x cols, r is rows x cols, all by rows. As convolve. */
   uint32_t (*matmul)(size_t rows, size_t inner, size_t cols, double *rlo, double *rhi, const double *alo,
       const double *ahi, const double *blo, const double *bhi);
+  /* Taylor coefficients of one of AMBIT_FUNCTIONS with one operand: [c[2 k], c[2 k + 1]] holds f^(k)(x) / k! for every
+  ** x of [lo, hi] inside the domain, k <= n; entire where f has no derivative on a part of it. Returns flags of f. */
+  uint32_t (*taylor)(uint32_t op, uint32_t n, double *c, double lo, double hi);
+  const ambit_function_facts *(*facts)(uint32_t op); /* NULL: it is none of those */
 } ambit_num_service;
 #endif

@@ -34,12 +34,44 @@
   X(MIN, 2, "min")     /* r := the smaller of a and b; not smooth where a = b */                                       \
   X(MAX, 2, "max")     /* r := the larger of a and b; not smooth where a = b */
 
+/* Functions, each described in one file of framework/kernel/functions: X(NAME, arity, symbol), append only. Kernel and
+** plugins take them by that description (num.h: map, taylor); no SERIES tape holds one. */
+#define AMBIT_FUNCTIONS(X)                                                                                             \
+  X(LOG1P, 1, log1p) /* r := ln(1 + a), a > -1 */                                                                      \
+  X(EXPM1, 1, expm1) /* r := e^a - 1 */                                                                                \
+  X(ASINH, 1, asinh) /* r := asinh a */                                                                                \
+  X(ACOSH, 1, acosh) /* r := acosh a, a >= 1 */                                                                        \
+  X(ATANH, 1, atanh) /* r := atanh a, |a| < 1 */                                                                       \
+  X(LOG2, 1, log2)   /* r := logarithm of a to base 2, a > 0 */                                                        \
+  X(LOG10, 1, log10) /* r := logarithm of a to base 10, a > 0 */                                                       \
+  X(EXP2, 1, exp2)   /* r := 2^a */
+
 enum {
 #define AMBIT_X(name, arity, symbol) AMBIT_OP_##name,
   AMBIT_OPS(AMBIT_X)
 #undef AMBIT_X
-      AMBIT_OP_COUNT
+      AMBIT_OP_COUNT, /* behind the operations; the functions start at 32 */
+  AMBIT_OP_BEFORE_FUNCTIONS = 31,
+#define AMBIT_X(name, arity, symbol) AMBIT_OP_##name,
+  AMBIT_FUNCTIONS(AMBIT_X)
+#undef AMBIT_X
+      AMBIT_OP_END
 };
+#define AMBIT_OP_FUNCTIONS (AMBIT_OP_BEFORE_FUNCTIONS + 1)
+
+static inline int32_t ambit_op_is_function(uint32_t op) { return op >= AMBIT_OP_FUNCTIONS && op < AMBIT_OP_END; }
+
+/* How many operands it has; POWN, whose exponent is none: 1. */
+static inline uint32_t ambit_op_arity(uint32_t op) {
+  switch (op) {
+#define AMBIT_X(name, arity, symbol)                                                                                   \
+  case AMBIT_OP_##name: return arity;
+    AMBIT_OPS(AMBIT_X)
+    AMBIT_FUNCTIONS(AMBIT_X)
+#undef AMBIT_X
+  default: return 0;
+  }
+}
 
 #define AMBIT_NO_SLOT UINT32_MAX
 #define AMBIT_DEGREE_ANY UINT32_MAX
@@ -50,7 +82,8 @@ typedef struct ambit_run {
 } ambit_run;
 
 /* Tape flags. A SERIES tape can be run on truncated power series: it holds only ADD SUB NEG MUL SQR DIV SQRT EXP LOG
-** SIN COS ATAN ATAN2 SINH COSH TANH ABS MIN MAX (TAN, ASIN, ACOS and POWN are written with these), and aux is set:
+** SIN COS ATAN ATAN2 SINH COSH TANH ABS MIN MAX (TAN, ASIN, ACOS, POWN and functions are written with these), and aux is
+** set:
 **   SIN, COS: slot of the cosine, sine of the same operand;  SINH, COSH: likewise;
 **   TANH: slot of 1 - dst^2;  ATAN: slot of 1 + a^2;  ATAN2: slot of a^2 + b^2;  all others: AMBIT_NO_SLOT.
 ** An aux slot may lie behind its user; order by order both are defined. */
