@@ -206,6 +206,9 @@ function ambit.log10(x) end
 ---@param x ambit.datum
 ---@return ambit.expression|ambit.enclosure
 function ambit.exp2(x) end
+---@param x ambit.datum
+---@return ambit.expression|ambit.enclosure
+function ambit.cbrt(x) end
 ---Integer exponents for every base, half integers as powers of the square root, others as exp(b log a), a > 0.
 ---@param a ambit.datum
 ---@param b ambit.datum

@@ -16,8 +16,10 @@ local one = {
   log2 = { function(x) return math.log(x, 2) end, 0.5, 3, "\\log_{2}\\left(x\\right)" },
   log10 = { function(x) return math.log(x, 10) end, 0.5, 3, "\\log_{10}\\left(x\\right)" },
   exp2 = { function(x) return 2 ^ x end, -2, 2, "\\operatorname{exp2}\\left(x\\right)" },
+  cbrt = { function(x) return x < 0 and -(-x) ^ (1 / 3) or x ^ (1 / 3) end, 0.5, 3, "\\sqrt[3]{x}" },
 }
-local pairs_of = {}
+local pairs_of = {
+}
 local arithmetics = { "interval", "affine", "gradient", "taylor_model", "mpfr" }
 
 local function about(x, slack) return ambit.interval(x - slack, x + slack) end
@@ -108,7 +110,7 @@ describe("functions described in one place", function()
     local names = { table.unpack(core.described_functions) }
     local tamed = { log1p = function(u) return u ^ 2 end, acosh = function(u) return 1 + u ^ 2 end,
       atanh = function(u) return ambit.sin(u) * "0.7" end, log2 = function(u) return u ^ 2 + "0.25" end,
-      log10 = function(u) return u ^ 2 + "0.25" end,
+      log10 = function(u) return u ^ 2 + "0.25" end, cbrt = function(u) return u ^ 2 + "0.25" end,
       expm1 = ambit.sin, exp2 = ambit.tanh }
     for round = 1, 60 do
       local box = { ambit.interval(0.5, 0.5 + random(10) / 200), ambit.interval(-1 - random(10) / 200, -1) }
@@ -176,13 +178,15 @@ describe("functions described in one place", function()
     for name, f in pairs(pairs_of) do assert.equal(f[2], core.source({ ambit[name](x, y) }, "latex")[1]) end
     local modelica = { log1p = "log(1 + x)", expm1 = "(exp(x) - 1)", asinh = "Modelica.Math.asinh(x)",
       acosh = "Modelica.Math.acosh(x)", atanh = "(0.5*log(2/(1 - x) - 1))", log2 = "(log(x)/log(2))",
-      log10 = "log10(x)", exp2 = "(2^(x))" }
+      log10 = "log10(x)", exp2 = "(2^(x))", cbrt = "(sign(x)*abs(x)^(1/3))" }
     for name, want in pairs(modelica) do assert.equal(want, core.source({ ambit[name](x) }, "modelica")[1]) end
     assert.equal("log(1 + (x - y))", core.source({ ambit.log1p(x - y) }, "modelica")[1])
   end)
 
   it("have units", function()
-    local length = ambit.number "3 m"
+    local length, volume = ambit.number "3 m", ambit.number "8 m^3"
+    local _, unit = core.unit_of(ambit.cbrt(volume))
+    assert.equal("a length (m)", unit)
     for _, call in ipairs { function() return ambit.log1p(length) end, function() return ambit.exp2(length) end } do
       assert.is_false((pcall(call)))
     end

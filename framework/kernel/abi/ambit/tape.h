@@ -44,7 +44,8 @@
   X(ATANH, 1, atanh) /* r := atanh a, |a| < 1 */                                                                       \
   X(LOG2, 1, log2)   /* r := logarithm of a to base 2, a > 0 */                                                        \
   X(LOG10, 1, log10) /* r := logarithm of a to base 10, a > 0 */                                                       \
-  X(EXP2, 1, exp2)   /* r := 2^a */
+  X(EXP2, 1, exp2)   /* r := 2^a */                                                                                    \
+  X(CBRT, 1, cbrt)   /* r := cube root of a, negative if a is */
 
 enum {
 #define AMBIT_X(name, arity, symbol) AMBIT_OP_##name,
