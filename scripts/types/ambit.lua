@@ -209,6 +209,10 @@ function ambit.exp2(x) end
 ---@param x ambit.datum
 ---@return ambit.expression|ambit.enclosure
 function ambit.cbrt(x) end
+---@param x ambit.datum
+---@param y ambit.datum
+---@return ambit.expression|ambit.enclosure # sqrt(x^2 + y^2)
+function ambit.hypot(x, y) end
 ---Integer exponents for every base, half integers as powers of the square root, others as exp(b log a), a > 0.
 ---@param a ambit.datum
 ---@param b ambit.datum

@@ -19,6 +19,7 @@ local one = {
   cbrt = { function(x) return x < 0 and -(-x) ^ (1 / 3) or x ^ (1 / 3) end, 0.5, 3, "\\sqrt[3]{x}" },
 }
 local pairs_of = {
+  hypot = { function(x, y) return math.sqrt(x * x + y * y) end, "\\operatorname{hypot}\\left(x, y\\right)" },
 }
 local arithmetics = { "interval", "affine", "gradient", "taylor_model", "mpfr" }
 
@@ -166,6 +167,8 @@ describe("functions described in one place", function()
     local r = ambit.asinh(ambit.interval(-1e300, 1e300))
     assert.is_true(math.abs(r.hi - 691.4686750787736) < 1e-12 and r.lo == -r.hi)
     assert.is_true(math.abs(ambit.acosh(ambit.interval(1e300, 1e300)).hi - 691.4686750787736) < 1e-12)
+    local h = ambit.hypot(ambit.interval(3e300, 3e300), ambit.interval(4e300, 4e300))
+    assert.is_true(meets(h, about(5e300, 1e285)) and h:width() < 2e285)
   end)
 
   it("are written in other languages", function()
@@ -185,9 +188,12 @@ describe("functions described in one place", function()
 
   it("have units", function()
     local length, volume = ambit.number "3 m", ambit.number "8 m^3"
-    local _, unit = core.unit_of(ambit.cbrt(volume))
+    local _, unit = core.unit_of(ambit.hypot(length, ambit.number "4 m"))
     assert.equal("a length (m)", unit)
-    for _, call in ipairs { function() return ambit.log1p(length) end, function() return ambit.exp2(length) end } do
+    _, unit = core.unit_of(ambit.cbrt(volume))
+    assert.equal("a length (m)", unit)
+    for _, call in ipairs { function() return ambit.log1p(length) end, function() return ambit.exp2(length) end,
+      function() return ambit.hypot(length, volume) end } do
       assert.is_false((pcall(call)))
     end
   end)
