@@ -136,7 +136,7 @@ static ambit_dimension general_power_dimension(lua_State *L, ambit_dimension bas
   return whole ? ambit_dimension_power(base, (int64_t)near) : (ambit_dimension) { .state = AMBIT_DIMENSION_OPEN };
 }
 
-/* a^b: integer b for every a, half integers as powers of the square root, a >= 0; otherwise exp(b log a), a > 0 */
+/* a^b: integer b for every a, half integers as powers of the square root, a >= 0; otherwise POW, a > 0 */
 static int power(lua_State *L) {
   int32_t n;
   lua_settop(L, 2);
@@ -154,20 +154,14 @@ static int power(lua_State *L) {
   if (wants_enclosure(L, 2)) {
     ambit_lua_enclosure a = ambit_lua_to_enclosure(L, 1, "pow"), b = ambit_lua_to_enclosure(L, 2, "pow");
     ambit_interval r;
-    uint32_t flags = a.flags | b.flags | ambit_interval_op(AMBIT_OP_LOG, &r, a.x, a.x);
-    r = ambit_interval_mul(r, b.x);
-    flags |= ambit_interval_op(AMBIT_OP_EXP, &r, r, r);
-    ambit_lua_push_enclosure(L, r, flags);
+    uint32_t flags = ambit_interval_op(AMBIT_OP_POW, &r, a.x, b.x);
+    ambit_lua_push_enclosure(L, r, flags | a.flags | b.flags);
     return 1;
   }
-  ambit_graph *g = AMBIT_LUA(L)->graph;
   ambit_lua_expression base = ambit_lua_to_expression(L, 1, NULL, "pow");
-  ambit_expr a = base.e, b = ambit_lua_to_expression(L, 2, NULL, "pow").e;
+  ambit_expr b = ambit_lua_to_expression(L, 2, NULL, "pow").e;
   ambit_dimension d = general_power_dimension(L, base.dimension);
-  a = ambit_graph_op(g, AMBIT_OP_LOG, a, a);
-  if (a != AMBIT_NO_EXPR) a = ambit_graph_op(g, AMBIT_OP_MUL, a, b);
-  if (a != AMBIT_NO_EXPR) a = ambit_graph_op(g, AMBIT_OP_EXP, a, a);
-  ambit_lua_push_expression(L, a)->dimension = d;
+  ambit_lua_push_expression(L, ambit_graph_op(AMBIT_LUA(L)->graph, AMBIT_OP_POW, base.e, b))->dimension = d;
   return 1;
 }
 

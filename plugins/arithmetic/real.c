@@ -169,11 +169,12 @@ static double value_of(uint32_t op, double x) {
   return isinf(z) && fabs(x) <= 1 ? NAN : z;
 }
 
+/* the library's powers are defined for some x <= 0 */
 static double value_of_pair(uint32_t op, double x, double y) {
 #define ROW(NAME, arity, symbol) TWO_##arity(symbol),
   static const function_of_pair f[] = { AMBIT_FUNCTIONS(ROW) };
 #undef ROW
-  return isnan(x) || isnan(y) ? NAN : f[op - AMBIT_OP_FUNCTIONS](x, y);
+  return isnan(x) || isnan(y) || (op == AMBIT_OP_POW && x <= 0) ? NAN : f[op - AMBIT_OP_FUNCTIONS](x, y);
 }
 
 static uint32_t run_function(const ambit_arithmetic *self, void *ctx, uint32_t op, void *base, size_t pitch,

@@ -136,7 +136,7 @@ for _, name in ipairs(core.described_functions) do
   topics[name] = topics[name] or name .. "(x): of numbers, texts, expressions and enclosures."
 end
 topics.atan2 = "atan2(y, x): the angle of the point (x, y)."
-topics.pow = "pow(a, b), a ^ b: integer b for every a, half integers as powers of sqrt(a), otherwise exp(b log a)."
+topics.pow = "pow(a, b), a ^ b: integer b for every a, half integers as powers of sqrt(a), others for a > 0."
 topics.hypot = "hypot(x, y): sqrt(x^2 + y^2), without overflow in between."
 topics.min = "min(a, b, ...): the smaller one."
 topics.max = "max(a, b, ...): the larger one."

@@ -213,7 +213,7 @@ function ambit.cbrt(x) end
 ---@param y ambit.datum
 ---@return ambit.expression|ambit.enclosure # sqrt(x^2 + y^2)
 function ambit.hypot(x, y) end
----Integer exponents for every base, half integers as powers of the square root, others as exp(b log a), a > 0.
+---Integer exponents for every base, half integers as powers of the square root, others for a > 0.
 ---@param a ambit.datum
 ---@param b ambit.datum
 ---@return ambit.expression|ambit.enclosure

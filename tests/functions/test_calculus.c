@@ -190,7 +190,7 @@ static void inverses_keep_every_solution(void **state) {
       if (i % 4 == 0 || fabs(x) < 0.1 || fabs(x) > 2) continue;
       r = (ambit_interval) { lo, hi };
       assert_true(ambit_inverse(op, r, &a, &b));
-      bool sure = ambit_op_arity(op) == 1;
+      bool sure = ambit_op_arity(op) == 1 || (op == AMBIT_OP_POW && fabs(y) > 0.1);
       if (sure && !is_narrow(a, 1e-11, 0)) fail_msg("%s: the inverse of %a is [%a, %a]", name_of(op), lo, a.lo, a.hi);
     }
     ambit_interval a = { -5, 5 }, b = { 1, 2 };

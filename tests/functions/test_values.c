@@ -74,7 +74,8 @@ static void doubles_are_met_exactly(void **state) {
     { AMBIT_OP_LOG10, 1000, 0, 3 }, { AMBIT_OP_EXP2, -1074, 0, 0x1p-1074 }, { AMBIT_OP_EXP2, 10, 0, 1024 },
     { AMBIT_OP_CBRT, -27, 0, -3 }, { AMBIT_OP_CBRT, 0x1p-1074, 0, 0x1p-358 }, { AMBIT_OP_CBRT, 1e15, 0, 1e5 },
     { AMBIT_OP_HYPOT, 3, -4, 5 }, { AMBIT_OP_HYPOT, 0x3p1000, 0x1p1002, 0x5p1000 }, { AMBIT_OP_HYPOT, 0, -7, 7 },
-    { AMBIT_OP_HYPOT, 0x3p-1074, 0x4p-1074, 0x5p-1074 } };
+    { AMBIT_OP_HYPOT, 0x3p-1074, 0x4p-1074, 0x5p-1074 }, { AMBIT_OP_POW, 1, 1e300, 1 }, { AMBIT_OP_POW, 5, 0, 1 },
+    { AMBIT_OP_POW, 5, 1, 5 } };
   for (size_t i = 0; i < sizeof exact / sizeof *exact; i++) {
     ambit_interval r, x = { exact[i].x, exact[i].x }, y = { exact[i].y, exact[i].y };
     assert_int_equal(ambit_interval_op(exact[i].op, &r, x, y), 0);

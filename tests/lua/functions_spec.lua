@@ -20,6 +20,7 @@ local one = {
 }
 local pairs_of = {
   hypot = { function(x, y) return math.sqrt(x * x + y * y) end, "\\operatorname{hypot}\\left(x, y\\right)" },
+  pow = { function(x, y) return x ^ y end, "{x^{y}}" },
 }
 local arithmetics = { "interval", "affine", "gradient", "taylor_model", "mpfr" }
 
@@ -112,7 +113,7 @@ describe("functions described in one place", function()
     local tamed = { log1p = function(u) return u ^ 2 end, acosh = function(u) return 1 + u ^ 2 end,
       atanh = function(u) return ambit.sin(u) * "0.7" end, log2 = function(u) return u ^ 2 + "0.25" end,
       log10 = function(u) return u ^ 2 + "0.25" end, cbrt = function(u) return u ^ 2 + "0.25" end,
-      expm1 = ambit.sin, exp2 = ambit.tanh }
+      pow = function(u) return u ^ 2 + "0.25" end, expm1 = ambit.sin, exp2 = ambit.tanh }
     for round = 1, 60 do
       local box = { ambit.interval(0.5, 0.5 + random(10) / 200), ambit.interval(-1 - random(10) / 200, -1) }
       local x, y = ambit.between(box[1].lo, box[1].hi), ambit.between(box[2].lo, box[2].hi)
@@ -179,11 +180,13 @@ describe("functions described in one place", function()
       assert.equal(f[4], core.source({ ambit[name](x) }, "latex")[1])
     end
     for name, f in pairs(pairs_of) do assert.equal(f[2], core.source({ ambit[name](x, y) }, "latex")[1]) end
+    assert.equal("pow(x, y)", core.source({ x ^ y }, "lua")[1])
     local modelica = { log1p = "log(1 + x)", expm1 = "(exp(x) - 1)", asinh = "Modelica.Math.asinh(x)",
       acosh = "Modelica.Math.acosh(x)", atanh = "(0.5*log(2/(1 - x) - 1))", log2 = "(log(x)/log(2))",
       log10 = "log10(x)", exp2 = "(2^(x))", cbrt = "(sign(x)*abs(x)^(1/3))" }
     for name, want in pairs(modelica) do assert.equal(want, core.source({ ambit[name](x) }, "modelica")[1]) end
     assert.equal("log(1 + (x - y))", core.source({ ambit.log1p(x - y) }, "modelica")[1])
+    assert.equal("((x)^(y))", core.source({ x ^ y }, "modelica")[1])
   end)
 
   it("have units", function()
@@ -219,4 +222,12 @@ describe("functions described in one place", function()
     end
   end)
 
+  it("are powers x ^ y of two expressions", function()
+    local x, y = ambit.between(2, 3), ambit.between(0.5, 1.5)
+    local r = evaluated(x ^ y, "interval")
+    assert.is_true(meets(r, about(2 ^ 0.5, 1e-15)) and meets(r, about(3 ^ 1.5, 1e-14)))
+    assert.is_true(r.lo > 2 ^ 0.5 - 1e-14 and r.hi < 3 ^ 1.5 + 1e-14)
+    local tight = ambit.pow(ambit.interval(2, 2), ambit.interval(300.3, 300.3))
+    assert.is_true(tight:width() <= 2 ^ 300.3 * 5e-16 and meets(tight, about(2 ^ 300.3, 1e76)))
+  end)
 end)

@@ -46,7 +46,8 @@
   X(LOG10, 1, log10) /* r := logarithm of a to base 10, a > 0 */                                                       \
   X(EXP2, 1, exp2)   /* r := 2^a */                                                                                    \
   X(CBRT, 1, cbrt)   /* r := cube root of a, negative if a is */                                                       \
-  X(HYPOT, 2, hypot) /* r := sqrt(a^2 + b^2) */
+  X(HYPOT, 2, hypot) /* r := sqrt(a^2 + b^2) */                                                                        \
+  X(POW, 2, pow)     /* r := a^b, a > 0 */
 
 enum {
 #define AMBIT_X(name, arity, symbol) AMBIT_OP_##name,
