@@ -17,8 +17,8 @@ void ambit_lua_push_enclosures(lua_State *L, size_t n, const ambit_interval *x, 
   }
 }
 
-/* evaluate(question: arithmetic nil is interval) -> {enclosure}, report, the operation that left its domain first or "", is the arithmetic
-** rigorous? */
+/* evaluate(question; no arithmetic: that of ranges) -> {enclosure}, report, the operation that left its domain first or
+** "", is the arithmetic rigorous? */
 static int evaluate(lua_State *L) {
   ambit_evaluate_request q = ambit_lua_read_question(L, 1, "evaluate");
   if (!q.arithmetic) q.arithmetic = AMBIT_DEFAULT_RANGES;
