@@ -80,8 +80,8 @@ size_t ambit_pivot_first_nonzero(ambit_graph *g, size_t n, const ambit_expr *e) 
 }
 
 ambit_status ambit_pivot_massless(const ambit_speed *speed, ambit_failure *f) {
-  return ambit_fail(f, AMBIT_INVALID,
-      "joint `%.*s` moves no mass: attach a body to what it carries", AMBIT_JOINT_NAME(speed));
+  return ambit_fail(
+      f, AMBIT_INVALID, "joint `%.*s` moves no mass: attach a body to what it carries", AMBIT_JOINT_NAME(speed));
 }
 
 ambit_status ambit_pivots_check(ambit_graph *g, size_t n, const ambit_speed *speed, const ambit_expr *pivot,

@@ -10,7 +10,8 @@ local session = {
   verbs = nil,                            -- a list: a command wants to know all of them, in order
   mechanisms = setmetatable({}, weak),    -- by number; only what is still alive
   odes = setmetatable({}, weak),
-  units = {},                             -- name of a state -> { unit, ..., [unit] = true } of all systems, those that are gone, too
+  units = {},                             -- name of a state -> { unit, ..., [unit] = true } of all systems, those that
+                                          -- are gone, too
   observer = nil,                         -- `ambit explain`: a function that is told of every verb as it ends
   worst = "ok",                           -- the worst code that a verb ended with
   closing = nil,                          -- a function: the command is over, and wants to know of codes all the same

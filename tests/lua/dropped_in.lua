@@ -1,5 +1,5 @@
--- dropped_in.lua -- ambit run tests/lua/dropped_in.lua: a copy of a shipped solver under another name, with a rule of its
--- own, is chosen, compared, and certified and differentiated with like the shipped one (tests/lua/dropped.cmake).
+-- dropped_in.lua -- ambit run tests/lua/dropped_in.lua: a copy of a shipped solver under another name, with a rule of
+-- its own, is chosen, compared, and certified and differentiated with like the shipped one (tests/lua/dropped.cmake).
 local ambit = require "ambit"
 
 local MADE_OF, NAME = "lohner", "dropped"

@@ -46,7 +46,8 @@ end
 local function numbers(expressions, leaves, at)
   local values, out = {}, {}
   for i, x in ipairs(at) do values[i] = core.expression(x) end
-  local found = core.evaluate { arithmetic = core.default.points, expressions = expressions, leaves = leaves, values = values }
+  local found = core.evaluate { arithmetic = core.default.points, expressions = expressions,
+    leaves = leaves, values = values }
   for i, x in ipairs(found) do
     out[i] = x:mid()
     if x.partial or not (math.abs(out[i]) < math.huge) then return nil end

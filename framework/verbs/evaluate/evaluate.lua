@@ -74,7 +74,8 @@ function verb.evaluate(t)
   local allowed = partial.read(t, "evaluate")
   local expressions, paths, rebuild = shape.flatten(verb.subject(t, "evaluate"), "evaluate")
   local leaves, values = binding.resolve(t.at, expressions, "evaluate")
-  local name, options = option.arithmetic(t.arithmetic == nil and core.default.ranges or t.arithmetic, "evaluate: arithmetic")
+  local name, options = option.arithmetic(t.arithmetic == nil and core.default.ranges or t.arithmetic,
+    "evaluate: arithmetic")
   session.ask { expressions = expressions, paths = paths, leaves = leaves, values = values, arithmetic = name }
   local results, report, blame, rigorous = core.evaluate { arithmetic = name, options = options,
     expressions = expressions, leaves = leaves, values = values }

@@ -68,7 +68,8 @@ local function follow(model, rates, initial, nodes)
     end
     rows[k] = row
   end
-  for i, x in ipairs(core.evaluate { arithmetic = core.default.points, expressions = initial }) do rows[1][i] = x:mid() end
+  local start = core.evaluate { arithmetic = core.default.points, expressions = initial }
+  for i, x in ipairs(start) do rows[1][i] = x:mid() end
   return rows
 end
 
@@ -164,7 +165,8 @@ function reference.values(r, expressions)
   for k in ipairs(r.t) do
     local row = {}
     local leaves, values = binding(r, k)
-    local list = core.evaluate { arithmetic = core.default.points, expressions = fixed, leaves = leaves, values = values }
+    local list = core.evaluate { arithmetic = core.default.points, expressions = fixed, leaves = leaves,
+      values = values }
     for i, x in ipairs(list) do row[i] = x:mid() end
     rows[k] = row
   end

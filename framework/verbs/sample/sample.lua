@@ -90,7 +90,8 @@ local function of_expressions(t)
   local allowed = partial.read(t, "sample")
   local expressions, paths, rebuild = shape.flatten(evaluate.subject(t, "sample"), "sample")
   local leaves, values = binding.resolve(t.at, expressions, "sample")
-  local name, options = option.arithmetic(t.arithmetic == nil and core.default.points or t.arithmetic, "sample: arithmetic")
+  local name, options = option.arithmetic(t.arithmetic == nil and core.default.points or t.arithmetic,
+    "sample: arithmetic")
   local results, defined, report, facts = core.sample_expressions({ arithmetic = name, options = options,
     expressions = expressions, leaves = leaves, values = values }, plan)
   facts.defined, facts.report, facts.sample_error = defined, report, facts.errors

@@ -116,8 +116,8 @@ local function ranked(facts, fitting)
   return list
 end
 
--- q: system, initial, times of a request; fitting: of candidates(); task: the verb that asks -> { solver, reason, facts,
--- others }: `others` are the next best ones, in order.
+-- q: system, initial, times of a request; fitting: of candidates(); task: the verb that asks -> { solver, reason,
+-- facts, others }: `others` are the next best ones, in order.
 function suggest.solver(q, fitting, task)
   local facts, problem = core.look(flow(q, { solver = "" }))
   if facts then facts.task = task end

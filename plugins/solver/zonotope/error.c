@@ -142,8 +142,8 @@ static double through_sizes(const zono *z, const double *x, double *to) {
   return most * ABOVE;
 }
 
-/* zeta_new: |z| <= u with u' = (|J| + dJ) u + rate, u(0) = 0, a series. In the units its terms fall by norm / (k + 1) at
-** least; once that is below 1/2, all further terms together are at most the last one's largest share of a unit. */
+/* zeta_new: |z| <= u with u' = (|J| + dJ) u + rate, u(0) = 0, a series. In the units its terms fall by norm / (k + 1)
+** at least; once that is below 1/2, all further terms together are at most the last one's largest share of a unit. */
 static int grow_bound(zono *z, const double *rate) {
   proof *p = z->proof;
   uint32_t n = z->nx, k = 0;

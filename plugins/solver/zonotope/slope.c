@@ -26,7 +26,8 @@ void slope_open(proof *p) {
   }
 }
 
-/* as polynomials in time alone: all coefficients of tau^k are positive, and those of higher degree are 1 less the others */
+/* as polynomials in time alone: all coefficients of tau^k are positive, and those of higher degree are 1 less the
+** others */
 static void power_form(const zono *z, const forms *f, uint32_t j, double h, double *to) {
   const shape *s = &z->shape;
   uint32_t count = orders(z, j);

@@ -1,9 +1,9 @@
 /* turn.c -- sine and cosine by Taylor's series about the nearest multiple of a right angle.
 **
-** c = k pi / 2 + r, |r| < 0.7855, with pi / 2 as three doubles: PI_1 + PI_2 + PI_3 is off by less than 2^-159, k PI_1 and
-** k PI_2 are exact as two doubles each, and |k| <= 2^20. With |r| < 1 no partial sum or power is above 1, so each of the
-** 2 TERMS operations is off by at most 16 2^-106, and of c - k PI_1, where these differ, nothing is lost beyond that of
-** what is left. Proof of the bound: docs/numerics/zonotope.md, section 3.
+** c = k pi / 2 + r, |r| < 0.7855, with pi / 2 as three doubles: PI_1 + PI_2 + PI_3 is off by less than 2^-159, k PI_1
+** and k PI_2 are exact as two doubles each, and |k| <= 2^20. With |r| < 1 no partial sum or power is above 1, so each
+** of the 2 TERMS operations is off by at most 16 2^-106, and of c - k PI_1, where these differ, nothing is lost beyond
+** that of what is left. Proof of the bound: docs/numerics/zonotope.md, section 3.
 */
 #include "turn.h"
 

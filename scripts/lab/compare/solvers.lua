@@ -37,7 +37,9 @@ function solvers.declared(name, declaration)
     local entry = { name }
     for _, option_values in ipairs(option.declared(part)) do
       local values = {}
-      for i, text in ipairs(option_values[2]) do values[i] = math.tointeger(tonumber(text)) or tonumber(text) or text end
+      for i, text in ipairs(option_values[2]) do
+        values[i] = math.tointeger(tonumber(text)) or tonumber(text) or text
+      end
       entry[option_values[1]] = values
     end
     list[#list + 1] = entry
