@@ -417,4 +417,37 @@ end } }
     end
     assert.is_true(run.x.x:width() < 0.01) -- in generators alone: 0.024
   end)
+
+  it("has nearly all digits of long damped chains without data", function()
+    local n, initial = 10, {}
+    local m = ambit.mechanism { "chain", gravity = { 0, "-9.81", 0 } }
+    local at = m.world
+    for i = 1, n do
+      local turned, joint = m:revolute { from = at, axis = "z", name = "q" .. i }
+      at = m:rigid_link { from = turned, offset = { "0.5", 0, 0 } }
+      m:point_mass { at = at, mass = 1 }
+      m:joint_damper { joint = joint, damping = "0.1" }
+      initial["q" .. i], initial["q" .. i .. "'"] = 0, 0
+    end
+    local run = ambit.simulate { m:dynamics(), initial = initial, t = { 0, "0.5", 1, "1.001" }, solver = "zonotope",
+      dense = true }
+    assert.equal("complete", run.status)
+    -- tests/oracle/multibody_digits.c, in quadruple precision
+    local digits = { q1 = "-1.380912060116434688", ["q1'"] = "-1.129885907183028410", q3 = "0.004503079564193700739",
+      q5 = "0.003703427283805575133", ["q5'"] = "-0.09755995390300081396", q9 = "-0.006804958623728171645",
+      ["q9'"] = "-5.558623804774830015" }
+    for name, text in pairs(digits) do
+      local truth = ambit.number(text)
+      for _, x in ipairs { run:at(1)[name], run:at("1")[name] } do
+        local off = ambit.evaluate { x - truth, arithmetic = "interval" }
+        assert.is_true(off.lo <= 1e-17 and off.hi >= -1e-17, name)
+        assert.is_true(x:width() < 1e-12 * math.max(1, x:mag()), name)
+      end
+    end
+    local coarse = ambit.simulate { m:dynamics(), initial = initial, t = { 0, 1 }, solver = "zonotope", time_order = 12,
+      tolerance = 1e-11 }
+    for name in pairs(digits) do -- another road to the same numbers
+      assert.is_true(coarse.x[name].lo <= run:at(1)[name].hi and coarse.x[name].hi >= run:at(1)[name].lo, name)
+    end
+  end)
 end)

@@ -195,7 +195,7 @@ static void settle(zono *z, uint32_t n) {
     double *to = z->P + (size_t)i * s->stride;
     row_copy(s, to, p->end + (size_t)i * s->stride);
     memset(to + s->eps, 0, z->nx * sizeof *to);
-    memset(to + s->mix, 0, (s->norms - s->mix) * sizeof *to);
+    memset(to + s->mix, 0, (size_t)s->mixed * z->nx * sizeof *to);
     row_norms_all(s, to);
   }
   find_sizes(z);

@@ -18,7 +18,8 @@ static void describe(const zono *z, uint32_t i, uint32_t k, uint32_t order, uint
   const shape *s = &z->shape;
   const double *row = row_at(z, slot_x(z, i), k);
   double mid = row[0], rad = row_x(s, row) + row_c(s, row), *column = p->dense_column + (size_t)i * columns * order;
-  for (uint32_t v = 0; v < columns; v++) column[(size_t)v * order + k] = row[1 + v];
+  for (uint32_t v = 0; v < columns; v++)
+    column[(size_t)v * order + k] = v < s->m ? row[1 + v] : row_r(s, row) > 0 ? row[s->eps + v - s->m] : 0;
   for (uint32_t a = 0; a < s->m; a++)
     for (uint32_t b = a; b < s->reach[a] && row_q(s, row) > 0; b++) {
       double c = row[s->pair[a] + b - a];

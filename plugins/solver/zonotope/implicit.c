@@ -164,7 +164,7 @@ static void add_to(const zono *z, double *to, const double *x, uint32_t parts) {
   terms_clear(&sum);
   terms_row(s, &sum, 1, to), terms_row(s, &sum, 1, x);
   terms_sum(s, &sum, z->scratch, parts);
-  memcpy(to, z->scratch, (parts & TRIPLES ? s->stride : s->cube) * sizeof *to);
+  memcpy(to, z->scratch, (parts & (s->lean ? ERRORS : TRIPLES) ? s->stride : s->cube) * sizeof *to);
 }
 
 void zono_solve(zono *z, uint32_t stage, uint32_t k) {

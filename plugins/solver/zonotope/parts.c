@@ -113,5 +113,5 @@ void parts_choose(zono *z) {
   if (s->cubed > s->paired) s->paired = s->cubed;
   if (!is_certain(z)) return;
   uint32_t erring = count_orders(share, z->K, KIND_ERRORS);
-  s->erring = erring > 0 ? erring : 1;
+  s->erring = erring == 0 ? 1 : erring < s->room ? erring : s->room;
 }

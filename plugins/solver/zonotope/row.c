@@ -3,7 +3,17 @@
 
 /* -- shape */
 
+static void place_lean(shape *s) {
+  s->norms = 1, s->eps = 1 + ENDS, s->cube = (s->eps + 3) / 4 * 4;
+  s->pair[0] = s->mix = s->eps + s->nx;
+  s->stride = (s->mix + 3 + 3) / 4 * 4;
+}
+
 void shape_place(shape *s) {
+  if (s->lean) {
+    place_lean(s);
+    return;
+  }
   uint32_t at = 1 + s->m + s->nx;
   s->eps = 1 + s->m;
   for (uint32_t i = 0; i < s->m; i++) {
@@ -24,9 +34,18 @@ void shape_place(shape *s) {
 
 #define CUBIC_ALL 34  /* data that have triples if there are no more, */
 #define CUBIC_MOST 27 /* and if there are */
+#define ERRING 16     /* orders that have room for eps, where there are no data */
 #define CUBED 3       /* orders that have room for triples */
 
-void shape_hold_all(shape *s) { s->paired = s->mixing = s->erring = UINT32_MAX, s->cubed = s->room; }
+void shape_hold_all(shape *s) {
+  s->paired = s->mixing = UINT32_MAX;
+  s->erring = s->lean ? s->room : UINT32_MAX, s->cubed = s->lean ? 0 : s->room;
+}
+
+void shape_lean(shape *s) {
+  s->lean = 1, s->room = ERRING;
+  shape_hold_all(s), shape_place(s);
+}
 
 int shape_open(const ambit_host *h, shape *s, uint32_t m, uint32_t nx) {
   *s = (shape) {
@@ -40,7 +59,7 @@ int shape_open(const ambit_host *h, shape *s, uint32_t m, uint32_t nx) {
   if (!s->reach || !s->pair) return 0;
   for (uint32_t i = 0; i < m; i++) s->reach[i] = m;
   shape_place(s);
-  s->scratch = h->alloc(h, 3 * s->stride * sizeof *s->scratch);
+  s->scratch = h->alloc(h, 3 * (s->stride + 8u) * sizeof *s->scratch); /* a lean row may be a bit longer */
   return s->scratch != NULL;
 }
 
@@ -54,9 +73,9 @@ static double sizes(const double *x, uint32_t from, uint32_t to) {
 
 void row_norms(const shape *s, double *x) {
   double *norm = x + s->norms;
-  norm[NORM_L] = sizes(x, 1, s->eps), norm[NORM_R] = sizes(x, s->eps, s->pair[0]);
+  norm[NORM_L] = sizes(x, 1, 1 + s->m), norm[NORM_R] = sizes(x, s->eps, s->pair[0]);
   norm[NORM_Q] = sizes(x, s->pair[0], s->mix), norm[NORM_X] = sizes(x, s->mix, s->norms);
-  norm[NORM_L_FAR] = sizes(x, 1 + s->cubic, s->eps), norm[NORM_Q_FAR] = sizes(x, s->pair[s->cubic], s->mix);
+  norm[NORM_L_FAR] = sizes(x, 1 + s->cubic, 1 + s->m), norm[NORM_Q_FAR] = sizes(x, s->pair[s->cubic], s->mix);
   for (uint32_t i = 0; i < s->cubic; i++) norm[NORM_Q_FAR] += sizes(x, s->pair[i] + s->cubic - i, s->pair[i + 1]);
 }
 
@@ -66,7 +85,7 @@ void row_norms_all(const shape *s, double *x) {
 }
 
 void row_constant(const shape *s, double *to, double c) {
-  memset(to, 0, s->pair[0] * sizeof *to);
+  if (!s->lean) memset(to, 0, s->pair[0] * sizeof *to);
   memset(to + s->norms, 0, ENDS * sizeof *to);
   to[0] = c;
 }
@@ -78,9 +97,10 @@ typedef struct range {
 } range;
 
 /* the ranges of a row's parts that are there */
-static uint32_t ranges_of(const shape *s, const double *x, range at[4]) {
+static uint32_t ranges_of(const shape *s, const double *x, range at[5]) {
   uint32_t n = 0;
-  at[n++] = (range) { 0, row_r(s, x) > 0 ? s->pair[0] : s->eps };
+  at[n++] = (range) { 0, 1 + s->m };
+  if (row_r(s, x) > 0) at[n++] = (range) { s->eps, s->pair[0] };
   if (row_q(s, x) > 0) at[n++] = (range) { s->pair[0], s->mix };
   if (row_x(s, x) > 0) at[n++] = (range) { s->mix, s->norms };
   if (row_c(s, x) > 0) at[n++] = (range) { s->cube, s->cube + s->triples };
@@ -101,12 +121,12 @@ static void leave_out(const shape *s, double *to, uint32_t parts) {
 }
 
 void row_over(const shape *s, double *to, double over, const double *a, uint32_t parts) {
-  range at[4];
+  range at[5];
   double scale = 1 / over;
   dd middle = over == 1 ? row_middle(s, a) : dd_div(row_middle(s, a), dd_make(over, 0));
   for (uint32_t i = s->norms; i < s->norms + NORMS; i++) to[i] = scale * a[i];
   leave_out(s, to, parts);
-  if (row_r(s, to) == 0) memset(to + s->eps, 0, s->nx * sizeof *to);
+  if (row_r(s, to) == 0 && !s->lean) memset(to + s->eps, 0, s->nx * sizeof *to);
   uint32_t n = ranges_of(s, to, at);
   for (uint32_t r = 0; r < n; r++)
     for (uint32_t i = at[r].from; i < at[r].to; i++) to[i] = scale * a[i];
@@ -114,7 +134,7 @@ void row_over(const shape *s, double *to, double over, const double *a, uint32_t
 }
 
 void row_add(const shape *s, double *to, double scale, const double *a) {
-  range at[4];
+  range at[5];
   uint32_t n = ranges_of(s, a, at);
   for (uint32_t r = 0; r < n; r++)
     for (uint32_t i = at[r].from; i < at[r].to; i++) to[i] += scale * a[i];

@@ -1,8 +1,8 @@
 /* row.h -- rows: polynomials with point coefficients, of degree 3 in xi [m], 1 in eps [nx], and 1 in each of xi and
 ** eps.
 **
-** A row is  c | xi [m] | eps [nx] | xi xi | xi eps | norms | low | xi xi xi:  the constant is c + low; pairs xi_i xi_j of i <= j, row by row,
-** j < reach[i] only; xi_j eps_i for j < mixed, j-major; triples of i <= j <= k < cubic, in the same order. Rows of
+** A row is  c | xi [m] | eps [nx] | xi xi | xi eps | norms | low | xi xi xi:  the constant is c + low; where there are no
+** data c | norms | low | eps. Pairs xi_i xi_j of i <= j, row by row, j < reach[i] only; xi_j eps_i for j < mixed, j-major; triples of i <= j <= k < cubic, in the same order. Rows of
 ** higher orders in time do not hold all of these parts (row_parts): what they would add is small, for it has a power of
 ** the step before it. A monomial that a row does not hold is dropped from every product; sums lose nothing, for what
 ** they add up is of the same order in time. Norms are sums of absolute values: of each part, and of the linear terms
@@ -30,6 +30,7 @@ typedef struct shape {
   uint32_t paired, mixing, cubed; /* orders in time whose rows hold pairs, xi eps, triples; cubed <= paired; */
   uint32_t erring;                /* eps; mixing <= erring */
   uint32_t room;                  /* orders in time whose rows have room for triples; cubed <= room */
+  int lean;                       /* there are no data: eps come last, and room is for them; erring <= room */
   uint32_t norms;                 /* where norms are; also the number of coefficients before them */
   uint32_t cube;                  /* where triples start; a multiple of 4, and the length of a row without them */
   uint32_t triples;
@@ -40,6 +41,7 @@ typedef struct shape {
 } shape;
 
 int shape_open(const ambit_host *h, shape *s, uint32_t m, uint32_t nx); /* all pairs; 0: no memory */
+void shape_lean(shape *s);     /* of a shape without data: the short rows of high orders have no room for eps */
 void shape_hold_all(shape *s); /* every order in time holds every part that it has room for */
 void shape_place(shape *s);    /* offsets, from reach, mixed and cubic */
 

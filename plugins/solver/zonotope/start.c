@@ -114,7 +114,9 @@ static ambit_status evaluate_over(zono *z, uint32_t m, uint32_t *own, const doub
   const ambit_tape *t = z->problem.initial;
   zono i;
   z->m = m;
-  if (!shape_open(h, &z->shape, m, z->nx) || !allocate(z) || !open_initial(z, &i)) return AMBIT_NOMEM;
+  if (!shape_open(h, &z->shape, m, z->nx)) return AMBIT_NOMEM;
+  if (is_certain(z)) shape_lean(&z->shape);
+  if (!allocate(z) || !open_initial(z, &i)) return AMBIT_NOMEM;
   double *delta = h->alloc(h, (t->nslot + 1u) * sizeof *delta), *input = h->alloc(h, (t->nin + 1u) * sizeof *input);
   if (!delta || !input) return AMBIT_NOMEM;
   choose_data(z, weight);

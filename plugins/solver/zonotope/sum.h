@@ -208,8 +208,11 @@ static void sum_norms(const shape *s, double *x, uint32_t parts) {
 void VARIANT(const shape *s, const terms *t, double *to, uint32_t parts) {
   const picked all = { t->nrow, 0, t->row, NULL };
   uint32_t made = parts & ERRORS;
-  sum_segment(&all, to, 1, made ? s->m + s->nx : s->m, 0, 0, 0);
-  if (!made) memset(to + s->eps, 0, s->nx * sizeof *to);
+  if (s->lean)
+    sum_segment(&all, to, s->eps, made ? s->nx : 0, 0, 0, 0);
+  else
+    sum_segment(&all, to, 1, made ? s->m + s->nx : s->m, 0, 0, 0);
+  if (!made && !s->lean) memset(to + s->eps, 0, s->nx * sizeof *to);
   if ((parts & PAIRS) && sum_pairs(s, t, to)) made |= PAIRS;
   if ((parts & MIXED) && sum_mixed(s, t, to)) made |= MIXED;
   if ((parts & TRIPLES) && sum_triples(s, t, to)) made |= TRIPLES;
