@@ -317,7 +317,7 @@ static void data_move_generators(void **unused) {
     for (uint32_t c = 0; c < columns * nx; c++) z.G[c] = pick(4) ? unit[c % nx] * draw(-1, 1) : 0;
     for (uint32_t c = 0; c < columns * nx; c++) z.E[c % nx] += fabs(z.G[c]) * (1 + 1e-12);
     quartic *q = z.proof->quartic;
-    q->n = q->length = n % 3 != 0; /* one term of degree 4, which is 1 or -1 */
+    q->n = q->length = n % 3 != 0, q->held = q->n > 0; /* one term of degree 4, which is 1 or -1 */
     for (uint32_t i = 0; i < nx && q->n; i++) {
       q->term[i] = 3 * unit[i] * draw(-1, 1), q->size[i] = fabs(q->term[i]) * (1 + 1e-12);
       z.E[i] += q->size[i];
@@ -367,7 +367,7 @@ static void fill_errors(zono *z) {
   for (uint32_t c = 0; c < z->ngen; c++)
     for (uint32_t i = 0; i < n; i++)
       z->G[c * n + i] = creal(d->V[i * n + c % n]) * draw(-1, 1) / strength[c % n], z->E[i] += fabs(z->G[c * n + i]);
-  q->n = q->length = pick(2);
+  q->n = q->length = pick(2), q->held = q->n > 0;
   for (uint32_t i = 0; i < n; i++) {
     q->term[i] = cimag(d->V[i * n]) / strength[0], q->size[i] = fabs(q->term[i]) * (1 + 1e-12);
     z->E[i] = (z->E[i] + discs_width(z, i) + q->size[i]) * (1 + 1e-12), z->proof->spread[i] = z->E[i];

@@ -91,9 +91,30 @@ static void copy_axes(const zono *z, const discs *from, discs *to) {
 /* discs that are empty, as the step would move them: are they of use? */
 static int are_of_use(zono *z) {
   modes *m = z->modes;
-  if (!worth_enclosing(z)) return 0;
+  enum worth worth = worth_enclosing(z);
+  if (worth == WORTH_NOTHING) return 0;
   copy_axes(z, &m->now, &m->old);
   memset(m->old.b, 0, z->nx * sizeof *m->old.b);
+  map_discs(z);
+  return worth_keeping(z) && (worth == WORTH_KEEPING || m->rate < 0);
+}
+
+static void clear(zono *z) {
+  modes *m = z->modes;
+  uint32_t n = z->nx;
+  memset(m->in, 0, n * sizeof *m->in), memset(m->box, 0, n * sizeof *m->box);
+  memset(m->now.b, 0, n * sizeof *m->now.b);
+}
+
+/* Along the modes of the step; or along the directions of before, if modes are not found or so near to one another that
+** discs would grow too much: the proof holds for any. Do they not? */
+static int map_along(zono *z) {
+  if (modes_find(z)) {
+    map_discs(z);
+    if (worth_keeping(z)) return 1;
+  }
+  clear(z);
+  copy_axes(z, &z->modes->old, &z->modes->now);
   map_discs(z);
   return worth_keeping(z);
 }
@@ -101,11 +122,9 @@ static int are_of_use(zono *z) {
 /* those of the end of the last step are old; there are none now */
 static void turn_page(zono *z) {
   modes *m = z->modes;
-  uint32_t n = z->nx;
   discs last = m->old;
   m->old = m->now, m->now = last;
-  memset(m->in, 0, n * sizeof *m->in), memset(m->box, 0, n * sizeof *m->box);
-  memset(m->now.b, 0, n * sizeof *m->now.b);
+  clear(z);
   m->now.any = 0;
 }
 
@@ -130,13 +149,11 @@ void discs_move(zono *z) {
   }
   turn_page(z);
   if (m->old.any) {
-    m->now.any = !m->is_bad && modes_find(z);
-    if (!m->now.any) {
+    if (m->is_bad) {
       dissolve(z), m->wait = WAIT;
       return;
     }
-    map_discs(z);
-    m->is_bad = !worth_keeping(z);
+    m->is_bad = !map_along(z), m->now.any = 1;
   } else if (m->wait > 0)
     m->wait--;
   else if (z->m > 0) {

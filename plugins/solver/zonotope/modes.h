@@ -28,6 +28,7 @@ typedef struct modes {
   cycle *cycle;        /* NULL: the system is not sampled */
   discs now, old;      /* at the end of the step, at its start */
   double *growth;      /* [nx x nx] what the step makes of one disc in another, at most */
+  double rate;         /* per second, logarithm: discs grow at most so fast; they shrink if it is negative */
   int is_bad;          /* they would grow too much */
   uint32_t wait;       /* steps until they are tried again */
   double *in, *box;    /* [nx] what goes into the discs besides, by |W x|; what is left of it */
@@ -47,11 +48,12 @@ double modes_mixed(const zono *z, uint32_t j, uint32_t i, uint32_t k);
 int modes_find(zono *z);
 /* map.c: m->now.b, m->in, m->box and m->growth from m->old, along m->now.V */
 void map_discs(zono *z);
-/* worth.c: may discs be of use? Of those that modes_find() found: are they not much wider than what they hold, do they
-** not grow too much? The last after map_discs(). */
+/* worth.c: may discs be of use? Of those that modes_find() found: are they not much wider than what they hold, or little
+** enough for discs that shrink? After map_discs(): m->rate, and do they not grow too much? */
+enum worth { WORTH_NOTHING, WORTH_IF_SHRINKING, WORTH_KEEPING };
 int worth_trying(const zono *z);
-int worth_enclosing(zono *z);
-int worth_keeping(const zono *z);
+enum worth worth_enclosing(zono *z);
+int worth_keeping(zono *z);
 int modes_invert(size_t n, const number *V, number *W, number *A); /* W := V^-1, about; A: scratch; 0: singular */
 int cycle_open(zono *z);                                           /* 0: no memory */
 void cycle_start(zono *z);

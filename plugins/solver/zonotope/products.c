@@ -196,6 +196,7 @@ int quartic_begin(zono *z) {
   if ((q->most == 0 && !q->squares) || !choose_slots(z)) return 0;
   if (q->n == 0) choose_data(z), place(z);
   if (q->n == 0 && !q->squares) return q->count = 0, 0;
+  if (!q->held) memset(q->moved, 0, (size_t)z->nx * q->length * sizeof(double));
   for (uint32_t i = 0; i < z->nx; i++) memset(q->sum + (size_t)i * q->length, 0, q->length * sizeof(double));
   memset(q->near_sum, 0, (size_t)z->nx * q->pairs * z->nx * sizeof(double));
   memset(q->rounding, 0, (z->nx + z->na) * sizeof(double));

@@ -214,7 +214,7 @@ static void add_product(const zono *z, double *to, const double *by, const doubl
 double quartic_through(zono *z, const double *by) {
   quartic *q = z->proof->quartic;
   double size = 0;
-  if (q->n == 0) return 0;
+  if (!q->held) return 0;
   memset(q->product, 0, q->length * sizeof *q->product);
   add_product(z, q->product, by, q->term);
   for (uint32_t k = 0; k < z->nx; k++) size += fabs(by[k]) * q->size[k];
@@ -223,7 +223,7 @@ double quartic_through(zono *z, const double *by) {
 
 void quartic_move(zono *z, uint32_t i, const double *by) {
   quartic *q = z->proof->quartic;
-  if (q->n == 0) return;
+  if (!q->held) return;
   double *to = term_at(z, q->moved, i);
   memset(to, 0, q->length * sizeof *to);
   add_product(z, to, by, q->term);
@@ -238,9 +238,20 @@ double quartic_end(zono *z, uint32_t i, const double *by, const double *reach) {
   return (2.0 * q->count + 4 * z->nx + 32) * UNIT * size * ABOVE;
 }
 
+/* Terms that come up no more, and are less than a step may add, go into the box: no step has to move them then. */
+static void drop_terms(zono *z) {
+  quartic *q = z->proof->quartic;
+  for (uint32_t i = 0; i < z->nx; i++)
+    if (q->size[i] > z->proof->budget[i] * fabs(z->h)) return;
+  for (uint32_t i = 0; i < z->nx; i++) *box(z, FROM_DEGREE, i) += q->size[i], q->size[i] = 0;
+  q->held = 0;
+}
+
 void quartic_finish(zono *z) {
   quartic *q = z->proof->quartic;
   double *old = q->term;
-  q->term = q->moved, q->moved = old;
-  for (uint32_t i = 0; i < z->nx && q->n; i++) q->size[i] = sizes(term_at(z, q->term, i), q->length) * ABOVE;
+  if (!q->held && q->count == 0) return;
+  q->term = q->moved, q->moved = old, q->held = 1;
+  for (uint32_t i = 0; i < z->nx; i++) q->size[i] = sizes(term_at(z, q->term, i), q->length) * ABOVE;
+  if (q->count == 0) drop_terms(z);
 }

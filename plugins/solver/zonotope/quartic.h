@@ -40,6 +40,7 @@ typedef struct quartic {
   int8_t *sign;         /* [nslot] of a product in the sum that it goes into; 0: the slot is no product */
   uint32_t *root, *next, *made; /* [nslot] that sum; the next product of it; the instruction that makes a slot */
   uint32_t count;               /* slots chosen */
+  int held;                     /* 1: the set has terms of degree 4; 0: `term`, `size` are of no meaning, and 0 */
   void (*multiply)(const struct quartic *q, double *to);
   void (*add)(double *to, double scale, const double *x, size_t n);
 } quartic;

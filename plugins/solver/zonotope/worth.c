@@ -2,8 +2,8 @@
 **
 ** They are tried where older errors' dependence on the data makes most of all errors: columns are boxed then sooner
 ** than they die out. They cost what discs around columns are wider than the columns themselves will ever be: little
-** where modes oscillate, much where they are damped so that they are nearly one. And discs must not grow too much
-** themselves.
+** where modes oscillate, much where they are damped so that they are nearly one. That does not matter if they are thin
+** beside the sets, and shrink. And discs must not grow too much themselves.
 */
 #include "modes.h"
 #include "proof.h"
@@ -12,8 +12,9 @@
 #define MOSTLY 0.5 /* of the errors, that must come from how older ones depend on the data */
 #define EXCESS 4.5 /* most that discs are wider by: 2 to 3.4 where they help, 5.7 and more where they harm */
 #define URGENT 0.5 /* of its set: from errors of a state so large on they will not stay in generators for long, and */
-#define BEARABLE 16.0 /* discs may be wider by so much */
-#define GROWTH 10.0   /* logarithm: most by which discs may grow to the end of the run */
+#define BEARABLE 16.0   /* discs may be wider by so much */
+#define BESIDE_SET 0.05 /* of each state's set: discs that are no wider, and shrink, cost next to nothing */
+#define GROWTH 10.0     /* logarithm: most by which discs may grow to the end of the run */
 #define DOUBLINGS 24
 
 static double time_left(const zono *z) { return fabs(z->problem.time[z->problem.ntime - 1] - z->t); }
@@ -74,17 +75,20 @@ static int is_urgent(const zono *z) {
   return 0;
 }
 
-int worth_enclosing(zono *z) {
+enum worth worth_enclosing(zono *z) {
   const modes *m = z->modes;
   uint32_t n = z->nx;
-  double *Y = m->work, *most = Y + 2 * (size_t)n * n, *b = most + n, reach = 0, width = 0;
+  double *Y = m->work, *most = Y + 2 * (size_t)n * n, *b = most + n, reach = 0, width = 0, widest = 0;
   find_reach(z, Y, Y + (size_t)n * n, most), enclose(z, b);
   for (uint32_t i = 0; i < n; i++) {
+    double own = 0;
     reach += most[i] / z->proof->spread[i];
     for (uint32_t k = 0; k < n; k++)
-      width += (cabs(m->now.V[i * n + k]) + m->now.S[i * n + k]) * b[k] / z->proof->spread[i];
+      own += (cabs(m->now.V[i * n + k]) + m->now.S[i * n + k]) * b[k] / z->proof->spread[i];
+    width += own, widest = fmax(widest, own);
   }
-  return width < (is_urgent(z) ? BEARABLE : EXCESS) * reach;
+  if (width < (is_urgent(z) ? BEARABLE : EXCESS) * reach) return WORTH_KEEPING;
+  return widest < BESIDE_SET ? WORTH_IF_SHRINKING : WORTH_NOTHING;
 }
 
 /* how fast discs grow at most, per second: by the largest eigenvalue of m->growth, from its powers */
@@ -108,4 +112,7 @@ static double rate_of(const zono *z) {
   return ldexp(size, -DOUBLINGS) / fabs(z->h);
 }
 
-int worth_keeping(const zono *z) { return rate_of(z) * time_left(z) < GROWTH; }
+int worth_keeping(zono *z) {
+  z->modes->rate = rate_of(z);
+  return z->modes->rate * time_left(z) < GROWTH;
+}
