@@ -13,6 +13,7 @@
 #define SORTED 27   /* data: fewer are held all alike */
 #define HISTORY 60  /* generators kept for each state, */
 #define BOXES 40    /* without data: boxes of so many steps, */
+#define FEW 1200    /* and at least so many where something varies: what joining its columns leaves comes each step */
 #define VARYING 600 /* and so many more for all that varies together, */
 #define EACH 32u    /* or for the mean and the moment of each */
 
@@ -115,7 +116,9 @@ static int open_set(zono *z) {
   size_t nx = z->nx;
   uint32_t sources = vary_sources(z), each = VARYING / (sources ? sources : 1);
   z->vary_room = sources * (each > EACH ? each : EACH);
-  z->ngen_max = (z->options.history ? z->options.history : is_certain(z) ? BOXES : HISTORY) * z->nx + z->vary_room;
+  z->ngen_max = (z->options.history ? z->options.history : is_certain(z) ? BOXES : HISTORY) * z->nx;
+  if (!z->options.history && sources && z->ngen_max < FEW) z->ngen_max = FEW;
+  z->ngen_max += z->vary_room;
   z->P = doubles(h, nx * z->shape.stride), z->E = doubles(h, nx), z->G = doubles(h, nx * (z->ngen_max + nx));
   z->lo = doubles(h, nx), z->hi = doubles(h, nx), z->tube_lo = doubles(h, nx), z->tube_hi = doubles(h, nx);
   z->limit = doubles(h, nx);
