@@ -11,6 +11,7 @@ install(TARGETS ambit RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS ambit_module LIBRARY DESTINATION ${AMBIT_LUA_DIR})
 
 install(DIRECTORY framework/kernel/abi/ambit framework/api/ambit DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY plugins/shared DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/ambit) # sources too: for plugins of others
 
 # Plugins need headers only: Ambit::sdk; hosts link Ambit::kernel.
 add_library(ambit_sdk INTERFACE)

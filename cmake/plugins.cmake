@@ -1,6 +1,6 @@
 # plugins/<kind>/<name>.c or plugins/<kind>/<name>/*.c -> plugins/<kind>/<name>.so. Plugins see framework/kernel/abi only. A file <name>.cmake
 # beside it names the libraries that this plugin alone links: set(AMBIT_PLUGIN_LIBRARIES ...), and what it takes of plugins/shared:
-# set(AMBIT_PLUGIN_SHARED name...).
+# set(AMBIT_PLUGIN_SHARED name...); headers there need no word.
 function(ambit_plugin kind name)
   add_library(${kind}_${name} MODULE ${ARGN})
   set(AMBIT_PLUGIN_LIBRARIES "")
@@ -12,8 +12,8 @@ function(ambit_plugin kind name)
   endif()
   foreach(shared ${AMBIT_PLUGIN_SHARED})
     target_sources(${kind}_${name} PRIVATE ${PROJECT_SOURCE_DIR}/plugins/shared/${shared}.c)
-    target_include_directories(${kind}_${name} PRIVATE ${PROJECT_SOURCE_DIR}/plugins)
   endforeach()
+  target_include_directories(${kind}_${name} PRIVATE ${PROJECT_SOURCE_DIR}/plugins)
   set_target_properties(${kind}_${name} PROPERTIES PREFIX "" OUTPUT_NAME ${name} C_VISIBILITY_PRESET hidden
     LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/plugins/${kind})
   target_link_libraries(${kind}_${name} PRIVATE ambit_flags ${AMBIT_PLUGIN_LIBRARIES} m)

@@ -9,15 +9,13 @@ typedef struct source {
   ambit_arena *arena;
 } source;
 
-static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
-
 /* rate[nx + nfurther] := F, then dg/dt along F */
 static ambit_status write_rates(const source *s, const ambit_implicit_form *form, ambit_expr *rate, ambit_failure *f) {
   const ambit_system *of = s->change.of;
   memcpy(rate, form->rate, of->nx * sizeof *rate);
   for (size_t k = 0; k < s->change.nfurther; k++) {
     ambit_expr d = ambit_graph_time_derivative(of->graph, s->change.g[k], of->nx, of->state, form->rate, f);
-    if (d == AMBIT_NO_EXPR) return f && f->status != AMBIT_OK ? f->status : no_memory(f);
+    if (d == AMBIT_NO_EXPR) return f && f->status != AMBIT_OK ? f->status : ambit_no_memory(f);
     rate[of->nx + k] = d;
   }
   return AMBIT_OK;
@@ -32,7 +30,7 @@ static ambit_status write(ambit_system_source *self, ambit_failure *f) {
   if (status != AMBIT_OK || !form) return status;
   size_t nrate = c->of->nx + c->nfurther;
   ambit_expr *all = ambit_arena_alloc(s->arena, (nrate + form->na) * sizeof *all);
-  if (!all) return no_memory(f);
+  if (!all) return ambit_no_memory(f);
   memcpy(all + nrate, form->residual, form->na * sizeof *all);
   status = write_rates(s, form, all, &own);
   if (status == AMBIT_OK)
@@ -68,6 +66,6 @@ ambit_system_source *ambit_implicit_change_open(
     s->change.g = copy(arena, change->nfurther, change->g);
     if (s->change.leaf && s->change.value && s->change.g) return &s->base;
   }
-  no_memory(f);
+  ambit_no_memory(f);
   return NULL;
 }

@@ -94,12 +94,12 @@ ambit_status ambit_summands_read(const ambit_graph *g, ambit_expr e, ambit_summa
   *list = (ambit_summands) { 0 };
   ambit_walk walk;
   ambit_status status = AMBIT_OK;
-  if (!ambit_walk_open(g, 1, &e, stops, &walk)) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!ambit_walk_open(g, 1, &e, stops, &walk)) return ambit_no_memory(f);
   double *times = malloc(walk.count * sizeof *times);
   if (times && !count(g, &walk, times))
     status = ambit_fail(f, AMBIT_INVALID, "a term is repeated so often in a sum that its factor is no double");
   else if (!times || !list_leaves(g, &walk, times, list))
-    status = ambit_fail(f, AMBIT_NOMEM, "out of memory");
+    status = ambit_no_memory(f);
   free(times);
   ambit_walk_close(&walk);
   return status;

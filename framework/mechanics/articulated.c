@@ -20,8 +20,6 @@
 #include "mechanics/pivot.h"
 #include "mechanics/stage.h"
 
-static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
-
 ambit_status ambit_stage_misfit(const ambit_tree *t, const ambit_stage *s, const char *why) {
   char who[AMBIT_WHO_MAX];
   return ambit_fail(t->f, AMBIT_INVALID, "the articulated-body form does not fit: %s: %s; use the form \"mass_matrix\"",
@@ -45,7 +43,7 @@ static bool is_stage(const ambit_element *e, ambit_stage *s) {
 
 static ambit_status find_stages(ambit_tree *t) {
   t->stage = ambit_arena_alloc(t->arena, (t->m->count + 1) * sizeof *t->stage);
-  if (!t->stage) return no_memory(t->f);
+  if (!t->stage) return ambit_no_memory(t->f);
   for (uint32_t part = 0; part < t->m->count; part++) {
     ambit_stage s = { .part = part, .before = AMBIT_STAGE_ROOT };
     if (!is_stage(t->m->part[part].element, &s)) continue;
@@ -68,15 +66,15 @@ static ambit_status make_symbols(ambit_tree *t) {
   t->pivot = ambit_expressions(t->arena, n);
   t->scale = ambit_expressions(t->arena, n);
   t->pivot_speed = ambit_arena_alloc(t->arena, n * sizeof *t->pivot_speed);
-  if (!list || !t->pivot || !t->scale || !t->pivot_speed) return no_memory(t->f);
+  if (!list || !t->pivot || !t->scale || !t->pivot_speed) return ambit_no_memory(t->f);
   for (size_t i = 0; i < n; i++) list[k++] = t->v->du[i];
   for (size_t i = 0; i < 6; i++) list[k++] = t->wrench[i] = fresh(t);
   for (uint32_t j = 0; j < t->n; j++)
     for (size_t i = 0; i < 6; i++) list[k++] = t->stage[j].symbol[i] = fresh(t);
   for (size_t i = 0; i < k; i++)
-    if (list[i] == AMBIT_NO_EXPR) return no_memory(t->f);
+    if (list[i] == AMBIT_NO_EXPR) return ambit_no_memory(t->f);
   t->affine = ambit_affine_open(t->g, k, list);
-  return t->affine ? AMBIT_OK : no_memory(t->f);
+  return t->affine ? AMBIT_OK : ambit_no_memory(t->f);
 }
 
 /* The stage that carries this one: parts come after those that they are attached to. */
@@ -139,12 +137,12 @@ static ambit_status solve_outwards(ambit_tree *t, ambit_expr *du) {
     if (s->before != AMBIT_STAGE_ROOT) {
       const ambit_stage *before = &t->stage[s->before]; /* its accel holds values by now */
       if (ambit_affine_put(t->affine, 6, s->accel, 6, before->symbol, before->accel, s->accel) != AMBIT_OK)
-        return no_memory(t->f);
+        return ambit_no_memory(t->f);
     }
     for (size_t r = 0; r < s->d; r++) {
       ambit_expr x = s->y[r];
       for (size_t k = 0; k < 6; k++) x = ambit_stage_minus(t, x, s->k[6 * r + k], s->accel[k]);
-      if (x == AMBIT_NO_EXPR) return no_memory(t->f);
+      if (x == AMBIT_NO_EXPR) return ambit_no_memory(t->f);
       if (ambit_affine_varies(t->affine, 1, &x))
         return ambit_stage_misfit(t, s, "what acts on it depends on accelerations elsewhere");
       du[s->speed[r]] = x;
@@ -179,7 +177,7 @@ ambit_status ambit_articulated_accelerations(
   ambit_tree t = { .m = m, .g = ambit_mechanism_graph(m), .v = v, .applied = applied, .f = f };
   t.arena = ambit_arena_open();
   t.cut = t.arena ? ambit_cut_open(m) : NULL;
-  ambit_status status = t.cut ? run(&t, du) : no_memory(f);
+  ambit_status status = t.cut ? run(&t, du) : ambit_no_memory(f);
   ambit_cut_close(t.cut);
   ambit_affine_close(t.affine);
   ambit_arena_close(t.arena);

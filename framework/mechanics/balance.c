@@ -8,8 +8,6 @@
 #include "mechanics/parts.h"
 #include <stdlib.h>
 
-static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
-
 ambit_status ambit_joints_visit(ambit_mechanism *m, ambit_joint_visit visit, void *user) {
   ambit_status status = AMBIT_OK;
   for (uint32_t part = 0; part < ambit_mechanism_count(m); part++) {
@@ -89,7 +87,7 @@ ambit_status ambit_variables_read(ambit_mechanism *m, ambit_arena *arena, ambit_
   ambit_coordinate *coordinate = ambit_arena_alloc(arena, (nc + 1) * sizeof *coordinate);
   ambit_speed *speed = ambit_arena_alloc(arena, n * sizeof *speed);
   ambit_expr *u = ambit_expressions(arena, n), *du = ambit_expressions(arena, n), *zero = ambit_expressions(arena, n);
-  if (!coordinate || !speed || !u || !du || !zero) return no_memory(f);
+  if (!coordinate || !speed || !u || !du || !zero) return ambit_no_memory(f);
   ambit_mechanism_coordinates(m, nc, coordinate);
   ambit_mechanism_speeds(m, n, speed);
   for (size_t i = 0; i < n; i++) u[i] = speed[i].u, du[i] = speed[i].du;
@@ -123,7 +121,7 @@ typedef struct collector {
 
 static ambit_status add(collector *c, size_t i, ambit_expr share) {
   c->balance[i] = ambit_graph_op(c->g, AMBIT_OP_ADD, c->balance[i], share);
-  return c->balance[i] == AMBIT_NO_EXPR ? no_memory(c->f) : AMBIT_OK;
+  return c->balance[i] == AMBIT_NO_EXPR ? ambit_no_memory(c->f) : AMBIT_OK;
 }
 
 /* INVALID: this given motion of a joint moves with a state. What the state's equation takes from the mechanism would be
@@ -132,7 +130,7 @@ static ambit_status add(collector *c, size_t i, ambit_expr share) {
 static ambit_status refuse_states(const collector *c, ambit_frame joint, ambit_expr motion) {
   size_t n = ambit_graph_leaves(c->g, 1, &motion, 0, NULL);
   ambit_expr *leaf = malloc((n + 1) * sizeof *leaf);
-  ambit_status status = leaf ? AMBIT_OK : no_memory(c->f);
+  ambit_status status = leaf ? AMBIT_OK : ambit_no_memory(c->f);
   if (leaf) ambit_graph_leaves(c->g, 1, &motion, n, leaf);
   for (size_t k = 0; status == AMBIT_OK && k < n; k++)
     for (size_t i = 0; status == AMBIT_OK && i < c->m->ncoordinate; i++) {
@@ -154,7 +152,7 @@ static ambit_status add_follower(collector *c, ambit_frame joint, uint32_t k, am
   if (!rates) return AMBIT_INVALID;
   size_t all = ambit_graph_leaves(c->g, 1, &rates[k], 0, NULL);
   ambit_expr *leaf = malloc((all + 1) * sizeof *leaf);
-  ambit_status status = leaf ? AMBIT_OK : no_memory(c->f);
+  ambit_status status = leaf ? AMBIT_OK : ambit_no_memory(c->f);
   if (leaf) ambit_graph_leaves(c->g, 1, &rates[k], all, leaf);
   for (size_t j = 0; status == AMBIT_OK && j < all; j++) {
     size_t i = 0;

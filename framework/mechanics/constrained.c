@@ -19,8 +19,6 @@ typedef struct reduction {
   ambit_expr *du;    /* [nfree] in terms of q, u, t */
 } reduction;
 
-static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
-
 static ambit_expr op(const reduction *s, uint32_t code, ambit_expr a, ambit_expr b) {
   return ambit_graph_op(s->g, code, a, b);
 }
@@ -32,7 +30,7 @@ static ambit_expr add_product(const reduction *s, ambit_expr a, ambit_expr b, am
 
 static ambit_status check(const reduction *s, size_t n, const ambit_expr *e) {
   for (size_t i = 0; i < n; i++)
-    if (e[i] == AMBIT_NO_EXPR) return no_memory(s->f);
+    if (e[i] == AMBIT_NO_EXPR) return ambit_no_memory(s->f);
   return AMBIT_OK;
 }
 
@@ -44,7 +42,7 @@ static ambit_status drop_multipliers(
   size_t n = ambit_mechanism_multipliers(m, 0, NULL);
   ambit_multiplier *multiplier = ambit_arena_alloc(arena, (n + 1) * sizeof *multiplier);
   ambit_expr *lambda = ambit_expressions(arena, n), *zero = ambit_expressions(arena, n);
-  if (!multiplier || !lambda || !zero) return no_memory(f);
+  if (!multiplier || !lambda || !zero) return ambit_no_memory(f);
   ambit_mechanism_multipliers(m, n, multiplier);
   for (size_t k = 0; k < n; k++) lambda[k] = multiplier[k].lambda;
   return ambit_graph_substitute(ambit_mechanism_graph(m), ne, e, n, lambda, zero, f);
@@ -52,7 +50,7 @@ static ambit_status drop_multipliers(
 
 static ambit_status build_force(reduction *s) {
   s->force = ambit_expressions(s->arena, s->nu);
-  if (!s->force) return no_memory(s->f);
+  if (!s->force) return ambit_no_memory(s->f);
   memcpy(s->force, s->dynamics.force, s->nu * sizeof *s->force);
   return drop_multipliers(s->m, s->arena, s->nu, s->force, s->f);
 }
@@ -79,7 +77,7 @@ static ambit_status reduced_motion(reduction *s, ambit_motion *reduced) {
   ambit_speed *speed = ambit_arena_alloc(s->arena, (n + 1) * sizeof *speed);
   ambit_expr *mass = ambit_expressions(s->arena, n * n), *force = ambit_expressions(s->arena, n),
              *y = ambit_expressions(s->arena, s->nu);
-  if (!speed || !mass || !force || !y) return no_memory(s->f);
+  if (!speed || !mass || !force || !y) return ambit_no_memory(s->f);
   for (size_t l = 0; l < n; l++) {
     speed[l] = s->loops->constraints.speed[s->independent[l]];
     multiply_mass(s, s->motion.projection + l, n, y);
@@ -107,7 +105,7 @@ static ambit_status build(reduction *s, ambit_motion *reduced) {
   if (status == AMBIT_OK) status = build_force(s);
   if (status == AMBIT_OK) status = reduced_motion(s, reduced);
   s->du = ambit_expressions(s->arena, s->nfree);
-  if (status == AMBIT_OK && !s->du) status = no_memory(s->f);
+  if (status == AMBIT_OK && !s->du) status = ambit_no_memory(s->f);
   if (status == AMBIT_OK && s->nfree) status = ambit_motion_accelerations(s->g, reduced, NULL, s->du, s->f);
   return status;
 }
@@ -116,7 +114,7 @@ static ambit_status build(reduction *s, ambit_motion *reduced) {
 static ambit_status eliminate_speeds(const reduction *s, size_t n, ambit_expr *e) {
   size_t rank = s->loops->partition.rank;
   ambit_expr *from = ambit_expressions(s->arena, rank), *to = ambit_expressions(s->arena, rank);
-  if (!from || !to) return no_memory(s->f);
+  if (!from || !to) return ambit_no_memory(s->f);
   for (size_t k = 0; k < rank; k++) {
     uint32_t i = s->loops->partition.column[k];
     from[k] = s->loops->constraints.speed[i].u;
@@ -132,7 +130,7 @@ static ambit_status add_invariants(
   size_t n = c->n + c->npure;
   ambit_expr *g = ambit_expressions(arena, n);
   const char **name = ambit_arena_alloc(arena, (n + 1) * sizeof *name);
-  if (!g || !name) return no_memory(f);
+  if (!g || !name) return ambit_no_memory(f);
   for (size_t k = 0; k < n; k++) {
     g[k] = c->row[k].g;
     name[k] = c->row[k].name;
@@ -160,7 +158,7 @@ ambit_status ambit_constrained_outline(
   ambit_constraints c;
   ambit_variables v = { 0 };
   ambit_loops *loops = ambit_arena_alloc(arena, sizeof *loops);
-  if (!loops) return no_memory(f);
+  if (!loops) return ambit_no_memory(f);
   ambit_status status = ambit_constraints_build(m, arena, &c, &own);
   if (status == AMBIT_OK && c.n == 0) {
     loops = NULL;
@@ -181,7 +179,7 @@ static ambit_status open_rates(
   ambit_status status = ambit_forward_build(m, form, false, arena, &forward, f);
   const ambit_variables *v = &forward.variables;
   ambit_expr *list = ambit_expressions(arena, v->ncoordinate + v->n);
-  if (status == AMBIT_OK && !list) status = no_memory(f);
+  if (status == AMBIT_OK && !list) status = ambit_no_memory(f);
   if (status != AMBIT_OK) return status;
   for (size_t j = 0; j < v->ncoordinate; j++) list[j] = v->coordinate[j].rate;
   memcpy(list + v->ncoordinate, forward.du, v->n * sizeof *list);
@@ -195,7 +193,7 @@ static ambit_status closed_rates(reduction *s, const ambit_expr **rate) {
   if (status != AMBIT_OK) return status;
   const ambit_constraints *c = &s->loops->constraints;
   ambit_expr *list = ambit_expressions(s->arena, c->nq + s->nfree);
-  if (!list) return no_memory(s->f);
+  if (!list) return ambit_no_memory(s->f);
   for (size_t j = 0; j < c->nq; j++) list[j] = c->coordinate[j].rate;
   memcpy(list + c->nq, s->du, s->nfree * sizeof *list);
   *rate = list;
@@ -232,7 +230,7 @@ static ambit_status build_accelerations(const reduction *s, ambit_expr *du) {
 /* lambda from G_d^T lambda = (M u' - h)_d */
 static ambit_status build_multipliers(reduction *s, const ambit_expr *du, ambit_expr *lambda) {
   ambit_expr *b = ambit_expressions(s->arena, s->nu);
-  if (!b) return no_memory(s->f);
+  if (!b) return ambit_no_memory(s->f);
   multiply_mass(s, du, 1, b);
   for (size_t i = 0; i < s->nu; i++) b[i] = op(s, AMBIT_OP_SUB, b[i], s->force[i]);
   return ambit_loop_solve_transposed(&s->motion.solver, b, lambda, s->f);
@@ -247,7 +245,7 @@ ambit_status ambit_constrained_build(ambit_mechanism *m, ambit_arena *arena, amb
   if (status != AMBIT_OK) return ambit_fail(f, status, "%s", own.message);
   size_t n = c->loops.constraints.n;
   ambit_expr *all = ambit_expressions(arena, 2 * s.nu + n), *du = all + s.nu, *lambda = du + s.nu;
-  if (!all) return no_memory(f);
+  if (!all) return ambit_no_memory(f);
   memcpy(all, s.motion.speed, s.nu * sizeof *all);
   status = build_accelerations(&s, du);
   if (status == AMBIT_OK) status = build_multipliers(&s, du, lambda);
@@ -268,7 +266,7 @@ ambit_status ambit_constrained_express(
   size_t nm = ambit_mechanism_multipliers(k->mechanism, 0, NULL), n = 0;
   ambit_multiplier *multiplier = ambit_arena_alloc(arena, (nm + 1) * sizeof *multiplier);
   ambit_expr *from = ambit_expressions(arena, 2 * k->nu + nm), *to = ambit_expressions(arena, 2 * k->nu + nm);
-  if (!multiplier || !from || !to) return no_memory(f);
+  if (!multiplier || !from || !to) return ambit_no_memory(f);
   for (size_t i = 0; i < k->nu; i++) {
     from[n] = k->speed[i].du, to[n++] = c->du[i];
     from[n] = k->speed[i].u, to[n++] = c->speed[i];

@@ -18,8 +18,6 @@ typedef struct rows {
   size_t count;
 } rows;
 
-static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
-
 static ambit_expr *expressions(ambit_arena *arena, size_t n) {
   return ambit_arena_alloc(arena, (n + 1) * sizeof(ambit_expr));
 }
@@ -48,7 +46,7 @@ static ambit_status read_variables(rows *s) {
   ambit_speed *speed = ambit_arena_alloc(s->arena, (c->nu + 1) * sizeof *speed);
   s->q = expressions(s->arena, c->nq);
   s->rate = expressions(s->arena, c->nq);
-  if (!coordinate || !speed || !s->q || !s->rate) return no_memory(s->f);
+  if (!coordinate || !speed || !s->q || !s->rate) return ambit_no_memory(s->f);
   ambit_mechanism_coordinates(s->m, c->nq, coordinate);
   ambit_mechanism_speeds(s->m, c->nu, speed);
   for (size_t j = 0; j < c->nq; j++) {
@@ -76,7 +74,7 @@ static ambit_status add_row(rows *s, uint32_t part, uint32_t index, uint32_t of,
           s->row[k].loop);
   ambit_constraint *row = &s->row[s->count++];
   *row = (ambit_constraint) { ambit_arena_text(s->arena, loop), ambit_arena_text(s->arena, text), part, index, g };
-  return row->loop && row->name ? AMBIT_OK : no_memory(s->f);
+  return row->loop && row->name ? AMBIT_OK : ambit_no_memory(s->f);
 }
 
 static ambit_status read_part(rows *s, uint32_t part) {
@@ -101,7 +99,7 @@ static ambit_status read_rows(rows *s) {
   size_t room = count_rows(s->m);
   s->row = ambit_arena_alloc(s->arena, (room + 1) * sizeof *s->row);
   s->derivative = expressions(s->arena, room);
-  if (!s->row || !s->derivative) return no_memory(s->f);
+  if (!s->row || !s->derivative) return ambit_no_memory(s->f);
   ambit_status status = AMBIT_OK;
   for (uint32_t part = 0; status == AMBIT_OK && part < ambit_mechanism_count(s->m); part++) status = read_part(s, part);
   return status;
@@ -122,7 +120,7 @@ static const char *forbidden(const rows *s, ambit_expr leaf, const char **kind) 
 static ambit_status check_leaves(const rows *s, const ambit_constraint *row, bool *varies) {
   size_t n = ambit_graph_leaves(s->g, 1, &row->g, 0, NULL);
   ambit_expr *leaf = expressions(s->arena, n);
-  if (!leaf) return no_memory(s->f);
+  if (!leaf) return ambit_no_memory(s->f);
   ambit_graph_leaves(s->g, 1, &row->g, n, leaf);
   *varies = false;
   for (size_t i = 0; i < n; i++) {
@@ -160,7 +158,7 @@ static ambit_status differentiate(rows *s) {
     ambit_status status = check_row(s, &s->row[k]);
     if (status != AMBIT_OK) return status;
     ambit_expr d = ambit_graph_time_derivative(s->g, s->row[k].g, s->c->nq, s->q, s->rate, s->f);
-    if (d == AMBIT_NO_EXPR) return s->f && s->f->status != AMBIT_OK ? s->f->status : no_memory(s->f);
+    if (d == AMBIT_NO_EXPR) return s->f && s->f->status != AMBIT_OK ? s->f->status : ambit_no_memory(s->f);
     s->derivative[k] = ambit_graph_simplify(s->g, d, SIMPLIFY_TERMS);
   }
   return AMBIT_OK;
@@ -170,7 +168,7 @@ static ambit_status sort_rows(rows *s) {
   ambit_constraints *c = s->c;
   ambit_constraint *row = ambit_arena_alloc(s->arena, (s->count + 1) * sizeof *row);
   ambit_expr *rate = expressions(s->arena, s->count);
-  if (!row || !rate) return no_memory(s->f);
+  if (!row || !rate) return ambit_no_memory(s->f);
   size_t total = 0, of[3] = { 0 };
   for (int kind = 0; kind < 3; kind++)
     for (size_t k = 0; k < s->count; k++)
@@ -195,19 +193,19 @@ static ambit_status build_matrices(rows *s) {
   size_t positions = c->n + c->npure;
   ambit_expr *slope = expressions(s->arena, positions * c->nq), *velocity = expressions(s->arena, c->n * c->nu),
              *drive = expressions(s->arena, c->n);
-  if (!slope || !velocity || !drive) return no_memory(s->f);
+  if (!slope || !velocity || !drive) return ambit_no_memory(s->f);
   for (size_t k = 0; k < positions; k++)
     for (size_t j = 0; j < c->nq; j++) {
       slope[k * c->nq + j] = slope_of(s, c->row[k].g, s->q[j]);
-      if (slope[k * c->nq + j] == AMBIT_NO_EXPR) return no_memory(s->f);
+      if (slope[k * c->nq + j] == AMBIT_NO_EXPR) return ambit_no_memory(s->f);
     }
   for (size_t k = 0; k < c->n; k++) {
     for (size_t i = 0; i < c->nu; i++) {
       velocity[k * c->nu + i] = slope_of(s, c->rate[k], c->speed[i].u);
-      if (velocity[k * c->nu + i] == AMBIT_NO_EXPR) return no_memory(s->f);
+      if (velocity[k * c->nu + i] == AMBIT_NO_EXPR) return ambit_no_memory(s->f);
     }
     drive[k] = slope_of(s, c->row[k].g, ambit_graph_time(s->g));
-    if (drive[k] == AMBIT_NO_EXPR) return no_memory(s->f);
+    if (drive[k] == AMBIT_NO_EXPR) return ambit_no_memory(s->f);
   }
   c->slope = slope;
   c->velocity = velocity;

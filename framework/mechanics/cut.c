@@ -61,7 +61,7 @@ ambit_status ambit_cut_give(
   ambit_cell *cell = whole ? ambit_mechanism_cell(m, quantity) : ambit_part_cell(p, port.port, quantity);
   size_t n = ambit_quantity_count(p, whole ? AMBIT_NO_PORT : port.port, quantity);
   ambit_expr *copy = ambit_arena_alloc(m->arena, n * sizeof *copy);
-  if (!copy) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!copy) return ambit_no_memory(f);
   memcpy(copy, value, n * sizeof *copy);
   cell->value = copy;
   cell->state = AMBIT_CELL_DONE;

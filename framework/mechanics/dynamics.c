@@ -23,8 +23,6 @@ typedef struct equations {
   ambit_expr *balance; /* [n] r */
 } equations;
 
-static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
-
 /* -- M and h */
 
 static ambit_expr simplify(const equations *s, ambit_expr e) { return ambit_graph_simplify(s->g, e, SIMPLIFY_TERMS); }
@@ -50,7 +48,7 @@ static ambit_status name_nonlinear(const equations *s) {
 static ambit_status check_symmetry(const equations *s, const ambit_expr *slope) {
   size_t n = s->n, count = 0;
   ambit_expr *gap = ambit_expressions(s->arena, n * n);
-  if (!gap) return no_memory(s->f);
+  if (!gap) return ambit_no_memory(s->f);
   for (size_t i = 0; i < n; i++)
     for (size_t j = 0; j < i; j++)
       gap[count++] = ambit_graph_op(s->g, AMBIT_OP_SUB, slope[i * n + j], slope[j * n + i]);
@@ -71,7 +69,7 @@ static ambit_status read_slopes(ambit_mechanism *m, const equations *s, ambit_ex
       rest && affine ? ambit_affine_in(affine, s->n, s->balance, s->n, s->v.du, slope, rest) : AMBIT_NOMEM;
   bool laws = status == AMBIT_OK && ambit_laws_find(m, affine) < ambit_mechanism_count(m);
   ambit_affine_close(affine);
-  if (status == AMBIT_NOMEM) return no_memory(s->f);
+  if (status == AMBIT_NOMEM) return ambit_no_memory(s->f);
   if (status != AMBIT_OK) return name_nonlinear(s);
   return laws ? check_symmetry(s, slope) : AMBIT_OK;
 }
@@ -114,7 +112,7 @@ static ambit_expr shorter_force(const equations *s, ambit_expr h, ambit_expr at_
 /* Shortening entry by entry costs what the entries share; the list with fewer operations is kept. */
 static ambit_status build_force(const equations *s, ambit_expr *force) {
   ambit_expr *at_rest = ambit_expressions(s->arena, s->n), *apart = ambit_expressions(s->arena, s->n);
-  if (!at_rest || !apart) return no_memory(s->f);
+  if (!at_rest || !apart) return ambit_no_memory(s->f);
   memcpy(force, s->balance, s->n * sizeof *force);
   ambit_status status = ambit_graph_substitute(s->g, s->n, force, s->n, s->v.du, s->v.zero, s->f);
   memcpy(at_rest, force, s->n * sizeof *force);
@@ -130,7 +128,7 @@ static ambit_status pull_equations(ambit_mechanism *m, equations *s) {
   if (status != AMBIT_OK) return status;
   s->n = s->v.n;
   s->balance = ambit_expressions(s->arena, s->n);
-  return s->balance ? ambit_balances_pull(m, &s->v, s->balance, s->f) : no_memory(s->f);
+  return s->balance ? ambit_balances_pull(m, &s->v, s->balance, s->f) : ambit_no_memory(s->f);
 }
 
 ambit_status ambit_motion_build(ambit_mechanism *m, ambit_arena *arena, ambit_motion *motion, ambit_failure *f) {
@@ -138,7 +136,7 @@ ambit_status ambit_motion_build(ambit_mechanism *m, ambit_arena *arena, ambit_mo
   ambit_status status = pull_equations(m, &s);
   if (status != AMBIT_OK) return status;
   ambit_expr *mass = ambit_expressions(arena, s.n * s.n), *force = ambit_expressions(arena, s.n);
-  if (!mass || !force) return no_memory(f);
+  if (!mass || !force) return ambit_no_memory(f);
   status = build_mass(m, &s, mass);
   if (status == AMBIT_OK && !ambit_constraints_exist(m)) status = check_loads(&s, mass);
   if (status == AMBIT_OK) status = build_force(&s, force);
@@ -152,7 +150,7 @@ ambit_status ambit_motion_force(
   ambit_status status = pull_equations(m, &s);
   if (status != AMBIT_OK) return status;
   ambit_expr *h = ambit_expressions(arena, s.n);
-  if (!h) return no_memory(f);
+  if (!h) return ambit_no_memory(f);
   *n = s.n;
   *force = h;
   return build_force(&s, h);
@@ -177,7 +175,7 @@ ambit_status ambit_motion_accelerations(
   size_t n = motion->n;
   ambit_arena *arena = ambit_arena_open();
   ambit_factor a = { g, n, arena ? ambit_expressions(arena, n * n) : NULL, n <= SIMPLIFY_JOINTS ? SIMPLIFY_TERMS : 0 };
-  ambit_status status = a.u ? AMBIT_OK : no_memory(f);
+  ambit_status status = a.u ? AMBIT_OK : ambit_no_memory(f);
   if (status == AMBIT_OK) {
     memcpy(a.u, motion->mass, n * n * sizeof *a.u);
     for (size_t i = 0; i < n; i++)
@@ -187,7 +185,7 @@ ambit_status ambit_motion_accelerations(
   }
   if (status == AMBIT_OK) ambit_factor_solve(&a, du);
   for (size_t i = 0; status == AMBIT_OK && i < n; i++)
-    if (du[i] == AMBIT_NO_EXPR) status = no_memory(f);
+    if (du[i] == AMBIT_NO_EXPR) status = ambit_no_memory(f);
   ambit_arena_close(arena);
   return status;
 }
@@ -199,13 +197,13 @@ ambit_status ambit_dynamics_states(
   size_t nc = v->ncoordinate, nx = nc + v->n;
   const char **name = ambit_arena_alloc(arena, nx * sizeof *name), **unit = ambit_arena_alloc(arena, nx * sizeof *unit);
   ambit_expr *state = ambit_expressions(arena, nx);
-  if (!name || !unit || !state) return no_memory(f);
+  if (!name || !unit || !state) return ambit_no_memory(f);
   for (size_t i = 0; i < nx; i++) {
     bool speed = i >= nc;
     name[i] = ambit_arena_text(arena, speed ? v->speed[i - nc].name : v->coordinate[i].name);
     unit[i] = ambit_arena_text(arena, speed ? v->speed[i - nc].unit : v->coordinate[i].unit);
     state[i] = speed ? v->speed[i - nc].u : v->coordinate[i].q;
-    if (!name[i] || !unit[i]) return no_memory(f);
+    if (!name[i] || !unit[i]) return ambit_no_memory(f);
   }
   *system = (ambit_system) { .graph = g, .nx = nx, .name = name, .unit = unit, .state = state };
   return AMBIT_OK;

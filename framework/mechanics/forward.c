@@ -7,13 +7,11 @@
 #define FEW 2u
 #define MANY 10u
 
-static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
-
 /* tau_beta1; symbols are found by name, so no joint may be called that */
 static ambit_status make_forces(
     ambit_graph *g, const ambit_variables *v, ambit_arena *arena, const ambit_expr **force, ambit_failure *f) {
   ambit_expr *list = ambit_expressions(arena, v->n);
-  if (!list) return no_memory(f);
+  if (!list) return ambit_no_memory(f);
   for (size_t i = 0; i < v->n; i++) {
     char name[160];
     const char *prime = strchr(v->speed[i].name, '\''), *unit = v->speed[i].unit;
@@ -23,7 +21,7 @@ static ambit_status make_forces(
         return ambit_fail(f, AMBIT_INVALID, "joint `%s` has the name of the force along `%.*s`: call it otherwise",
             name, AMBIT_JOINT_NAME(&v->speed[i]));
     list[i] = ambit_graph_symbol(g, name, strncmp(unit, "rad", 3) == 0 ? "N m" : "N");
-    if (list[i] == AMBIT_NO_EXPR) return no_memory(f);
+    if (list[i] == AMBIT_NO_EXPR) return ambit_no_memory(f);
   }
   *force = list;
   return AMBIT_OK;
@@ -48,7 +46,7 @@ static ambit_status by_shorter(
     return AMBIT_OK;
   }
   ambit_expr *other = ambit_expressions(arena, n);
-  if (!other) return no_memory(f);
+  if (!other) return ambit_no_memory(f);
   ambit_status second = by_mass_matrix(m, forward, arena, other, f);
   if (second != AMBIT_OK) return second;
   ambit_graph *g = ambit_mechanism_graph(m);
@@ -65,7 +63,7 @@ ambit_status ambit_forward_build(
   if (status != AMBIT_OK) return status;
   size_t n = forward->variables.n;
   ambit_expr *du = ambit_expressions(arena, n);
-  if (!du) return no_memory(f);
+  if (!du) return ambit_no_memory(f);
   if (with_force) status = make_forces(ambit_mechanism_graph(m), &forward->variables, arena, &forward->force, f);
   if (status != AMBIT_OK) return status;
   forward->du = du;

@@ -193,7 +193,7 @@ static void mark(const ambit_system_source *self, ambit_graph *g) {
 ambit_status ambit_implicit_offer(ambit_mechanism *m, const ambit_loops *loops, uint32_t form, ambit_arena *arena,
     ambit_system *system, ambit_failure *f) {
   source *s = ambit_arena_alloc(arena, sizeof *s);
-  if (!s) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!s) return ambit_no_memory(f);
   *s = (source) { { .write = write, .write_rates = write_rates, .mark = mark }, m, arena, loops,
     ambit_mechanism_count(m), form };
   system->source = &s->base;

@@ -13,8 +13,6 @@ typedef struct numbers {
   bool *used;       /* [n] equations */
 } numbers;
 
-static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
-
 /* The value of a leaf at the reference; data at their midpoints, speeds and everything else at 0. */
 static double value_of(const ambit_loops *loops, const ambit_graph *g, ambit_expr leaf) {
   const ambit_constraints *c = &loops->constraints;
@@ -56,7 +54,7 @@ static ambit_status evaluate(const ambit_loops *loops, ambit_arena *arena, size_
   ambit_interval *in = ambit_arena_alloc(arena, (nleaf + 1) * sizeof *in);
   uint32_t *place = ambit_arena_alloc(arena, n * sizeof *place);
   double *rest = ambit_arena_alloc(arena, n * sizeof *rest);
-  if (!leaf || !in || !place || !rest) return no_memory(f);
+  if (!leaf || !in || !place || !rest) return ambit_no_memory(f);
   ambit_graph_leaves(g, n, e, nleaf, leaf);
   for (size_t k = 0; k < n; k++) place[k] = UINT32_MAX;
   for (size_t i = 0; i < nleaf; i++) {
@@ -69,7 +67,7 @@ static ambit_status evaluate(const ambit_loops *loops, ambit_arena *arena, size_
   ambit_status status = ambit_tape_seal(g, arena, n, e, nleaf, leaf, 0, 0, &tape, f);
   if (status != AMBIT_OK) return status;
   ambit_interval *slot = ambit_arena_alloc(arena, (tape->nslot + 1) * sizeof *slot);
-  if (!slot) return no_memory(f);
+  if (!slot) return ambit_no_memory(f);
   read_columns(tape, n, place, in, slot, rest, m);
   return AMBIT_OK;
 }
@@ -130,7 +128,7 @@ ambit_status ambit_implicit_order(const ambit_loops *loops, size_t n, const ambi
   if (arena) m.a = ambit_arena_alloc(arena, n * n * sizeof *m.a);
   if (arena) m.size = ambit_arena_alloc(arena, n * n * sizeof *m.size);
   if (arena) m.used = ambit_arena_alloc(arena, n * sizeof *m.used);
-  ambit_status status = m.a && m.size && m.used ? evaluate(loops, arena, n, e, unknown, &m, f) : no_memory(f);
+  ambit_status status = m.a && m.size && m.used ? evaluate(loops, arena, n, e, unknown, &m, f) : ambit_no_memory(f);
   if (status == AMBIT_OK) search(&m, order, equation);
   ambit_arena_close(arena);
   return status;

@@ -11,14 +11,12 @@
 
 #define SIMPLIFY_TERMS 64u
 
-static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
-
 /* The list, or each entry as short as it can be written, whichever has fewer operations. */
 static ambit_status shorten(ambit_graph *g, ambit_arena *arena, size_t n, ambit_expr *e, ambit_failure *f) {
   ambit_expr *apart = ambit_expressions(arena, n);
-  if (!apart) return no_memory(f);
+  if (!apart) return ambit_no_memory(f);
   for (size_t i = 0; i < n; i++) {
-    if (e[i] == AMBIT_NO_EXPR) return no_memory(f);
+    if (e[i] == AMBIT_NO_EXPR) return ambit_no_memory(f);
     apart[i] = ambit_graph_simplify(g, e[i], SIMPLIFY_TERMS);
   }
   if (ambit_graph_size(g, n, apart) < ambit_graph_size(g, n, e)) memcpy(e, apart, n * sizeof *e);
@@ -31,7 +29,7 @@ ambit_status ambit_inverse_dynamics(ambit_mechanism *m, ambit_arena *arena, ambi
   ambit_status status = ambit_variables_read(m, arena, &v, f);
   if (status != AMBIT_OK) return status;
   ambit_expr *e = ambit_expressions(arena, v.n);
-  if (!e) return no_memory(f);
+  if (!e) return ambit_no_memory(f);
   status = ambit_balances_pull(m, &v, e, f);
   if (status != AMBIT_OK) return status;
   for (size_t i = 0; i < v.n; i++) e[i] = ambit_graph_op(g, AMBIT_OP_NEG, e[i], 0);
@@ -48,7 +46,7 @@ static ambit_status by_field(
   ambit_affine *affine = ambit_affine_open(ambit_mechanism_graph(m), 3, field);
   ambit_arena *arena = ambit_arena_open();
   ambit_expr *balance = arena ? ambit_expressions(arena, 2 * v->n) : NULL;
-  ambit_status status = cut && affine && balance ? AMBIT_OK : no_memory(f);
+  ambit_status status = cut && affine && balance ? AMBIT_OK : ambit_no_memory(f);
   if (status == AMBIT_OK) status = ambit_cut_give(cut, AMBIT_NOWHERE, AMBIT_FIELD, field, f);
   if (status == AMBIT_OK) status = ambit_balances_pull(m, v, balance, f);
   if (status == AMBIT_OK) {
@@ -56,7 +54,7 @@ static ambit_status by_field(
     if (status == AMBIT_DOMAIN)
       status = ambit_fail(f, AMBIT_INVALID, "the forces of the mechanism are not linear in the field of gravity");
     else if (status != AMBIT_OK)
-      status = no_memory(f);
+      status = ambit_no_memory(f);
   }
   ambit_affine_close(affine);
   ambit_cut_close(cut);
@@ -72,8 +70,8 @@ ambit_status ambit_gravity_torque(ambit_mechanism *m, ambit_arena *arena, ambit_
   if (!field) return AMBIT_INVALID;
   ambit_expr symbol[3], *e = ambit_expressions(arena, v.n), *slope = ambit_expressions(arena, 3 * v.n);
   for (int k = 0; k < 3; k++)
-    if ((symbol[k] = ambit_graph_unknown(g, NULL, AMBIT_ENTIRE)) == AMBIT_NO_EXPR) return no_memory(f);
-  if (!e || !slope) return no_memory(f);
+    if ((symbol[k] = ambit_graph_unknown(g, NULL, AMBIT_ENTIRE)) == AMBIT_NO_EXPR) return ambit_no_memory(f);
+  if (!e || !slope) return ambit_no_memory(f);
   status = by_field(m, &v, symbol, slope, f);
   for (size_t i = 0; status == AMBIT_OK && i < v.n; i++)
     for (size_t k = 0; k < 3; k++)
@@ -108,7 +106,7 @@ static ambit_status pull_velocity(
   for (int i = 0; i < 6; i++) {
     velocity[i] = 0;
     for (int k = 0; k < 3; k++) velocity[i] = plus(g, velocity[i], pose[3 * (i % 3) + k], own[3 * (i / 3) + k]);
-    if (velocity[i] == AMBIT_NO_EXPR) return no_memory(f);
+    if (velocity[i] == AMBIT_NO_EXPR) return ambit_no_memory(f);
   }
   return AMBIT_OK;
 }
@@ -127,7 +125,7 @@ ambit_status ambit_jacobian(ambit_mechanism *m, ambit_frame frame, const ambit_e
   ambit_affine_close(affine);
   if (status == AMBIT_DOMAIN)
     return ambit_fail(f, AMBIT_INVALID, "the velocity of the frame is not linear in the speeds of the joints");
-  if (status != AMBIT_OK) return no_memory(f);
+  if (status != AMBIT_OK) return ambit_no_memory(f);
   *jacobian = (ambit_list) { v.n, e };
   return shorten(g, arena, 6 * v.n, e, f);
 }

@@ -3,8 +3,6 @@
 #include "mechanics/balance.h"
 #include <string.h>
 
-static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
-
 typedef struct motion {
   const ambit_loops *loops;
   ambit_graph *g;
@@ -56,14 +54,14 @@ static ambit_status build_speed(motion *s, const ambit_expr *projection, ambit_e
 static ambit_status build_bias(motion *s, ambit_expr *bias) {
   const ambit_constraints *c = &s->loops->constraints;
   ambit_expr *q = ambit_expressions(s->arena, c->nq), *rate = ambit_expressions(s->arena, c->nq);
-  if (!q || !rate) return no_memory(s->f);
+  if (!q || !rate) return ambit_no_memory(s->f);
   for (size_t j = 0; j < c->nq; j++) {
     q[j] = c->coordinate[j].q;
     rate[j] = c->coordinate[j].rate;
   }
   for (size_t k = 0; k < c->n; k++) {
     ambit_expr gamma = ambit_graph_time_derivative(s->g, c->rate[k], c->nq, q, rate, s->f);
-    if (gamma == AMBIT_NO_EXPR) return s->f->status != AMBIT_OK ? s->f->status : no_memory(s->f);
+    if (gamma == AMBIT_NO_EXPR) return s->f->status != AMBIT_OK ? s->f->status : ambit_no_memory(s->f);
     s->b[k] = ambit_graph_simplify(s->g, gamma, 64);
   }
   ambit_status status = solve_negative(s);
@@ -84,7 +82,7 @@ ambit_status ambit_loop_motion_build(
     .x = ambit_expressions(arena, c->nu) };
   ambit_expr *projection = ambit_expressions(arena, c->nu * loops->nfree), *speed = ambit_expressions(arena, c->nu),
              *bias = ambit_expressions(arena, c->nu);
-  if (!s.b || !s.x || !projection || !speed || !bias) return no_memory(f);
+  if (!s.b || !s.x || !projection || !speed || !bias) return ambit_no_memory(f);
   *out = (ambit_loop_motion) { .projection = projection, .speed = speed, .bias = bias };
   ambit_status status = ambit_loop_solver_open(s.g, arena, &loops->partition, c->velocity, &out->solver, &own);
   if (status == AMBIT_OK) status = build_projection(&s, projection);

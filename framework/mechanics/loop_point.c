@@ -13,8 +13,6 @@
 #define CLOSED 1e-11 /* residual relative to the size of the rows */
 #define STRIDE 1.0   /* no coordinate moves further in a step; rad, m */
 
-static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
-
 static ambit_status seal(
     ambit_loop_point *p, ambit_arena *arena, size_t nout, const ambit_expr *out, ambit_failure *f) {
   ambit_graph *g = ambit_mechanism_graph(p->c->mechanism);
@@ -22,7 +20,7 @@ static ambit_status seal(
   ambit_expr *leaf = ambit_arena_alloc(arena, (n + 1) * sizeof *leaf);
   p->in = ambit_arena_alloc(arena, (n + 1) * sizeof *p->in);
   p->place = ambit_arena_alloc(arena, (p->c->nq + 1) * sizeof *p->place);
-  if (!leaf || !p->in || !p->place) return no_memory(f);
+  if (!leaf || !p->in || !p->place) return ambit_no_memory(f);
   ambit_graph_leaves(g, nout, out, n, leaf);
   for (size_t j = 0; j < p->c->nq; j++) p->place[j] = SIZE_MAX;
   p->time = SIZE_MAX;
@@ -36,7 +34,7 @@ static ambit_status seal(
   ambit_status status = ambit_tape_seal(g, arena, nout, out, n, leaf, 0, 0, &p->tape, f);
   if (status != AMBIT_OK) return status;
   p->slot = ambit_arena_alloc(arena, (p->tape->nslot + 1) * sizeof *p->slot);
-  return p->slot ? AMBIT_OK : no_memory(f);
+  return p->slot ? AMBIT_OK : ambit_no_memory(f);
 }
 
 ambit_status ambit_loop_point_open(
@@ -46,7 +44,7 @@ ambit_status ambit_loop_point_open(
   ambit_expr *out = ambit_arena_alloc(arena, (ng + ns + nv + c->n + 1) * sizeof *out);
   p->g = ambit_arena_alloc(arena, (ng + ns + nv + c->n + 1) * sizeof *p->g);
   p->scratch = ambit_arena_alloc(arena, (rows * rows + 2 * rows + c->nq + 1) * sizeof *p->scratch);
-  if (!out || !p->g || !p->scratch) return no_memory(f);
+  if (!out || !p->g || !p->scratch) return ambit_no_memory(f);
   p->slope = p->g + ng;
   p->velocity = p->slope + ns;
   p->drive = p->velocity + nv;

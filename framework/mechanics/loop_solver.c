@@ -4,8 +4,6 @@
 
 #define SIMPLIFY_TERMS 64u
 
-static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
-
 static ambit_expr op(const ambit_loop_solver *s, uint32_t code, ambit_expr a, ambit_expr b) {
   return ambit_graph_op(s->g, code, a, b);
 }
@@ -85,13 +83,13 @@ ambit_status ambit_loop_solver_open(ambit_graph *g, ambit_arena *arena, const am
     const ambit_expr *velocity, ambit_loop_solver *s, ambit_failure *f) {
   *s = (ambit_loop_solver) { g, p, velocity, ambit_arena_alloc(arena, (p->nblock + 1) * sizeof *s->block),
     ambit_arena_alloc(arena, (p->rank + 1) * sizeof *s->work) };
-  if (!s->block || !s->work) return no_memory(f);
+  if (!s->block || !s->work) return ambit_no_memory(f);
   for (size_t i = 0; i < p->nblock; i++) {
     ambit_loop_block *b = &s->block[i];
     b->first = p->block[i];
     b->n = p->block[i + 1] - b->first;
     b->a = ambit_arena_alloc(arena, b->n * b->n * sizeof *b->a);
-    if (!b->a) return no_memory(f);
+    if (!b->a) return ambit_no_memory(f);
     if (b->n <= AMBIT_CRAMER)
       adjugate(s, b);
     else
@@ -137,7 +135,7 @@ static void solve_block(const ambit_loop_solver *s, const ambit_loop_block *b, b
 
 static ambit_status check(const ambit_loop_solver *s, ambit_failure *f) {
   for (size_t k = 0; k < s->p->rank; k++)
-    if (s->work[k] == AMBIT_NO_EXPR) return no_memory(f);
+    if (s->work[k] == AMBIT_NO_EXPR) return ambit_no_memory(f);
   return AMBIT_OK;
 }
 

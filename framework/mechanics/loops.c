@@ -20,8 +20,6 @@ typedef struct search {
   ambit_random random;
 } search;
 
-static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
-
 /* -- what the user says */
 
 static const char **copy_names(ambit_mechanism *m, size_t n, const char *const *name) {
@@ -35,7 +33,7 @@ ambit_status ambit_loops_refer(
     ambit_mechanism *m, size_t n, const char *const *name, const double *value, ambit_failure *f) {
   const char **names = copy_names(m, n, name);
   double *values = ambit_arena_alloc(m->arena, (n + 1) * sizeof *values);
-  if (!names || !values) return no_memory(f);
+  if (!names || !values) return ambit_no_memory(f);
   memcpy(values, value, n * sizeof *values);
   m->choice.reference_name = names;
   m->choice.reference = values;
@@ -45,7 +43,7 @@ ambit_status ambit_loops_refer(
 
 ambit_status ambit_loops_choose(ambit_mechanism *m, size_t n, const char *const *name, ambit_failure *f) {
   const char **names = copy_names(m, n, name);
-  if (!names) return no_memory(f);
+  if (!names) return ambit_no_memory(f);
   m->choice.independent = names;
   m->choice.nindependent = n;
   return AMBIT_OK;
@@ -173,7 +171,7 @@ static ambit_status choose(search *s, ambit_partition *p) {
   const ambit_constraints *c = s->c;
   bool *nonzero = ambit_arena_alloc(s->arena, (c->n * c->nu + 1) * sizeof *nonzero),
        *keep = ambit_arena_alloc(s->arena, (c->nu + 1) * sizeof *keep);
-  if (!nonzero || !keep) return no_memory(s->f);
+  if (!nonzero || !keep) return ambit_no_memory(s->f);
   for (size_t i = 0; i < c->n * c->nu; i++) nonzero[i] = c->velocity[i] != 0;
   ambit_status status = read_independent(s, keep);
   size_t rank = status == AMBIT_OK ? rank_at(s, s->q) : 0;
@@ -196,7 +194,7 @@ static ambit_status check_singular(search *s, const ambit_partition *p, ambit_st
 static ambit_status check_drives(search *s, const ambit_partition *p) {
   size_t n = s->c->n, nu = s->c->nu;
   double *a = ambit_arena_alloc(s->arena, (n * (nu + 1) + 1) * sizeof *a);
-  if (!a) return no_memory(s->f);
+  if (!a) return ambit_no_memory(s->f);
   for (size_t k = 0; k < n; k++) {
     memcpy(a + k * (nu + 1), s->point.velocity + k * nu, nu * sizeof *a);
     a[k * (nu + 1) + nu] = s->point.drive[k];
@@ -226,7 +224,7 @@ ambit_status ambit_loops_build(ambit_mechanism *m, ambit_arena *arena, ambit_loo
   if (status == AMBIT_OK) status = ambit_loop_point_open(c, arena, &s.point, &own);
   s.q = ambit_arena_alloc(arena, (c->nq + 1) * sizeof *s.q);
   s.other = ambit_arena_alloc(arena, (c->nq + 1) * sizeof *s.other);
-  if (!s.q || !s.other) status = no_memory(&own);
+  if (!s.q || !s.other) status = ambit_no_memory(&own);
   if (status == AMBIT_OK) status = read_reference(&s);
   if (status == AMBIT_OK && c->n) status = find_reference(&s);
   ambit_status singular = status == AMBIT_OK && c->n ? leave_singularity(&s) : AMBIT_OK;

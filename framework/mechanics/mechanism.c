@@ -6,8 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
-
 const char *ambit_part_who(const ambit_part *p, char out[AMBIT_WHO_MAX]) {
   snprintf(out, AMBIT_WHO_MAX, "%s `%s`%s%s%s", p->type, p->name, p->where ? " (" : "", p->where ? p->where : "",
       p->where ? ")" : "");
@@ -126,13 +124,13 @@ static ambit_status make_variables(ambit_mechanism *m, ambit_part *p, ambit_fail
   p->coordinate = unmade(m, p->ncoordinate);
   p->speed = unmade(m, p->dof);
   p->multiplier = unmade(m, p->rows);
-  return p->coordinate && p->speed && p->multiplier ? AMBIT_OK : no_memory(f);
+  return p->coordinate && p->speed && p->multiplier ? AMBIT_OK : ambit_no_memory(f);
 }
 
 static ambit_status make_cells(ambit_mechanism *m, ambit_part *p, uint32_t number, ambit_failure *f) {
   const ambit_element *e = p->element;
   p->cell = ambit_arena_alloc(m->arena, (size_t)(e->nport + 1) * AMBIT_COLUMNS * sizeof *p->cell);
-  if (!p->cell) return no_memory(f);
+  if (!p->cell) return ambit_no_memory(f);
   for (uint32_t i = 0; i <= e->nport; i++)
     for (uint32_t k = 0; k < AMBIT_COLUMNS; k++) {
       ambit_cell *cell = &p->cell[i * AMBIT_COLUMNS + k];
@@ -198,7 +196,7 @@ static ambit_status check_connection(
 static ambit_status connect(ambit_mechanism *m, ambit_part *p, const ambit_frame *to, ambit_failure *f) {
   ambit_status status = AMBIT_OK;
   p->joined = ambit_arena_alloc(m->arena, (p->element->nport + 1) * sizeof *p->joined);
-  if (!p->joined) return no_memory(f);
+  if (!p->joined) return ambit_no_memory(f);
   for (uint32_t i = 0; status == AMBIT_OK && i < p->element->nport; i++) {
     const ambit_port *own = &p->element->port[i];
     ambit_frame other = to && own->role == AMBIT_ROLE_IN ? to[i] : AMBIT_NOWHERE;
@@ -253,14 +251,14 @@ static ambit_status check_element(const ambit_part_spec *spec, ambit_failure *f)
 static ambit_status fill_part(ambit_mechanism *m, ambit_part *p, const ambit_part_spec *spec, ambit_failure *f) {
   p->element = spec->element;
   p->type = ambit_arena_text(m->arena, spec->type);
-  if (!p->type) return no_memory(f);
+  if (!p->type) return ambit_no_memory(f);
   p->where = spec->where && *spec->where ? ambit_arena_text(m->arena, spec->where) : NULL;
   p->unit = ambit_arena_text(m->arena, spec->unit ? spec->unit : "1");
   p->name = spec->name ? ambit_arena_text(m->arena, spec->name) : ambit_part_make_name(m, p->type);
-  if (!p->name || !p->unit) return no_memory(f);
+  if (!p->name || !p->unit) return ambit_no_memory(f);
   ambit_status status = ambit_part_check_name(m, p, f);
   if (status == AMBIT_OK) status = ambit_part_take_params(m, p, spec->param, f);
-  if (status == AMBIT_OK && !ambit_part_name_data(m, p)) return no_memory(f);
+  if (status == AMBIT_OK && !ambit_part_name_data(m, p)) return ambit_no_memory(f);
   if (status == AMBIT_OK) status = connect(m, p, spec->connection, f);
   return status == AMBIT_OK ? make_cells(m, p, (uint32_t)m->count, f) : status;
 }
@@ -269,14 +267,14 @@ ambit_status ambit_mechanism_add(ambit_mechanism *m, const ambit_part_spec *spec
   ambit_status status = check_element(spec, f);
   if (status != AMBIT_OK) return status;
   ambit_part *grown = ambit_vector_reserve(m->part, &m->capacity, m->count + 1, sizeof *grown);
-  if (!grown || m->count >= UINT32_MAX - 1) return no_memory(f);
+  if (!grown || m->count >= UINT32_MAX - 1) return ambit_no_memory(f);
   m->part = grown;
   ambit_part part = { 0 };
   status = fill_part(m, &part, spec, f);
   m->part[m->count] = part;
   if (status == AMBIT_OK) status = ambit_build_check(m, (uint32_t)m->count, f);
   if (status != AMBIT_OK) return status;
-  if (!ambit_part_enter_name(m, &part)) return no_memory(f);
+  if (!ambit_part_enter_name(m, &part)) return ambit_no_memory(f);
   uint32_t own = (uint32_t)m->count++;
   for (uint32_t i = 0; i < part.element->nport; i++) attach(m, own, i);
   m->available += available(part.element);

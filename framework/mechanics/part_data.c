@@ -70,7 +70,7 @@ static ambit_status take_param(ambit_mechanism *m, ambit_part *p, size_t i, cons
         f, AMBIT_INVALID, "%s needs `%s`: %s", who, param->name, param->doc ? param->doc : "no description");
   if (!given && !*param->fallback) return AMBIT_OK;
   ambit_expr *value = ambit_arena_alloc(m->arena, n * sizeof *value);
-  if (!value) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!value) return ambit_no_memory(f);
   p->param[i] = value;
   if (given)
     memcpy(value, given, n * sizeof *value);
@@ -117,7 +117,7 @@ ambit_status ambit_part_take_params(
   ambit_status status = AMBIT_OK;
   p->nparam = ambit_params_count(p->element->param);
   p->param = ambit_arena_alloc(m->arena, (p->nparam + 1) * sizeof *p->param);
-  if (!p->param) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!p->param) return ambit_no_memory(f);
   for (size_t i = 0; status == AMBIT_OK && i < p->nparam; i++) status = take_param(m, p, i, given ? given[i] : NULL, f);
   return status;
 }

@@ -44,11 +44,9 @@ static ambit_status check_free(
       f, AMBIT_INVALID, "%s: its %s `%s` has the name of another variable", ambit_part_who(p, who), what, name);
 }
 
-static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
-
 static ambit_status add_speed(ambit_mechanism *m, const ambit_speed *s, ambit_failure *f) {
   ambit_speed *grown = ambit_vector_reserve(m->speed, &m->speed_capacity, m->nspeed + 1, sizeof *grown);
-  if (!grown || !s->name || !s->unit || s->u == AMBIT_NO_EXPR || s->du == AMBIT_NO_EXPR) return no_memory(f);
+  if (!grown || !s->name || !s->unit || s->u == AMBIT_NO_EXPR || s->du == AMBIT_NO_EXPR) return ambit_no_memory(f);
   m->speed = grown;
   grown[m->nspeed] = *s;
   m->part[s->part].speed[s->index] = (uint32_t)m->nspeed++;
@@ -89,7 +87,7 @@ const ambit_coordinate *ambit_part_coordinate(
     .index = i,
     .own = p->dof == 0 };
   bool good = grown && c.name && c.unit && c.q != AMBIT_NO_EXPR;
-  if (!good) no_memory(f);
+  if (!good) ambit_no_memory(f);
   if (!good || (ambit_part_has_rates(p) && add_rate(m, &c, f) != AMBIT_OK)) return NULL;
   p->coordinate[i] = (uint32_t)m->ncoordinate;
   grown[m->ncoordinate] = c;
@@ -127,7 +125,7 @@ const ambit_multiplier *ambit_part_multiplier(
     .name = ambit_arena_text(m->arena, name), .lambda = symbol(m, unit, "", name, ""), .part = part, .index = i
   };
   if (!grown || !one.name || one.lambda == AMBIT_NO_EXPR) {
-    no_memory(f);
+    ambit_no_memory(f);
     return NULL;
   }
   p->multiplier[i] = (uint32_t)m->nmultiplier;

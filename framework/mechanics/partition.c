@@ -6,8 +6,6 @@
 #define THRESHOLD 0.1
 #define NOTHING 1e-14 /* an entry that counts as 0 where fill-in is counted */
 
-static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
-
 static uint32_t *numbers(ambit_arena *arena, size_t n) { return ambit_arena_alloc(arena, (n + 1) * sizeof(uint32_t)); }
 
 /* -- pivots */
@@ -78,7 +76,7 @@ size_t ambit_partition_rank(ambit_arena *arena, size_t n, size_t nu, const doubl
   elimination e;
   size_t rank = 0, i, j;
   if (!open_elimination(arena, n, nu, value, &e)) {
-    no_memory(f);
+    ambit_no_memory(f);
     return 0;
   }
   for (; find_pivot(&e, &i, &j); rank++) eliminate(&e, i, j);
@@ -155,7 +153,7 @@ static ambit_status order_blocks(ambit_arena *arena, const bool *nonzero, ambit_
     .start = numbers(arena, n + 1) };
   uint32_t *row = numbers(arena, n), *column = numbers(arena, n);
   if (!t.index || !t.low || !t.stack || !t.frame || !t.next || !t.stacked || !t.order || !t.start || !row || !column)
-    return no_memory(f);
+    return ambit_no_memory(f);
   for (uint32_t k = 0; k < n; k++)
     if (!t.index[k]) visit(&t, k);
   for (size_t k = 0; k < n; k++) {
@@ -181,7 +179,7 @@ ambit_status ambit_partition_choose(ambit_arena *arena, size_t n, size_t nu, con
     .independent = numbers(arena, nu),
     .redundant = numbers(arena, n) };
   if (!p->row || !p->column || !p->independent || !p->redundant || !open_elimination(arena, n, nu, value, &e))
-    return no_memory(f);
+    return ambit_no_memory(f);
   if (keep) memcpy(e.column_out, keep, nu * sizeof *keep);
   for (; find_pivot(&e, &i, &j); p->rank++) {
     eliminate(&e, i, j);

@@ -88,7 +88,7 @@ ambit_status ambit_pivots_check(ambit_graph *g, size_t n, const ambit_speed *spe
     const ambit_expr *scale, ambit_failure *f) {
   bool certain = true;
   for (size_t i = 0; i < n; i++) {
-    if (pivot[i] == AMBIT_NO_EXPR) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+    if (pivot[i] == AMBIT_NO_EXPR) return ambit_no_memory(f);
     ambit_interval range = ambit_graph_node(g, pivot[i])->range;
     if (range.hi < 0)
       return ambit_fail(f, AMBIT_INVALID, "the mass matrix is not positive: joint `%.*s` moves a negative mass",

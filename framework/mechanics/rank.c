@@ -31,8 +31,6 @@ typedef struct certificate {
   bool any;        /* some box may hold an assembled configuration */
 } certificate;
 
-static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
-
 /* -- the leaves and their ranges */
 
 static ambit_status range_of(const ambit_rank_request *q, const ambit_constraints *c, const ambit_node *node,
@@ -60,14 +58,14 @@ static ambit_status read_leaves(certificate *s, const ambit_rank_request *q) {
   const ambit_constraints *c = s->c;
   size_t nexpr = c->n + c->npure + c->n * c->nu;
   ambit_expr *all = ambit_arena_alloc(s->arena, (nexpr + 1) * sizeof *all);
-  if (!all) return no_memory(s->f);
+  if (!all) return ambit_no_memory(s->f);
   for (size_t k = 0; k < c->n + c->npure; k++) all[k] = c->row[k].g;
   memcpy(all + c->n + c->npure, c->velocity, c->n * c->nu * sizeof *all);
   s->nin = ambit_graph_leaves(s->g, nexpr, all, 0, NULL);
   ambit_expr *found = ambit_arena_alloc(s->arena, (s->nin + 1) * sizeof *found);
   s->leaf = ambit_arena_alloc(s->arena, (s->nin + 1) * sizeof *s->leaf);
   s->whole = ambit_arena_alloc(s->arena, (s->nin + 1) * sizeof *s->whole);
-  if (!found || !s->leaf || !s->whole) return no_memory(s->f);
+  if (!found || !s->leaf || !s->whole) return ambit_no_memory(s->f);
   ambit_graph_leaves(s->g, nexpr, all, s->nin, found);
   size_t n = 0;
   for (int data = 0; data < 2; data++) /* coordinates and time first */
@@ -87,19 +85,19 @@ static ambit_status read_leaves(certificate *s, const ambit_rank_request *q) {
 static ambit_status open_contractor(certificate *s, ambit_lease *lease) {
   size_t n = s->c->n + s->c->npure;
   ambit_expr *g = ambit_arena_alloc(s->arena, (n + 1) * sizeof *g);
-  if (!g) return no_memory(s->f);
+  if (!g) return ambit_no_memory(s->f);
   for (size_t k = 0; k < n; k++) g[k] = s->c->row[k].g;
   ambit_status status = ambit_tape_seal(s->g, s->arena, n, g, s->nin, s->leaf, 0, 0, &s->residual, s->f);
   if (status != AMBIT_OK) return status;
   return ambit_contract_service_v1.open(&lease->host, s->residual, &s->contractor) == AMBIT_OK ? AMBIT_OK
-                                                                                               : no_memory(s->f);
+                                                                                               : ambit_no_memory(s->f);
 }
 
 /* Entry (k, l) of G_d is output k * rank + l. */
 static ambit_status seal_matrix(certificate *s) {
   size_t rank = s->p->rank, most = 0;
   ambit_expr *e = ambit_arena_alloc(s->arena, (rank * rank + 1) * sizeof *e);
-  if (!e) return no_memory(s->f);
+  if (!e) return ambit_no_memory(s->f);
   for (size_t k = 0; k < rank; k++)
     for (size_t l = 0; l < rank; l++) e[k * rank + l] = s->c->velocity[s->p->row[k] * s->c->nu + s->p->column[l]];
   for (size_t i = 0; i < s->p->nblock; i++) {
@@ -113,7 +111,7 @@ static ambit_status seal_matrix(certificate *s) {
   s->lo = ambit_arena_alloc(s->arena, (2 * s->nin + 1) * sizeof *s->lo);
   s->entry = ambit_arena_alloc(s->arena, (most * most + 1) * sizeof *s->entry);
   s->scratch = ambit_arena_alloc(s->arena, (2 * most * most + 1) * sizeof *s->scratch);
-  if (!s->slot || !s->stack || !s->lo || !s->entry || !s->scratch) return no_memory(s->f);
+  if (!s->slot || !s->stack || !s->lo || !s->entry || !s->scratch) return ambit_no_memory(s->f);
   s->hi = s->lo + s->nin;
   return AMBIT_OK;
 }
@@ -247,7 +245,7 @@ ambit_status ambit_rank_certify(const ambit_rank_request *q, ambit_arena *arena,
   };
   ambit_lease *lease = NULL;
   status = ambit_lease_open(&lease, NULL, NULL);
-  if (status != AMBIT_OK) return no_memory(f);
+  if (status != AMBIT_OK) return ambit_no_memory(f);
   status = read_leaves(&s, q);
   if (status == AMBIT_OK) status = open_contractor(&s, lease);
   if (status == AMBIT_OK) status = certify(&s, &r->loops.partition, r);

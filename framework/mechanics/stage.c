@@ -5,8 +5,6 @@
 #include "mechanics/factor.h"
 #include "mechanics/pivot.h"
 
-static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
-
 static ambit_expr op(const ambit_tree *t, uint32_t code, ambit_expr a, ambit_expr b) {
   return ambit_graph_op(t->g, code, a, b);
 }
@@ -14,7 +12,7 @@ static ambit_expr op(const ambit_tree *t, uint32_t code, ambit_expr a, ambit_exp
 static ambit_status read_affine(const ambit_tree *t, const ambit_stage *s, size_t ne, const ambit_expr *e, size_t n,
     const ambit_expr *symbol, ambit_expr *coefficient, ambit_expr *constant) {
   ambit_status status = ambit_affine_in(t->affine, ne, e, n, symbol, coefficient, constant);
-  if (status == AMBIT_NOMEM) return no_memory(t->f);
+  if (status == AMBIT_NOMEM) return ambit_no_memory(t->f);
   return status == AMBIT_OK
              ? status
              : ambit_stage_misfit(t, s, "its forces depend on accelerations in another way than linearly");
@@ -113,7 +111,7 @@ static ambit_status note_pivot(void *user, size_t k, ambit_expr pivot) {
   if (pivot == 0) return ambit_pivot_massless(speed, t->f);
   ambit_expr scale = 0;
   for (size_t i = 0; i < 6; i++) scale = op(t, AMBIT_OP_ADD, scale, p->j->inertia[i][i]);
-  if (pivot == AMBIT_NO_EXPR || scale == AMBIT_NO_EXPR) return no_memory(t->f);
+  if (pivot == AMBIT_NO_EXPR || scale == AMBIT_NO_EXPR) return ambit_no_memory(t->f);
   t->pivot_speed[t->npivot] = *speed;
   t->pivot[t->npivot] = pivot;
   t->scale[t->npivot++] = scale;
@@ -207,7 +205,7 @@ static ambit_status give_wrench(const joint *j) {
     ambit_expr sum = j->bias[i];
     for (size_t k = 0; k < 6; k++) sum = ambit_stage_plus(t, sum, j->inertia[i][k], j->s->accel[k]);
     wrench[i] = op(t, AMBIT_OP_NEG, sum, 0);
-    if (wrench[i] == AMBIT_NO_EXPR) return no_memory(t->f);
+    if (wrench[i] == AMBIT_NO_EXPR) return ambit_no_memory(t->f);
   }
   return ambit_cut_give(t->cut, ambit_stage_frame(j->s), AMBIT_WRENCH, wrench, t->f);
 }

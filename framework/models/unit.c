@@ -436,5 +436,5 @@ ambit_status ambit_unit_quantity(
   for (unsigned k = 0; k < unit.roots; k++)
     e = ambit_graph_op(g, AMBIT_OP_MUL, e, root_of(g, &unit.root[k], unit.share[k]));
   *out = e;
-  return *out == AMBIT_NO_EXPR ? ambit_fail(f, AMBIT_NOMEM, "out of memory") : AMBIT_OK;
+  return *out == AMBIT_NO_EXPR ? ambit_no_memory(f) : AMBIT_OK;
 }

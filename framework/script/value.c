@@ -161,7 +161,7 @@ static ambit_status text_expression(
   if (*rest) out->dimension = ambit_dimension_known(unit.power);
   if (text_is_set(text, rest)) {
     out->e = set_expression(L, x, inner, rest, wanted ? wanted : dimension, f);
-    return out->e == AMBIT_NO_EXPR ? ambit_fail(f, AMBIT_NOMEM, "out of memory") : AMBIT_OK;
+    return out->e == AMBIT_NO_EXPR ? ambit_no_memory(f) : AMBIT_OK;
   }
   if (!ambit_interval_is_bounded(x) && isinf(x.lo) && isinf(x.hi))
     return ambit_fail(f, AMBIT_INVALID, "\"%s\" is not finite", text);

@@ -4,6 +4,7 @@
 #include "solver/lohner/history.c"
 #include "host/services.h"
 #include "oracle.h"
+#include "shared/axes.h"
 #include <setjmp.h>
 #include <stdarg.h>
 #include <cmocka.h>
@@ -193,7 +194,7 @@ static void underflow_is_paid_for(void **unused) {
 /* -- frames */
 
 static AMBIT_WORKER double defect(uint32_t n, const double *Q) { return frame_defect(n, Q); }
-static AMBIT_WORKER void axes(uint32_t n, double *S, double *Q) { frame_axes(n, S, Q); }
+static AMBIT_WORKER void axes(uint32_t n, double *S, double *Q) { shared_axes(n, S, Q); }
 static AMBIT_WORKER void gram_schmidt(
     uint32_t n, const double *A, const double *w, double *Q, uint32_t *order, double *size) {
   frame_orthogonal(n, A, n, w, Q, order, size);

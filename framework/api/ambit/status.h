@@ -22,6 +22,7 @@ AMBIT_EXPORT ambit_status ambit_fail(ambit_failure *f, ambit_status status, cons
 /* The same with a code, which begins with the word of the status; any other is replaced by that word. */
 AMBIT_EXPORT ambit_status ambit_fail_code(
     ambit_failure *f, ambit_status status, const char *code, const char *format, ...) AMBIT_PRINTF(4, 5);
+static inline ambit_status ambit_no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
 AMBIT_EXPORT void ambit_failure_clear(ambit_failure *f);
 AMBIT_EXPORT const char *ambit_status_name(ambit_status status); /* "ok", "domain", "unable", "invalid", ... */
 

@@ -70,7 +70,7 @@ ambit_status ambit_block_open(
   if (elem == 0 || elem % 8 != 0)
     return ambit_fail(f, AMBIT_INVALID, "the arithmetic's elements have %zu bytes; a multiple of 8 is required", elem);
   ambit_block *made = calloc(1, sizeof *made);
-  if (!made) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!made) return ambit_no_memory(f);
   *made = (ambit_block) {
     .tape = t, .arithmetic = full, .ctx = ctx, .lanes = lanes, .elem = elem, .metered = ambit_meter_is_on()
   };

@@ -164,7 +164,7 @@ ambit_status ambit_load_named(ambit_arena *arena, const ambit_path *path, const 
   snprintf(id, sizeof id, "%s.%s", kind, name);
   for (size_t i = 0; i < path->count; i++) {
     const char *file = ambit_path_file(arena, path->directory[i], kind, name);
-    if (!file) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+    if (!file) return ambit_no_memory(f);
     const char *shadowed = find_shadowed(arena, path, kind, name, file);
     if (shadowed && !ambit_trust_has_shadows())
       return ambit_fail(f, AMBIT_INVALID,

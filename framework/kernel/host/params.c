@@ -161,7 +161,7 @@ static ambit_status unknown_name(const ambit_param *param, const char *owner, co
   size_t count = ambit_params_count(param);
   if (count == 0) return ambit_fail(f, AMBIT_INVALID, "%s has no options, so none called `%s`", owner, name);
   const char **known = calloc(count, sizeof *known);
-  if (!known) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!known) return ambit_no_memory(f);
   char list[512] = "";
   for (size_t i = 0, used = 0; i < count; i++) {
     known[i] = param[i].name;

@@ -69,8 +69,6 @@ static entry *find_named(const ambit_registry *r, const char *kind, const char *
   return NULL;
 }
 
-static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
-
 /* Puts a loaded plugin on the list. */
 static entry *keep(ambit_registry *r, const ambit_loaded *loaded, const char *kind, const char *name) {
   entry *e = ambit_arena_alloc(r->arena, sizeof *e);
@@ -97,7 +95,7 @@ static ambit_status load(ambit_registry *r, const char *kind, const char *name, 
   *e = keep(r, &loaded, kind, name);
   if (*e) return AMBIT_OK;
   dlclose(loaded.handle);
-  return no_memory(f);
+  return ambit_no_memory(f);
 }
 
 ambit_status ambit_registry_plugin(
@@ -124,7 +122,7 @@ ambit_status ambit_registry_load_file(ambit_registry *r, const char *file, const
   char reason[AMBIT_REASON_MAX];
   ambit_loaded loaded;
   const char *kept_name = ambit_arena_text(r->arena, file);
-  if (!kept_name) return no_memory(f);
+  if (!kept_name) return ambit_no_memory(f);
   ambit_status status = ambit_load_file(kept_name, NULL, &loaded, reason);
   if (status != AMBIT_OK) return ambit_fail(f, status, "cannot use %s: %s", file, reason);
   char *id = ambit_arena_text(r->arena, loaded.plugin.id);
@@ -133,7 +131,7 @@ ambit_status ambit_registry_load_file(ambit_registry *r, const char *file, const
   entry *e = id ? keep(r, &loaded, named ? kind : NULL, name) : NULL;
   if (!e) {
     dlclose(loaded.handle);
-    return no_memory(f);
+    return ambit_no_memory(f);
   }
   *p = &e->loaded.plugin;
   return AMBIT_OK;
@@ -147,7 +145,7 @@ static ambit_status copy_interface(
     return ambit_fail(f, AMBIT_INVALID, "plugin `%s` (%s) does not offer the interface `%s`", e->loaded.plugin.id,
         e->loaded.file, id);
   *copy = ambit_arena_alloc(r->arena, own);
-  if (!*copy) return no_memory(f);
+  if (!*copy) return ambit_no_memory(f);
   if (!ambit_load_struct(*copy, own, required, theirs)) {
     uint32_t size;
     memcpy(&size, theirs, sizeof size);
@@ -168,7 +166,7 @@ static ambit_status lacks(const entry *e, const char *id, const char *member, am
 static ambit_status copy_jets(ambit_registry *r, const entry *e, ambit_arithmetic *a, ambit_failure *f) {
   if (!a->jets) return AMBIT_OK;
   ambit_jets *jets = ambit_arena_alloc(r->arena, sizeof *jets);
-  if (!jets) return no_memory(f);
+  if (!jets) return ambit_no_memory(f);
   if (!ambit_load_struct(jets, sizeof *jets, UPTO(ambit_jets, magnitude), a->jets) || !jets->open || !jets->close ||
       !jets->put || !jets->advance || !jets->get || !jets->magnitude)
     return lacks(e, AMBIT_ARITHMETIC, "jets (complete)", f);
@@ -187,15 +185,15 @@ static ambit_status make_arithmetic(ambit_registry *r, entry *e, ambit_failure *
   status = copy_jets(r, e, a, f);
   if (status != AMBIT_OK) return status;
   ambit_arithmetic *full = ambit_arena_alloc(r->arena, sizeof *full);
-  if (!full) return no_memory(f);
+  if (!full) return ambit_no_memory(f);
   status = ambit_arithmetic_complete(a, full, f);
   if (status != AMBIT_OK) return status;
   full->fault = ambit_arena_alloc(r->arena, sizeof *full->fault);
-  if (!full->fault) return no_memory(f);
+  if (!full->fault) return ambit_no_memory(f);
   *full->fault = (ambit_fault) { 0 };
   const ambit_arithmetic *lent =
       ambit_meter_is_on() ? ambit_metered_arithmetic(r->arena, full, e->name ? e->name : e->loaded.plugin.id) : full;
-  if (!lent) return no_memory(f);
+  if (!lent) return ambit_no_memory(f);
   e->arithmetic = lent;
   return AMBIT_OK;
 }

@@ -32,7 +32,7 @@ static ambit_elementary_point load(ambit_failure *f) {
   ambit_path path;
   ambit_elementary_point point = NULL;
   if (!arena || ambit_path_open(arena, search, &path) != AMBIT_OK)
-    ambit_fail(f, AMBIT_NOMEM, "out of memory");
+    ambit_no_memory(f);
   else if (ambit_load_named(arena, &path, "service", "elementary", &plugin, f) == AMBIT_OK)
     point = point_of(&plugin.plugin, f);
   if (point) plugin.file = strdup(plugin.file);

@@ -37,7 +37,7 @@ ambit_status ambit_trust_folder(const char *name, ambit_failure *f) {
     pthread_mutex_unlock(&lock);
   }
   free(real);
-  return made ? AMBIT_OK : ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  return made ? AMBIT_OK : ambit_no_memory(f);
 }
 
 void ambit_trust_shadows(void) {

@@ -7,7 +7,7 @@ static ambit_status substitute(const ambit_evaluate_request *q, ambit_arena *are
   for (size_t i = 0; i < q->nexpr; i++)
     if (q->expr[i] == AMBIT_NO_EXPR) return ambit_fail(f, AMBIT_INVALID, "expression %zu is none", i + 1);
   b->expr = ambit_arena_alloc(arena, q->nexpr * sizeof *b->expr);
-  if (!b->expr) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!b->expr) return ambit_no_memory(f);
   if (q->nexpr) memcpy(b->expr, q->expr, q->nexpr * sizeof *b->expr);
   ambit_status status = AMBIT_OK;
   if (q->nbinding) status = ambit_graph_substitute(q->graph, q->nexpr, b->expr, q->nbinding, q->leaf, q->value, f);

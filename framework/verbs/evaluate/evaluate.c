@@ -60,7 +60,7 @@ static ambit_status find_partial(job *j, uint32_t *flags, ambit_failure *f) {
   if (!ambit_partial_possible(&p)) return AMBIT_OK;
   char blame[AMBIT_BLAME_MAX];
   uint8_t *partial = q->partial ? q->partial : ambit_arena_alloc(j->arena, q->nexpr + 1);
-  if (!partial) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!partial) return ambit_no_memory(f);
   ambit_status status = ambit_partial_find(&p, partial, q->blame ? q->blame : blame, f);
   for (size_t i = 0; i < q->nexpr; i++)
     if (partial[i]) *flags |= AMBIT_F_PARTIAL;
@@ -103,7 +103,7 @@ static void fill_report(const job *j, double ran, ambit_report *report) {
 ambit_status ambit_evaluate(
     const ambit_evaluate_request *q, ambit_interval *out, uint32_t *flags, ambit_report *report, ambit_failure *f) {
   job j = { .q = q, .arena = ambit_arena_open() };
-  if (!j.arena) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!j.arena) return ambit_no_memory(f);
   j.tally = ambit_tally_begin(q->graph);
   ambit_status status = prepare(&j, f);
   ambit_tally_built(&j.tally);

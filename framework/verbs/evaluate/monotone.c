@@ -81,7 +81,7 @@ static ambit_status prepare(search *s, ambit_arena *arena, ambit_expr e, ambit_f
   s->whole = ambit_arena_alloc(arena, n * sizeof *s->whole);
   s->lo = ambit_arena_alloc(arena, n * sizeof *s->lo);
   s->hi = ambit_arena_alloc(arena, n * sizeof *s->hi);
-  if (!s->box || !s->whole || !s->lo || !s->hi) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!s->box || !s->whole || !s->lo || !s->hi) return ambit_no_memory(f);
   for (size_t j = 0; j < n; j++) s->whole[j] = ambit_graph_node(m->graph, m->unknown[j])->value;
   ambit_status status = ambit_tape_seal(m->graph, arena, 1, &e, n, m->unknown, 0, m->seal, &s->tape, f);
   if (status != AMBIT_OK) return status;
@@ -92,7 +92,7 @@ ambit_status ambit_monotone_narrow(const ambit_monotone *m, ambit_expr e, ambit_
   if (!m->context->arithmetic->gradient || m->nunknown == 0 || ambit_interval_is_empty(*x)) return AMBIT_OK;
   search s = { .m = m };
   ambit_arena *arena = ambit_arena_open();
-  if (!arena) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!arena) return ambit_no_memory(f);
   ambit_status status = prepare(&s, arena, e, f);
   if (status == AMBIT_OK) {
     narrow_side(&s, false, x);

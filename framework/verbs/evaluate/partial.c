@@ -6,8 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
-
 bool ambit_partial_possible(const ambit_partial *p) {
   bool possible = p->left;
   for (size_t i = 0; i < p->nexpr && !possible; i++) possible = !ambit_graph_node(p->graph, p->bound->expr[i])->total;
@@ -22,7 +20,7 @@ bool ambit_partial_possible(const ambit_partial *p) {
 static ambit_status trace(const ambit_partial *p, uint32_t *cause, ambit_failure *f) {
   const ambit_tape *t = p->tape;
   uint32_t *flags = ambit_arena_alloc(p->arena, (t->ninstr + 1) * sizeof *flags);
-  if (!flags) return no_memory(f);
+  if (!flags) return ambit_no_memory(f);
   for (uint32_t i = 0; i < t->nslot; i++) cause[i] = UNTAINTED;
   ambit_block_run_each(p->block, flags);
   for (uint32_t i = 0; i < t->ninstr; i++) {
@@ -63,7 +61,7 @@ static ambit_expr find_culprit(const ambit_partial *p, const ambit_walk *walk, u
 
 static ambit_status tell(const ambit_partial *p, size_t i, uint32_t op, char blame[AMBIT_BLAME_MAX], ambit_failure *f) {
   ambit_walk walk;
-  if (!ambit_walk_open(p->graph, 1, &p->bound->expr[i], NULL, &walk)) return no_memory(f);
+  if (!ambit_walk_open(p->graph, 1, &p->bound->expr[i], NULL, &walk)) return ambit_no_memory(f);
   ambit_expr e = find_culprit(p, &walk, op);
   ambit_walk_close(&walk);
   const char *text =
@@ -76,11 +74,11 @@ ambit_status ambit_partial_find(
     const ambit_partial *p, uint8_t *partial, char blame[AMBIT_BLAME_MAX], ambit_failure *f) {
   uint32_t *cause = ambit_arena_alloc(p->arena, (p->tape->nslot + 1) * sizeof *cause);
   ambit_walk walk;
-  if (!cause) return no_memory(f);
+  if (!cause) return ambit_no_memory(f);
   blame[0] = '\0';
   ambit_status status = p->left ? trace(p, cause, f) : AMBIT_OK;
   if (status != AMBIT_OK) return status;
-  if (!ambit_walk_open(p->graph, p->nexpr, p->bound->expr, NULL, &walk)) return no_memory(f);
+  if (!ambit_walk_open(p->graph, p->nexpr, p->bound->expr, NULL, &walk)) return ambit_no_memory(f);
   bool *taint = ambit_arena_alloc(p->arena, walk.count + 1), some = false;
   if (taint) spread(p, &walk, taint);
   for (size_t i = 0; i < p->nexpr && taint; i++) {
@@ -89,7 +87,7 @@ ambit_status ambit_partial_find(
     some = some || partial[i];
   }
   ambit_walk_close(&walk);
-  if (!taint) return no_memory(f);
+  if (!taint) return ambit_no_memory(f);
   if (p->left && !some) memset(partial, 1, p->nexpr); /* seen only in the whole: then of any of them */
   for (size_t i = 0; i < p->nexpr; i++)
     if (partial[i]) return tell(p, i, p->left ? cause[p->tape->out[i]] : UNTAINTED, blame, f);

@@ -186,7 +186,7 @@ static ambit_event_watch *make(const ambit_event_watch_request *q) {
 ambit_status ambit_event_watch_open(const ambit_event_watch_request *q, ambit_event_watch **out, ambit_failure *f) {
   *out = NULL;
   build b = { .q = q, .graph = q->system->graph, .w = make(q), .f = f };
-  if (!b.w) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!b.w) return ambit_no_memory(f);
   ambit_status status = ambit_lease_open(&b.w->lease, NULL, NULL);
   if (status != AMBIT_OK) no_memory(&b);
   if (status == AMBIT_OK && !(b.all = room(&b, 2 * q->n + q->system->nx, sizeof *b.all))) status = no_memory(&b);

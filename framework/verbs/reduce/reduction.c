@@ -34,8 +34,6 @@ typedef struct job {
   ambit_tally tally;
 } job;
 
-static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
-
 static const char *const ranking_name[AMBIT_RANK_COUNT] = { [AMBIT_RANK_RESIDUAL] = "residual",
   [AMBIT_RANK_ONE_STEP] = "one_step",
   [AMBIT_RANK_LOWERED] = "lowered_order",
@@ -53,7 +51,7 @@ static ambit_status refuse_solver(const ambit_reduction_request *q, const ambit_
   char fitting[256] = "";
   size_t n = ambit_registry_list(q->registry, 0, NULL), used = 0;
   ambit_listing *list = calloc(n + 1, sizeof *list);
-  if (!list) return no_memory(f);
+  if (!list) return ambit_no_memory(f);
   size_t found = ambit_registry_list(q->registry, n, list);
   for (size_t i = 0; i < found && i < n && used < sizeof fitting; i++) {
     const ambit_solver *s;
@@ -192,7 +190,7 @@ static ambit_status prepare(job *j, ambit_failure *f) {
   j->tried = ambit_arena_alloc(j->arena, q->ncandidate + 1);
   j->error = ambit_arena_alloc(j->arena, 2 * q->noutput * sizeof *j->error);
   const char *const *name = names(j);
-  if (!j->tried || !j->error || !name) return no_memory(f);
+  if (!j->tried || !j->error || !name) return ambit_no_memory(f);
   j->spare = j->error + q->noutput;
   ambit_reduction *r = &j->reduction;
   r->prove = prove, r->rank = rank, r->tried = tried, r->user = j;
@@ -268,7 +266,7 @@ ambit_status ambit_reduction_run(const ambit_reduction_request *q, uint8_t *cut,
   *result = (ambit_reduction_result) { 0 };
   if (q->ncandidate) memset(cut, 0, q->ncandidate);
   job j = { .q = q, .result = result, .cut = cut, .arena = ambit_arena_open() };
-  if (!j.arena) return no_memory(f);
+  if (!j.arena) return ambit_no_memory(f);
   double begun = ambit_context_seconds();
   j.tally = ambit_tally_begin(q->graph);
   ambit_status status = prepare(&j, f);

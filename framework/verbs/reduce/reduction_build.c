@@ -18,8 +18,6 @@ typedef struct build {
   ambit_expr *in;                     /* [nin] */
 } build;
 
-static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
-
 static void *room(const build *b, size_t n, size_t size) { return ambit_arena_alloc(b->arena, (n + 1) * size); }
 
 /* -- the request */
@@ -83,7 +81,7 @@ static ambit_status settle(const build *b, size_t n, ambit_expr *e, ambit_failur
   ambit_status status = ambit_unknowns_leaves(g, b->arena, n, e, &nleaf, &leaf, f);
   if (status != AMBIT_OK) return status;
   ambit_expr *to = room(b, nleaf, sizeof *to);
-  if (!to) return no_memory(f);
+  if (!to) return ambit_no_memory(f);
   for (size_t i = 0; i < nleaf; i++) {
     const ambit_node *node = ambit_graph_node(g, leaf[i]);
     if (!ambit_leaf_is_uncertain(node->op) || is_given(b->q, leaf[i])) continue;
@@ -94,7 +92,7 @@ static ambit_status settle(const build *b, size_t n, ambit_expr *e, ambit_failur
     }
     leaf[nfrom] = leaf[i];
     to[nfrom] = ambit_graph_number(g, ambit_interval_mid(node->value));
-    if (to[nfrom++] == AMBIT_NO_EXPR) return no_memory(f);
+    if (to[nfrom++] == AMBIT_NO_EXPR) return ambit_no_memory(f);
   }
   return ambit_graph_substitute(g, n, e, nfrom, leaf, to, f);
 }
@@ -112,7 +110,7 @@ static ambit_status gather(build *b, ambit_failure *f) {
   b->rate = copy(b, q->nx, q->rate);
   b->output = copy(b, q->noutput, q->output_expression);
   b->in = room(b, nin, sizeof *b->in);
-  if (!b->effect || !b->rate || !b->output || !b->in) return no_memory(f);
+  if (!b->effect || !b->rate || !b->output || !b->in) return ambit_no_memory(f);
   memcpy(b->in, q->symbol, q->nx * sizeof *b->in);
   if (q->ndata) memcpy(b->in + q->nx, q->data, q->ndata * sizeof *b->in);
   b->in[nin - 1] = ambit_graph_time(q->graph);
@@ -131,12 +129,12 @@ static ambit_status differentiate(
     const build *b, size_t n, const ambit_expr *e, const ambit_tape **tape, ambit_failure *f) {
   size_t nx = b->q->nx;
   ambit_expr *entry = room(b, n * nx, sizeof *entry);
-  if (!entry) return no_memory(f);
+  if (!entry) return ambit_no_memory(f);
   for (size_t i = 0; i < n; i++)
     for (size_t j = 0; j < nx; j++) {
       ambit_failure why = { 0 };
       entry[i * nx + j] = ambit_graph_derivative(b->q->graph, e[i], b->in[j], &why);
-      if (entry[i * nx + j] == AMBIT_NO_EXPR) return why.status == AMBIT_INVALID ? AMBIT_OK : no_memory(f);
+      if (entry[i * nx + j] == AMBIT_NO_EXPR) return why.status == AMBIT_INVALID ? AMBIT_OK : ambit_no_memory(f);
     }
   return seal(b, n * nx, entry, tape, f);
 }
@@ -158,7 +156,7 @@ static ambit_status copy_reference(
     const build *b, const ambit_reduction_reference *from, ambit_reference *to, ambit_failure *f) {
   size_t nx = b->q->nx, ndata = b->q->ndata, nin = b->r->nin;
   double *in = room(b, from->ntime * nin, sizeof *in);
-  if (!in) return no_memory(f);
+  if (!in) return ambit_no_memory(f);
   for (size_t j = 0; j < from->ntime; j++) {
     memcpy(in + j * nin, from->x + j * nx, nx * sizeof *in);
     if (ndata) memcpy(in + j * nin + nx, from->data + j * ndata, ndata * sizeof *in);
@@ -184,7 +182,7 @@ static ambit_status build_references(build *b, ambit_failure *f) {
   const ambit_reduction_request *q = b->q;
   ambit_reference *reference = room(b, q->nreference, sizeof *reference);
   double *scale = room(b, q->nx, sizeof *scale);
-  if (!reference || !scale) return no_memory(f);
+  if (!reference || !scale) return ambit_no_memory(f);
   ambit_status status = AMBIT_OK;
   for (size_t k = 0; k < q->nreference && status == AMBIT_OK; k++)
     status = copy_reference(b, &q->reference[k], &reference[k], f);

@@ -34,7 +34,7 @@ static ambit_status make_room(iteration *it, ambit_failure *f) {
     good = good && (*values[i] = ambit_arena_alloc(r->arena, (r->ne + 1) * sizeof(double)));
   good = good && (it->slope = ambit_arena_alloc(r->arena, (r->ne * r->nx + 1) * sizeof(double)));
   good = good && (it->normal = ambit_arena_alloc(r->arena, (r->nx * r->nx + 1) * sizeof(double)));
-  return good ? AMBIT_OK : ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  return good ? AMBIT_OK : ambit_no_memory(f);
 }
 
 static double squares(size_t n, const double *v) {
@@ -122,7 +122,7 @@ ambit_status ambit_roots_approach(
   ambit_ready r;
   iteration it = { .r = &r, .x = x, .damping = FIRST_DAMPING };
   ambit_arena *arena = ambit_arena_open();
-  if (!arena) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!arena) return ambit_no_memory(f);
   ambit_status status = ambit_equations_prepare(q, arena, &r, f);
   if (status == AMBIT_OK) status = ambit_equations_seal(&r, r.ne, r.equation, 0, &it.f, f);
   if (status == AMBIT_OK) status = ambit_equations_differentiate(&r, r.ne, r.equation, 0, r.nx, 0, &it.J, f);

@@ -11,15 +11,13 @@
 
 #define NAMES_MAX 256
 
-static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
-
 static void *room(ambit_arena *arena, size_t n, size_t size) { return ambit_arena_alloc(arena, (n + 1) * size); }
 
 /* bindings put in; data whose range is one number become that number; 0 = 0 left out */
 static ambit_status bind(const ambit_equations *q, ambit_ready *r, ambit_failure *f) {
   r->equation = room(r->arena, q->ne, sizeof *r->equation);
   r->place = room(r->arena, q->ne, sizeof *r->place);
-  if (!r->equation || !r->place) return no_memory(f);
+  if (!r->equation || !r->place) return ambit_no_memory(f);
   for (size_t i = 0; i < q->ne; i++)
     if (q->equation[i] == AMBIT_NO_EXPR) return ambit_fail(f, AMBIT_INVALID, "equation %zu is none", i + 1);
   if (q->ne) memcpy(r->equation, q->equation, q->ne * sizeof *r->equation);
@@ -53,7 +51,7 @@ static ambit_status find_inputs(const ambit_equations *q, ambit_ready *r, ambit_
   const char **name = room(r->arena, q->nx + n, sizeof *name);
   r->input = room(r->arena, q->nx + n, sizeof *r->input);
   r->p = room(r->arena, n, sizeof *r->p);
-  if (!name || !r->input || !r->p) return no_memory(f);
+  if (!name || !r->input || !r->p) return ambit_no_memory(f);
   for (size_t i = 0; i < q->nx; i++) {
     r->input[i] = q->unknown[i];
     name[i] = ambit_arena_text(r->arena, q->name[i]);
@@ -66,8 +64,8 @@ static ambit_status find_inputs(const ambit_equations *q, ambit_ready *r, ambit_
     r->np++;
   }
   for (size_t i = 0; i < q->nx; i++)
-    if (!name[i]) return no_memory(f);
-  if (!ambit_graph_leaf_names(r->graph, r->arena, r->np, r->input + q->nx, name + q->nx)) return no_memory(f);
+    if (!name[i]) return ambit_no_memory(f);
+  if (!ambit_graph_leaf_names(r->graph, r->arena, r->np, r->input + q->nx, name + q->nx)) return ambit_no_memory(f);
   r->name = name;
   return AMBIT_OK;
 }
@@ -91,7 +89,7 @@ ambit_status ambit_equations_seal(const ambit_ready *r, size_t ne, const ambit_e
 ambit_status ambit_equations_differentiate(const ambit_ready *r, size_t ne, const ambit_expr *equation, size_t first,
     size_t n, uint32_t flags, const ambit_tape **tape, ambit_failure *f) {
   ambit_expr *entry = room(r->arena, ne * n, sizeof *entry);
-  if (!entry) return no_memory(f);
+  if (!entry) return ambit_no_memory(f);
   for (size_t i = 0; i < ne; i++)
     for (size_t j = 0; j < n; j++) {
       ambit_failure why = { 0 };
@@ -121,10 +119,10 @@ static ambit_status inspect(const ambit_ready *r, ambit_lease *lease, const ambi
   const ambit_tape *tape;
   ambit_contractor *contractor;
   double *lo = room(r->arena, r->nx + r->np, sizeof *lo), *hi = room(r->arena, r->nx + r->np, sizeof *hi);
-  if (!lo || !hi) return no_memory(f);
+  if (!lo || !hi) return ambit_no_memory(f);
   ambit_status status = ambit_equations_seal(r, r->ne, r->equation, 0, &tape, f);
   if (status != AMBIT_OK) return status;
-  if (ambit_contract_service_v1.open(&lease->host, tape, &contractor) != AMBIT_OK) return no_memory(f);
+  if (ambit_contract_service_v1.open(&lease->host, tape, &contractor) != AMBIT_OK) return ambit_no_memory(f);
   for (size_t i = 0; i < r->nx + r->np; i++) {
     ambit_interval x = i < r->nx ? box[i] : r->p[i - r->nx];
     lo[i] = x.lo, hi[i] = x.hi;
@@ -141,7 +139,7 @@ ambit_status ambit_equations_are_smooth(const ambit_equations *q, ambit_registry
   ambit_lease *lease = NULL;
   ambit_ready ready = { 0 };
   *smooth = false;
-  ambit_status status = arena ? ambit_equations_prepare(q, arena, &ready, f) : no_memory(f);
+  ambit_status status = arena ? ambit_equations_prepare(q, arena, &ready, f) : ambit_no_memory(f);
   if (status == AMBIT_OK) status = ambit_context_lease(registry, &lease, f);
   if (status == AMBIT_OK) status = inspect(&ready, lease, box, with_data, smooth, f);
   ambit_lease_close(lease);

@@ -34,8 +34,6 @@ typedef struct job {
   ambit_tally tally;
 } job;
 
-static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
-
 /* -- the request */
 
 static ambit_status check_box(const ambit_roots_request *q, ambit_failure *f) {
@@ -111,7 +109,7 @@ static ambit_status choose_rows(job *j, ambit_failure *f) {
   size_t *order = ambit_arena_alloc(j->arena, r->ne * sizeof *order);
   ambit_interval *slot = ambit_arena_alloc(j->arena, (slopes->nslot + 1) * sizeof *slot);
   ambit_expr *chosen = ambit_arena_alloc(j->arena, r->ne * sizeof *chosen);
-  if (!x || !J || !order || !slot || !chosen) return no_memory(f);
+  if (!x || !J || !order || !slot || !chosen) return ambit_no_memory(f);
   for (size_t i = 0; i < r->nx; i++) x[i] = j->q->centre ? j->q->centre[i] : middle(j->q->box[i]);
   if (!ambit_equations_at(r, slopes, x, slot, J)) return AMBIT_OK; /* as they come */
   order_rows(r->ne, r->nx, J, order);
@@ -126,7 +124,7 @@ static ambit_status copy_ranges(job *j, ambit_failure *f) {
   ambit_problem *p = &j->problem;
   double *lo = ambit_arena_alloc(j->arena, (p->nx + p->np + 1u) * sizeof *lo);
   double *hi = ambit_arena_alloc(j->arena, (p->nx + p->np + 1u) * sizeof *hi);
-  if (!lo || !hi) return no_memory(f);
+  if (!lo || !hi) return ambit_no_memory(f);
   for (uint32_t i = 0; i < p->nx + p->np; i++) {
     ambit_interval x = i < p->nx ? j->q->box[i] : j->ready.p[i - p->nx];
     lo[i] = x.lo, hi[i] = x.hi;
@@ -324,7 +322,7 @@ ambit_status ambit_roots(
     const ambit_roots_request *q, ambit_roots_result *result, ambit_report *report, ambit_failure *f) {
   job j = { .q = q, .arena = ambit_arena_open() };
   *result = (ambit_roots_result) { 0 };
-  if (!j.arena) return no_memory(f);
+  if (!j.arena) return ambit_no_memory(f);
   j.tally = ambit_tally_begin(q->equations->graph);
   ambit_status status = prepare(&j, f);
   ambit_tally_built(&j.tally);

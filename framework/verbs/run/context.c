@@ -37,7 +37,7 @@ double *ambit_context_options(ambit_lease *lease, const ambit_param *param, cons
   snprintf(owner, sizeof owner, "%s `%s`", kind, name);
   double *value = ambit_arena_alloc(lease->arena, ambit_params_doubles(param) * sizeof *value);
   if (!value) {
-    ambit_fail(f, AMBIT_NOMEM, "out of memory");
+    ambit_no_memory(f);
     return NULL;
   }
   return ambit_params_resolve(param, owner, noption, option, value, f) == AMBIT_OK ? value : NULL;

@@ -33,8 +33,6 @@ struct ambit_records {
   size_t nheld, capacity;
 };
 
-static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
-
 static void destroy(ambit_records *r) {
   if (r->generator) yajl_gen_free(r->generator);
   free(r->path);
@@ -45,13 +43,13 @@ static void destroy(ambit_records *r) {
 ambit_status ambit_records_open(const char *path, ambit_records **out, ambit_failure *f) {
   *out = NULL;
   ambit_records *r = calloc(1, sizeof *r);
-  if (!r) return no_memory(f);
+  if (!r) return ambit_no_memory(f);
   bool standard = strcmp(path, "-") == 0;
   r->path = strdup(standard ? "standard output" : path);
   r->generator = yajl_gen_alloc(NULL);
   if (!r->path || !r->generator) {
     destroy(r);
-    return no_memory(f);
+    return ambit_no_memory(f);
   }
   yajl_gen_config(r->generator, yajl_gen_validate_utf8, 1);
   r->file = standard ? STDOUT_FILENO : open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
@@ -217,7 +215,7 @@ static ambit_status put_aside(ambit_records *r, const unsigned char *text, size_
   if (r->nheld + length > r->capacity) {
     size_t capacity = 2 * (r->nheld + length);
     unsigned char *held = realloc(r->held, capacity);
-    if (!held) return no_memory(f);
+    if (!held) return ambit_no_memory(f);
     r->held = held, r->capacity = capacity;
   }
   memcpy(r->held + r->nheld, text, length);

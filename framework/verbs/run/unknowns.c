@@ -9,7 +9,7 @@ ambit_status ambit_unknowns_leaves(const ambit_graph *g, ambit_arena *arena, siz
     ambit_expr **leaf, ambit_failure *f) {
   *n = ambit_graph_leaves(g, ne, e, 0, NULL);
   *leaf = ambit_arena_alloc(arena, *n * sizeof **leaf);
-  if (!*leaf) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!*leaf) return ambit_no_memory(f);
   ambit_graph_leaves(g, ne, e, *n, *leaf);
   return AMBIT_OK;
 }
@@ -21,12 +21,12 @@ ambit_status ambit_unknowns_fold_points(
   ambit_status status = ambit_unknowns_leaves(g, arena, ne, e, &n, &leaf, f);
   if (status != AMBIT_OK) return status;
   ambit_expr *number = ambit_arena_alloc(arena, n * sizeof *number);
-  if (!number) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!number) return ambit_no_memory(f);
   for (size_t i = 0; i < n; i++) {
     const ambit_node *node = ambit_graph_node(g, leaf[i]);
     if (!ambit_leaf_is_uncertain(node->op) || !ambit_interval_is_point(node->value)) continue;
     number[points] = ambit_graph_number(g, node->value.lo);
-    if (number[points] == AMBIT_NO_EXPR) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+    if (number[points] == AMBIT_NO_EXPR) return ambit_no_memory(f);
     leaf[points++] = leaf[i];
   }
   return points ? ambit_graph_substitute(g, ne, e, points, leaf, number, f) : AMBIT_OK;

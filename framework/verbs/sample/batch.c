@@ -137,12 +137,12 @@ ambit_status ambit_batch_open(
   if (elem == 0 || elem % 8 != 0)
     return ambit_fail(f, AMBIT_INVALID, "the arithmetic's elements have %zu bytes; a multiple of 8 is required", elem);
   ambit_batch *made = calloc(1, sizeof *made);
-  if (!made) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!made) return ambit_no_memory(f);
   *made = (ambit_batch) { .tape = t, .arithmetic = full, .ctx = ctx, .elem = elem };
   made->place = malloc(((size_t)t->nslot + 3 * (size_t)t->ninstr + 1) * sizeof *made->place);
   if (made->place) made->dst = made->place + t->nslot, made->a = made->dst + t->ninstr, made->b = made->a + t->ninstr;
   ambit_status status = AMBIT_OK;
-  if (!made->place || !make_plan(made)) status = ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!made->place || !make_plan(made)) status = ambit_no_memory(f);
   if (status == AMBIT_OK) status = allocate(made, f);
   if (status != AMBIT_OK) {
     ambit_batch_close(made);

@@ -45,11 +45,9 @@ typedef struct job {
 
 static void *room(const job *j, size_t n, size_t size) { return ambit_arena_alloc(j->arena, (n + 1) * size); }
 
-static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
-
 static ambit_status find_ranges(job *j, ambit_failure *f) {
   j->range = room(j, j->bound.nunknown, sizeof *j->range);
-  if (!j->range) return no_memory(f);
+  if (!j->range) return ambit_no_memory(f);
   for (size_t i = 0; i < j->bound.nunknown; i++) {
     const ambit_node *node = ambit_graph_node(j->q->graph, j->bound.unknown[i]);
     j->range[i] = ambit_sample_range(node);
@@ -65,8 +63,8 @@ static ambit_status open_drawer(job *j, drawer *d, ambit_failure *f) {
   d->rlo = room(j, results, sizeof *d->rlo);
   d->rhi = room(j, results, sizeof *d->rhi);
   d->defined = room(j, j->q->nexpr, sizeof *d->defined);
-  if (!d->point || !d->rlo || !d->rhi || !d->defined) return no_memory(f);
-  if (!ambit_extremes_open(&d->extremes, j->arena, j->q->nexpr, nu)) return no_memory(f);
+  if (!d->point || !d->rlo || !d->rhi || !d->defined) return ambit_no_memory(f);
+  if (!ambit_extremes_open(&d->extremes, j->arena, j->q->nexpr, nu)) return ambit_no_memory(f);
   ambit_status status =
       ambit_context_open(j->q->registry, j->arithmetic, j->q->noption, j->q->option, (uint32_t)nu, &d->context, f);
   if (status != AMBIT_OK) return status;
@@ -80,7 +78,7 @@ static ambit_status open_drawers(job *j, ambit_failure *f) {
   if (status != AMBIT_OK) return status;
   if (n > blocks) n = (uint32_t)blocks;
   j->drawer = room(j, n, sizeof *j->drawer);
-  if (!j->drawer) return no_memory(f);
+  if (!j->drawer) return ambit_no_memory(f);
   while (j->ndrawer < n && status == AMBIT_OK) status = open_drawer(j, &j->drawer[j->ndrawer++], f);
   return status;
 }
@@ -141,7 +139,7 @@ static ambit_status run_draws(job *j, ambit_sample_result *result, ambit_failure
   result->draws = atomic_load(&j->done);
   result->status = status == AMBIT_STOPPED ? status : AMBIT_OK;
   if (status == AMBIT_OK || status == AMBIT_STOPPED) return AMBIT_OK;
-  return status == AMBIT_NOMEM ? no_memory(f) : ambit_fail(f, status, "sample: no further points");
+  return status == AMBIT_NOMEM ? ambit_no_memory(f) : ambit_fail(f, status, "sample: no further points");
 }
 
 /* -- the search, by the first drawer, whose extremes are those of all */
@@ -172,7 +170,7 @@ static ambit_status polish(job *j, ambit_sample_result *result, ambit_failure *f
     .user = j };
   ambit_status status = ambit_polish_run(&q, j->arena, &result->polished);
   if (status == AMBIT_STOPPED) result->status = status;
-  return status == AMBIT_NOMEM ? no_memory(f) : AMBIT_OK;
+  return status == AMBIT_NOMEM ? ambit_no_memory(f) : AMBIT_OK;
 }
 
 /* -- what is told */
@@ -192,7 +190,7 @@ static double error_of(const job *j, const ambit_extreme *x, size_t e, ambit_int
 
 static ambit_status tell(const job *j, ambit_interval *hull, double *error, size_t *defined, ambit_failure *f) {
   ambit_interval *in = room(j, j->bound.nunknown, sizeof *in), *slot = room(j, j->tape->nslot, sizeof *slot);
-  if (!in || !slot) return no_memory(f);
+  if (!in || !slot) return ambit_no_memory(f);
   for (size_t e = 0; e < j->q->nexpr; e++) {
     const ambit_extreme *x = &j->drawer[0].extremes.at[e * AMBIT_SIDES];
     hull[e] = x->seen ? (ambit_interval) { x[AMBIT_LEAST].value, x[AMBIT_GREATEST].value } : AMBIT_EMPTY;
@@ -249,7 +247,7 @@ ambit_status ambit_sample_expressions(const ambit_evaluate_request *q, const amb
     .plan = plan,
     .arithmetic = q->arithmetic ? q->arithmetic : AMBIT_DEFAULT_POINTS,
     .arena = ambit_arena_open() };
-  if (!j.arena) return no_memory(f);
+  if (!j.arena) return ambit_no_memory(f);
   double start = ambit_context_seconds(), wall = ambit_sample_wall();
   ambit_meter_enter(AMBIT_FRAME_STAGE, "graph");
   ambit_status status = prepare(&j, f);

@@ -69,10 +69,10 @@ static ambit_status open_drawers(ambit_draws *draws, uint32_t n, uint32_t want, 
   const ambit_simulate_request *q = draws->q;
   uint32_t nvar = ambit_pair_variables(&draws->problem, want);
   draws->drawer = room(draws, n, sizeof *draws->drawer);
-  if (!draws->drawer) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!draws->drawer) return ambit_no_memory(f);
   for (; draws->ndrawer < n; draws->ndrawer++) {
     drawer *d = &draws->drawer[draws->ndrawer];
-    if (!make_room(draws, d)) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+    if (!make_room(draws, d)) return ambit_no_memory(f);
     ambit_status status = ambit_context_open(
         q->registry, draws->arithmetic, q->narithmetic_option, q->arithmetic_option, nvar, &d->context, f);
     if (status != AMBIT_OK) return status;
@@ -134,7 +134,7 @@ ambit_status ambit_draws_open(const ambit_draws_request *request, ambit_draws **
   ambit_draws *d = arena ? ambit_arena_alloc(arena, sizeof *d) : NULL;
   if (!d) {
     ambit_arena_close(arena);
-    return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+    return ambit_no_memory(f);
   }
   *d = (ambit_draws) {
     .q = request->q, .arena = arena, .solver_name = request->solver ? request->solver : request->q->solver

@@ -46,14 +46,12 @@ static void *room(const ambit_flow *flow, size_t n, size_t size) {
   return ambit_arena_alloc(flow->arena, (n + 1) * size);
 }
 
-static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
-
 /* -- life */
 
 static ambit_status find_ranges(ambit_flow *flow, ambit_failure *f) {
   const ambit_problem *p = &flow->problem;
   flow->range = room(flow, p->nu, sizeof *flow->range);
-  if (!flow->range) return no_memory(f);
+  if (!flow->range) return ambit_no_memory(f);
   for (uint32_t i = 0; i < p->nu; i++) {
     const ambit_node *datum = ambit_graph_node(flow->q->system->graph, flow->unknown[i]);
     ambit_status status = ambit_sample_check_range(flow->q->system->graph, flow->unknown[i], f);
@@ -84,7 +82,7 @@ static ambit_status open_drawer(ambit_flow *flow, drawer *d, ambit_failure *f) {
   d->upper = room(flow, n * AMBIT_FLOW_LANES, sizeof *d->upper);
   d->in = room(flow, n + 1, sizeof *d->in);
   d->slot = room(flow, p->invariant ? p->invariant->nslot : 0, sizeof *d->slot);
-  if (!d->start || !d->upper || !d->in || !d->slot) return no_memory(f);
+  if (!d->start || !d->upper || !d->in || !d->slot) return ambit_no_memory(f);
   size_t noption = flow->one_by_one ? 0 : q->narithmetic_option;
   ambit_status status = ambit_context_open(q->registry, flow->one_by_one ? AMBIT_DEFAULT_POINTS : flow->arithmetic,
       noption, q->arithmetic_option, (uint32_t)n, &d->context, f);
@@ -99,7 +97,7 @@ static ambit_status open_drawer(ambit_flow *flow, drawer *d, ambit_failure *f) {
 
 static ambit_status open_drawers(ambit_flow *flow, ambit_failure *f) {
   flow->drawer = room(flow, flow->threads, sizeof *flow->drawer);
-  if (!flow->drawer) return no_memory(f);
+  if (!flow->drawer) return ambit_no_memory(f);
   ambit_status status = AMBIT_OK;
   while (flow->ndrawer < flow->threads && status == AMBIT_OK)
     status = open_drawer(flow, &flow->drawer[flow->ndrawer++], f);
@@ -129,7 +127,7 @@ ambit_status ambit_flow_open(
   ambit_flow *made = arena ? ambit_arena_alloc(arena, sizeof *made) : NULL;
   if (!made) {
     ambit_arena_close(arena);
-    return no_memory(f);
+    return ambit_no_memory(f);
   }
   bool given = plan->relative > 0 || plan->absolute > 0;
   *made = (ambit_flow) { .q = q,

@@ -53,13 +53,13 @@ ambit_status ambit_lanes_open(const ambit_problem *p, const ambit_arithmetic *ar
   ambit_lanes *l = arena ? ambit_arena_alloc(arena, sizeof *l) : NULL;
   if (!l) {
     ambit_arena_close(arena);
-    return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+    return ambit_no_memory(f);
   }
   *l = (ambit_lanes) { .problem = p, .arena = arena, .width = width };
-  ambit_status status = allocate(l) ? AMBIT_OK : ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  ambit_status status = allocate(l) ? AMBIT_OK : ambit_no_memory(f);
   if (status == AMBIT_OK) status = ambit_batch_open(p->rhs, arithmetic, ctx, &l->batch, f);
   l->jump = ambit_arena_alloc(arena, (p->njump + 1) * sizeof *l->jump);
-  if (!l->jump && status == AMBIT_OK) status = ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!l->jump && status == AMBIT_OK) status = ambit_no_memory(f);
   for (uint32_t i = 0; i < p->njump && status == AMBIT_OK; i++)
     status = ambit_batch_open(p->jump[i], arithmetic, ctx, &l->jump[i], f);
   if (status == AMBIT_OK)

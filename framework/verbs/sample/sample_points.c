@@ -62,9 +62,7 @@ static ambit_status choose(ambit_sample_points *p, ambit_failure *f) {
           f, AMBIT_INVALID, "points: expected sobol, niederreiter, halton, reverse_halton or random, got `%s`", name);
     if (p->q.n <= dimensions && p->q.draws <= points) {
       snprintf(p->name, sizeof p->name, "%s", name);
-      return p->service->open(name, (uint32_t)p->q.n, &p->sequence) == AMBIT_OK
-                 ? AMBIT_OK
-                 : ambit_fail(f, AMBIT_NOMEM, "out of memory");
+      return p->service->open(name, (uint32_t)p->q.n, &p->sequence) == AMBIT_OK ? AMBIT_OK : ambit_no_memory(f);
     }
     most_dimensions = dimensions > most_dimensions ? dimensions : most_dimensions;
     if (p->q.points) break;
@@ -104,7 +102,7 @@ ambit_status ambit_sample_points_open(
   ambit_sample_points *p = calloc(1, sizeof *p);
   if (!p || !(p->shift = calloc(q->n + 1, sizeof *p->shift))) {
     free(p);
-    return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+    return ambit_no_memory(f);
   }
   p->q = *q;
   pthread_mutex_init(&p->lock, NULL);

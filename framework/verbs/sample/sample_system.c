@@ -17,8 +17,6 @@ static void *room(const ambit_sample_job *j, size_t n, size_t size) {
   return ambit_arena_alloc(j->arena, (n + 1) * size);
 }
 
-static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
-
 /* -- preparations */
 
 /* As many instants as the search can afford, equidistant ones, always the last. */
@@ -54,10 +52,10 @@ static ambit_status prepare(ambit_sample_job *j, ambit_failure *f) {
   if (status != AMBIT_OK) return status;
   j->problem = ambit_flow_problem(j->flow);
   j->drawer = room(j, j->plan.threads, sizeof *j->drawer);
-  if (!j->drawer || !choose_instants(j)) return no_memory(f);
+  if (!j->drawer || !choose_instants(j)) return ambit_no_memory(f);
   for (uint32_t i = 0; i < j->plan.threads; i++)
-    if (!open_drawer(j, &j->drawer[i])) return no_memory(f);
-  if (ambit_pool_open(NULL, j->plan.threads, &j->pool) != AMBIT_OK) return no_memory(f);
+    if (!open_drawer(j, &j->drawer[i])) return ambit_no_memory(f);
+  if (ambit_pool_open(NULL, j->plan.threads, &j->pool) != AMBIT_OK) return ambit_no_memory(f);
   return ambit_sample_open_points(j->q->registry, &j->plan, j->problem->nu, ambit_flow_range(j->flow), &j->points, f);
 }
 
@@ -71,7 +69,7 @@ static ambit_status estimate_error(ambit_sample_job *j, const ambit_interval *hu
     .flow = j->flow, .draws = j->plan.draws, .extremes = &j->drawer[0].extremes, .hull = hull
   };
   ambit_status status = ambit_sample_estimate_error(&q, j->arena, error);
-  return status == AMBIT_NOMEM ? no_memory(f) : AMBIT_OK;
+  return status == AMBIT_NOMEM ? ambit_no_memory(f) : AMBIT_OK;
 }
 
 /* -- what is told */
@@ -116,7 +114,7 @@ static void fill_report(
 static ambit_status make(ambit_sample_job *j, ambit_interval *hull, double *error, ambit_failure *f) {
   ambit_status status = ambit_sample_make_draws(j, f);
   if (status == AMBIT_OK) status = ambit_sample_search(j);
-  if (status == AMBIT_NOMEM && !f->message[0]) return no_memory(f);
+  if (status == AMBIT_NOMEM && !f->message[0]) return ambit_no_memory(f);
   if (status == AMBIT_STOPPED) j->result->status = status;
   if (status != AMBIT_OK && status != AMBIT_STOPPED) return status;
   gather(j, hull);
@@ -142,7 +140,7 @@ ambit_status ambit_sample_system(const ambit_simulate_request *q, const ambit_sa
   ambit_sample_job j = {
     .q = q, .plan = *plan, .arena = ambit_arena_open(), .result = result, .first_failed = SIZE_MAX
   };
-  if (!j.arena) return no_memory(f);
+  if (!j.arena) return ambit_no_memory(f);
   pthread_mutex_init(&j.lock, NULL);
   double start = ambit_context_seconds(), wall = ambit_sample_wall();
   ambit_meter_enter(AMBIT_FRAME_STAGE, "graph");

@@ -6,8 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
-
 /* -- what is seen of a draw */
 
 static void see(void *user, uint32_t k, size_t lane, const double *x, size_t stride) {
@@ -126,7 +124,7 @@ ambit_status ambit_sample_run_pool(ambit_sample_job *j, size_t items, ambit_pool
 
 static ambit_status tell_broken(const ambit_sample_job *j, ambit_status status, ambit_failure *f) {
   if (status == AMBIT_OK || status == AMBIT_STOPPED) return status;
-  if (status == AMBIT_NOMEM && !j->broken.message[0]) return no_memory(f);
+  if (status == AMBIT_NOMEM && !j->broken.message[0]) return ambit_no_memory(f);
   return ambit_fail(f, status, "%s", j->broken.message[0] ? j->broken.message : "sample: too many draws");
 }
 

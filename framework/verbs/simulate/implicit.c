@@ -38,7 +38,7 @@ static bool is_staged(const ambit_implicit *p, uint32_t nx, uint32_t stage, uint
 
 static ambit_status check(const ambit_implicit *p, uint32_t nx, ambit_arena *arena, ambit_failure *f) {
   uint8_t *degree = ambit_arena_alloc(arena, p->tape->nslot + 1u);
-  if (!degree) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!degree) return ambit_no_memory(f);
   for (uint32_t s = 0; s < p->nstage; s++)
     if (!is_staged(p, nx, s, degree))
       return ambit_fail(f, AMBIT_INVALID,
@@ -63,7 +63,7 @@ ambit_status ambit_implicit_seal(
   ambit_implicit *p = ambit_arena_alloc(arena, sizeof *p);
   uint32_t *number = ambit_arena_alloc(arena, (na + nstage + 1) * sizeof *number);
   ambit_expr *in = inputs(q, na, arena);
-  if (!p || !number || !in) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!p || !number || !in) return ambit_no_memory(f);
   *p = (ambit_implicit) {
     .size = sizeof *p, .na = (uint32_t)na, .nstage = (uint32_t)nstage, .stage_end = number, .pivot = number + nstage
   };

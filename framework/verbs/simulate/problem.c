@@ -522,7 +522,7 @@ ambit_status ambit_problem_build(
   if (status == AMBIT_OK) status = seal_wanted(&b);
   if (status != AMBIT_OK) return status;
   double *time = ambit_arena_alloc(arena, q->ntime * sizeof *time);
-  if (!time) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!time) return ambit_no_memory(f);
   memcpy(time, q->time, q->ntime * sizeof *time);
   p->time = time;
   return AMBIT_OK;

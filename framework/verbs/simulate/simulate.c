@@ -59,7 +59,7 @@ static ambit_status open_contexts(job *j, uint32_t want, ambit_failure *f) {
     n = j->threads;
   j->context = ambit_arena_alloc(j->arena, n * sizeof *j->context);
   j->ctx = ambit_arena_alloc(j->arena, n * sizeof *j->ctx);
-  if (!j->context || !j->ctx) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!j->context || !j->ctx) return ambit_no_memory(f);
   for (; j->ncontext < n; j->ncontext++) {
     ambit_context *c = &j->context[j->ncontext];
     ambit_status status =
@@ -80,7 +80,7 @@ static ambit_status build(job *j, uint32_t want, uint32_t seal, ambit_failure *f
   const ambit_expr *unknown;
   size_t ntime = q->ntime;
   const double *time = j->splits ? ambit_split_plan_instants(j->arena, q->time, &ntime) : q->time;
-  if (!time) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!time) return ambit_no_memory(f);
   uint32_t all = j->splits ? want | AMBIT_WANT_INITIAL | AMBIT_WANT_RHS : want;
   ambit_problem_request request = { q->system, q->initial, ntime, time, all, seal, &unknown, q->nnarrow, q->narrow,
     q->range };
@@ -258,7 +258,7 @@ ambit_status ambit_simulate(
     const ambit_simulate_request *q, ambit_simulate_result *result, ambit_report *report, ambit_failure *f) {
   job j = { .q = q, .arena = ambit_arena_open() };
   *result = (ambit_simulate_result) { 0 };
-  if (!j.arena) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!j.arena) return ambit_no_memory(f);
   j.tally = ambit_tally_begin(q->system->graph);
   ambit_status status = prepare(&j, f);
   ambit_tally_built(&j.tally);

@@ -116,7 +116,7 @@ static void look(looker *l, const ambit_system *system, ambit_suggest_facts *fac
 ambit_status ambit_suggest_look(const ambit_simulate_request *q, ambit_suggest_facts *facts, ambit_failure *f) {
   looker l = { .arena = ambit_arena_open() };
   *facts = (ambit_suggest_facts) { 0 };
-  if (!l.arena) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!l.arena) return ambit_no_memory(f);
   ambit_problem_request request = { .system = q->system,
     .initial = q->initial,
     .ntime = q->ntime,
@@ -126,7 +126,7 @@ ambit_status ambit_suggest_look(const ambit_simulate_request *q, ambit_suggest_f
     .narrow = q->narrow,
     .range = q->range };
   ambit_status status = ambit_problem_build(&request, l.arena, &l.problem, f);
-  if (status == AMBIT_OK && !make_room(&l)) status = ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (status == AMBIT_OK && !make_room(&l)) status = ambit_no_memory(f);
   if (status == AMBIT_OK) look(&l, q->system, facts);
   ambit_arena_close(l.arena);
   return status;

@@ -32,11 +32,11 @@ ambit_status ambit_pieces_cut(ambit_arena *arena, uint32_t nu, const double *lo,
   }
   uint32_t *made = ambit_arena_alloc(arena, (nu + 1u) * sizeof *made);
   const double **edge = ambit_arena_alloc(arena, (nu + 1u) * sizeof *edge);
-  if (!made || !edge) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!made || !edge) return ambit_no_memory(f);
   *p = (ambit_pieces) { .nu = nu, .count = 1, .parts = made, .edge = edge };
   for (uint32_t j = 0; j < nu; j++) {
     double *own = ambit_arena_alloc(arena, (parts[j] + 1u) * sizeof *own);
-    if (!own) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+    if (!own) return ambit_no_memory(f);
     made[j] = cut(lo[j], hi[j], parts[j], own);
     edge[j] = own;
     p->count *= made[j];

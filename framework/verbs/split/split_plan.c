@@ -46,7 +46,7 @@ ambit_status ambit_split_plan_make(const ambit_problem *p, const ambit_tape *ini
   uint32_t *parts = ambit_arena_alloc(arena, (p->nu + 1u) * sizeof *parts);
   const char **name = ambit_arena_alloc(arena, (p->nu + 1u) * sizeof *name);
   double *influence = ambit_arena_alloc(arena, (p->nu + 1u) * sizeof *influence);
-  if (!parts || !name || !influence) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!parts || !name || !influence) return ambit_no_memory(f);
   ambit_status status = read_cuts(p, unknown, ncut, cut, parts, name, f);
   if (status == AMBIT_OK && total) {
     status = ambit_probe_influence(p, initial, arena, influence);

@@ -20,8 +20,6 @@ typedef struct bench {
 
 static const double disturbance[] = { 0, 1e-12, 1e-8, 1e-5 };
 
-static ambit_status no_memory(ambit_failure *f) { return ambit_fail(f, AMBIT_NOMEM, "out of memory"); }
-
 static bool allocate(bench *b) {
   size_t n = b->n;
   b->middle = ambit_arena_alloc(b->arena, (n * n + 1) * sizeof *b->middle);
@@ -133,7 +131,7 @@ ambit_status ambit_eigen_analyse(ambit_registry *registry, size_t n, const ambit
   if (b.arena && allocate(&b))
     analyse(&b, value, result);
   else
-    status = no_memory(f);
+    status = ambit_no_memory(f);
   ambit_arena_close(b.arena);
   return status;
 }

@@ -254,7 +254,7 @@ static ambit_status seal_slope(
   const ambit_system *s = w->q->system;
   ambit_failure why = { 0 };
   ambit_expr d = ambit_graph_time_derivative(s->graph, c->condition->g, s->nx, s->state, s->rate, &why);
-  if (d == AMBIT_NO_EXPR) return why.status == AMBIT_NOMEM ? ambit_fail(f, AMBIT_NOMEM, "out of memory") : AMBIT_OK;
+  if (d == AMBIT_NO_EXPR) return why.status == AMBIT_NOMEM ? ambit_no_memory(f) : AMBIT_OK;
   return seal(w, arena, d, input, &c->slope, f);
 }
 
@@ -263,7 +263,7 @@ static ambit_status check(const ambit_watch *w, const watched *c, ambit_arena *a
   char name[256];
   size_t n;
   ambit_expr *leaf, *allowed = ambit_arena_alloc(arena, (s->nx + 1) * sizeof *allowed);
-  if (!allowed) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!allowed) return ambit_no_memory(f);
   memcpy(allowed, s->state, s->nx * sizeof *allowed);
   allowed[s->nx] = ambit_graph_time(s->graph);
   ambit_status status = ambit_unknowns_leaves(s->graph, arena, 1, &c->condition->g, &n, &leaf, f);
@@ -278,7 +278,7 @@ static ambit_status collect_inputs(ambit_watch *w, ambit_arena *arena, ambit_exp
   const ambit_system *s = w->q->system;
   size_t n, count = w->n + s->nx;
   ambit_expr *all = ambit_arena_alloc(arena, (count + s->nx) * sizeof *all), *leaf;
-  if (!all) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!all) return ambit_no_memory(f);
   for (size_t k = 0; k < w->n; k++) all[k] = w->watched[k].condition->g;
   memcpy(all + w->n, s->rate, s->nx * sizeof *all);
   if (w->q->initial) {
@@ -289,7 +289,7 @@ static ambit_status collect_inputs(ambit_watch *w, ambit_arena *arena, ambit_exp
   if (status != AMBIT_OK) return status;
   *input = ambit_arena_alloc(arena, (s->nx + n + 1) * sizeof **input);
   w->in = ambit_arena_alloc(arena, (s->nx + n + 1) * sizeof *w->in);
-  if (!*input || !w->in) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!*input || !w->in) return ambit_no_memory(f);
   memcpy(*input, s->state, s->nx * sizeof **input);
   w->nin = s->nx;
   for (size_t i = 0; i < n; i++) {
@@ -314,7 +314,7 @@ static ambit_status find_start(ambit_watch *w, ambit_arena *arena, const ambit_e
       ambit_tape_seal(w->q->system->graph, arena, w->nx, w->q->initial, w->nin, input, 0, 0, &t, &own);
   if (status != AMBIT_OK) return status == AMBIT_NOMEM ? ambit_fail(f, status, "%s", own.message) : AMBIT_OK;
   ambit_interval *slot = ambit_arena_alloc(arena, t->nslot * sizeof *slot);
-  if (!slot) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!slot) return ambit_no_memory(f);
   w->started = !(ambit_hull(t, w->in, slot) & AMBIT_F_PARTIAL);
   w->reached = w->q->start;
   for (size_t i = 0; i < w->nx; i++) w->before[i] = slot[t->out[i]];
@@ -341,7 +341,7 @@ static ambit_status open_conditions(ambit_watch *w, ambit_arena *arena, ambit_fa
     if (status == AMBIT_OK) status = seal_slope(w, arena, c, input, f);
     if (status != AMBIT_OK) return status;
     c->wanted = ambit_arena_alloc(arena, w->nx * sizeof *c->wanted);
-    if (!c->wanted) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+    if (!c->wanted) return ambit_no_memory(f);
     want(w, c->value, c->wanted);
     if (c->slope) want(w, c->slope, c->wanted);
     if (c->value->nslot > slots) slots = c->value->nslot;
@@ -350,19 +350,19 @@ static ambit_status open_conditions(ambit_watch *w, ambit_arena *arena, ambit_fa
   if (status != AMBIT_OK) return status;
   w->slot = ambit_arena_alloc(arena, slots * sizeof *w->slot);
   w->before = ambit_arena_alloc(arena, w->nx * sizeof *w->before);
-  if (!w->slot || !w->before) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!w->slot || !w->before) return ambit_no_memory(f);
   return find_start(w, arena, input, f);
 }
 
 ambit_status ambit_watch_open(const ambit_watch_request *q, ambit_arena *arena, ambit_watch **watch, ambit_failure *f) {
   ambit_watch *w = ambit_arena_alloc(arena, sizeof *w);
   *watch = w;
-  if (!w) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!w) return ambit_no_memory(f);
   w->sink = (ambit_sink) { sizeof(ambit_sink), emit, progress };
   w->q = q;
   w->n = q->ncondition;
   w->nx = q->system->nx;
   w->watched = ambit_arena_alloc(arena, w->n * sizeof *w->watched);
-  if (!w->watched) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  if (!w->watched) return ambit_no_memory(f);
   return open_conditions(w, arena, f);
 }

@@ -14,6 +14,7 @@
 ** units.
 */
 #include "lohner.h"
+#include "shared/axes.h"
 #include <string.h>
 
 #define TOP_LEVEL 3
@@ -152,7 +153,7 @@ static void choose_axes(history *g, size_t from, size_t to) {
       for (size_t c = from; c < to; c++) sum += (a[c] * g->weight[c] * u) * (b[c] * g->weight[c] * v);
       g->shape[(size_t)i * n + j] = g->shape[(size_t)j * n + i] = sum;
     }
-  frame_axes(n, g->shape, g->frame);
+  shared_axes(n, g->shape, g->frame);
 }
 
 static void choose_frame(history *g, size_t from) {

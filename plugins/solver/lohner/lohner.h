@@ -253,8 +253,6 @@ void history_spread(const history *g, uint32_t k, const double *J, size_t pitch,
 void history_correlate(const history *g, uint32_t k, const double *spread, double *cross, double *square);
 
 /* frame.c: orthogonal frames; results are approximate, bounds are not */
-void frame_axes(
-    uint32_t n, double *shape, double *frame); /* principal axes of the symmetric matrix `shape`, which is destroyed */
 /* Gram-Schmidt of n columns of A [n x pitch], longest of length times weight first; order, size: scratch [n] */
 void frame_orthogonal(
     uint32_t n, const double *A, size_t pitch, const double *weight, double *frame, uint32_t *order, double *size);

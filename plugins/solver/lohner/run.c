@@ -1,5 +1,6 @@
 /* run.c -- from step to step, into the sink; and what a run that could not go on has to say. */
 #include "lohner.h"
+#include "shared/deliver.h"
 #include <ambit/code.h>
 #include <stdio.h>
 
@@ -7,15 +8,6 @@
 #define BENT 0.5   /* by how much slopes may vary, relative, where first order says something */
 
 /* -- records */
-
-/* the sink's world is round-to-nearest */
-static AMBIT_WORKER int32_t deliver(ambit_sink *sink, const ambit_record *r, double done) {
-  ambit_rounding up = ambit_round_nearest();
-  int32_t stop = sink->emit(sink, r);
-  if (!stop && sink->progress) stop = sink->progress(sink, done, NULL);
-  ambit_rounding_restore(up);
-  return stop;
-}
 
 static int32_t emit(lohner *s, ambit_sink *sink, double t_from) {
   const ambit_problem *p = &s->problem;
@@ -32,7 +24,7 @@ static int32_t emit(lohner *s, ambit_sink *sink, double t_from) {
     .order = s->options.order };
   lohner_grant(s, &r);
   double done = (s->t - p->time[0]) / (p->time[p->ntime - 1] - p->time[0]);
-  return deliver(sink, &r, smaller(larger(done, 0), 1));
+  return shared_deliver(sink, &r, done);
 }
 
 /* -- steps */

@@ -1,6 +1,7 @@
 /* run.c -- from step to step while there is one piece, then from instant to instant; and what a run that could not go
 ** on has to say. */
 #include "flow.h"
+#include "shared/deliver.h"
 #include <ambit/code.h>
 #include <stdio.h>
 
@@ -15,15 +16,7 @@ static double done(const flow *f) {
   return smaller(larger(share, 0), 1);
 }
 
-static AMBIT_WORKER int32_t tell(ambit_sink *sink, const ambit_record *r, double share) {
-  ambit_rounding old = ambit_round_nearest();
-  int32_t stop = r ? sink->emit(sink, r) : 0;
-  if (!stop && sink->progress) stop = sink->progress(sink, share, NULL);
-  ambit_rounding_restore(old);
-  return stop;
-}
-
-int32_t flow_ask(flow *f) { return tell(f->sink, NULL, done(f)); }
+int32_t flow_ask(flow *f) { return shared_deliver(f->sink, NULL, done(f)); }
 
 int32_t flow_emit(flow *f, double t_from, int dense) {
   ambit_record r = { .size = sizeof r,
@@ -39,7 +32,7 @@ int32_t flow_emit(flow *f, double t_from, int dense) {
     .order = f->options.time_order };
   if (dense && f->dense) flow_describe(f, &r);
   if (dense && (f->problem.wish & AMBIT_WISH_SET)) r.set = flow_describe_set(f, &f->piece[0]);
-  return tell(f->sink, &r, done(f));
+  return shared_deliver(f->sink, &r, done(f));
 }
 
 static void clear_bounds(const flow *f, double *lo, double *hi) {

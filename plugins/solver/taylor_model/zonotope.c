@@ -1,10 +1,9 @@
 /* zonotope.c -- generators: moving, adding and condensing them. */
 #include "zonotope.h"
+#include "shared/axes.h"
 #include <string.h>
 
 #define BLOCK 4
-#define SWEEPS 12
-#define NEGLIGIBLE 0x1p-60
 #define SMALLEST_ENTRY 0x1p-100 /* of a frame */
 #define LARGEST_EXPONENT 900
 
@@ -41,37 +40,7 @@ void zonotope_multiply(const zonotope_shape *w, zonotope r, const double *M, dou
   }
 }
 
-/* -- a frame: principal axes by Jacobi's rotations [J. reine angew. Math. 30 (1846)] */
-
-static void turn(uint32_t n, double *a, double *b, size_t stride, double c, double s) {
-  for (uint32_t k = 0; k < n; k++) {
-    double x = a[k * stride], y = b[k * stride];
-    a[k * stride] = c * x - s * y;
-    b[k * stride] = s * x + c * y;
-  }
-}
-
-static void rotate(uint32_t n, double *A, double *Q, uint32_t p, uint32_t q) {
-  double off = A[(size_t)p * n + q];
-  if (off == 0) return;
-  double theta = (A[(size_t)q * n + q] - A[(size_t)p * n + p]) / (2 * off);
-  double t = (theta < 0 ? -1 : 1) / (fabs(theta) + sqrt(theta * theta + 1)), c = 1 / sqrt(t * t + 1);
-  turn(n, A + (size_t)p * n, A + (size_t)q * n, 1, c, t * c);
-  turn(n, A + p, A + q, n, c, t * c);
-  turn(n, Q + p, Q + q, n, c, t * c);
-}
-
-static int is_diagonal(uint32_t n, const double *A) {
-  double off = 0, diagonal = 0;
-  for (uint32_t i = 0; i < n; i++)
-    for (uint32_t j = 0; j < n; j++) *(i == j ? &diagonal : &off) += fabs(A[(size_t)i * n + j]);
-  return !(off > NEGLIGIBLE * diagonal) || !(off < INFINITY);
-}
-
-static void identity(uint32_t n, double *Q) {
-  for (uint32_t i = 0; i < n; i++)
-    for (uint32_t j = 0; j < n; j++) Q[(size_t)i * n + j] = i == j;
-}
+/* -- a frame: principal axes */
 
 /* >= the row-sum norm of I - Q^T Q */
 static double defect(uint32_t n, const double *Q) {
@@ -95,15 +64,12 @@ static double defect(uint32_t n, const double *Q) {
 
 /* Q from the shape A, which is destroyed; its defect, below 1/2 */
 static double frame(uint32_t n, double *A, double *Q) {
-  identity(n, Q);
-  for (int sweep = 0; sweep < SWEEPS && !is_diagonal(n, A); sweep++)
-    for (uint32_t p = 0; p + 1 < n; p++)
-      for (uint32_t q = p + 1; q < n; q++) rotate(n, A, Q, p, q);
+  shared_axes(n, A, Q);
   for (size_t k = 0; k < (size_t)n * n; k++)
     if (fabs(Q[k]) < SMALLEST_ENTRY) Q[k] = 0;
   double eps = defect(n, Q);
   if (eps < 0.5) return eps;
-  identity(n, Q);
+  shared_identity(n, Q);
   return 0;
 }
 

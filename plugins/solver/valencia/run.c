@@ -1,5 +1,6 @@
 /* run.c -- from step to step, into the sink; and what a run that could not go on has to say. */
 #include "valencia.h"
+#include "shared/deliver.h"
 #include <ambit/code.h>
 #include <stdio.h>
 #include <string.h>
@@ -19,15 +20,6 @@
   0.6 /* an error that shrinks no faster than the step is not the curve's: shorter steps gain nothing */
 
 /* -- records */
-
-/* the sink's world is round-to-nearest */
-static AMBIT_WORKER int32_t deliver(ambit_sink *sink, const ambit_record *r, double done) {
-  ambit_rounding up = ambit_round_nearest();
-  int32_t stop = sink->emit(sink, r);
-  if (!stop && sink->progress) stop = sink->progress(sink, done, NULL);
-  ambit_rounding_restore(up);
-  return stop;
-}
 
 /* the middle curve in powers of (t - t_from): sigma = (t - t_from) / half - 1; everything else is constant in time */
 static void find_dense(valencia *s) {
@@ -79,7 +71,7 @@ static int32_t emit(valencia *s, ambit_sink *sink, double t_from) {
   }
   if (p->wish & AMBIT_WISH_SET && !s->is_cut) r.set = &set; /* else the set is not inside [lo, hi] */
   double done = (s->t - p->time[0]) / (p->time[p->ntime - 1] - p->time[0]);
-  return deliver(sink, &r, smaller(larger(done, 0), 1));
+  return shared_deliver(sink, &r, done);
 }
 
 /* -- the hull */
