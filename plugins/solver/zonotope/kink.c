@@ -35,7 +35,7 @@ static void add_operand(const zono *z, terms *sum, uint32_t i, uint32_t k, doubl
 static double moving_of(zono *z) {
   const shape *s = &z->shape;
   double *row = z->kinks->row, *errors = z->kinks->errors, size = row_moving(s, row), single = row_r(s, row);
-  if (!(single > 0)) return size;
+  if (!(single > 0) || z->K_max == 0) return size; /* a jump's program knows no generators: jump.c */
   memcpy(errors, row + s->eps, z->nx * sizeof *errors);
   for (uint32_t k = 0; k < z->nx; k++)
     if (errors[k] != 0 && !(z->E[k] > 0)) return size; /* eps_k stands for no error */
