@@ -219,11 +219,40 @@ static void so_are_those_of_whole_tapes(void **unused) {
   assert_true(found > 30);
 }
 
+/* A line is chosen for the range ahead, that of the start moved on as far as in the last step, and the operand may stay
+** behind: then what the line misses at the kink itself is the most. d = c + m xi, and xi such that d is 0. */
+static void lines_hold_at_the_kink(void **unused) {
+  (void)unused;
+  static zono z;
+  static maker k;
+  static const uint32_t kinked[] = { AMBIT_OP_ABS, AMBIT_OP_MIN, AMBIT_OP_MAX };
+  double most = 0;
+  for (uint32_t n = 0; n < 300; n++) {
+    const sizes s = { .K = 2 };
+    uint32_t op = kinked[n % 3], i;
+    open_one(&z, &k, op, &s);
+    double *a = z.P, *b = a + z.shape.stride, m = draw(0.1, 2), c = draw(-0.9, 0.9) * m;
+    a[0] = op == AMBIT_OP_ABS ? c : b[0] + c, a[1] = m;
+    row_norms_all(&z.shape, a);
+    for (i = 0; k.op[i] != op;) i++;
+    z.kinks->of[i].drift = n % 2 ? draw(-3, 3) : 0, z.h = 1;
+    assert_true(zono_series(&z) && zono_defects(&z));
+    point p = { { 0 }, { 0 }, draw(0, 1) };
+    p.xi[0] = (op == AMBIT_OP_ABS ? -(long double)a[0] : (long double)b[0] - a[0]) / m;
+    check_defects(&z, &p, OF_DATA);
+    long double to = slot_at(&z, k.dst[i], &p), off = operation(op, slot_at(&z, k.a[i], &p), slot_at(&z, k.b[i], &p));
+    most = fmax(most, (double)fabsl(off - to) / z.r[k.dst[i]]);
+    give_back();
+  }
+  assert_true(most > 0.999);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(every_operation_is_within_its_bounds),
     cmocka_unit_test(the_bounds_are_nearly_reached),
     cmocka_unit_test(so_are_those_of_whole_tapes),
+    cmocka_unit_test(lines_hold_at_the_kink),
   };
   return cmocka_run_group_tests_name("zonotope: defects", tests, NULL, NULL);
 }

@@ -73,7 +73,7 @@ static double width_of(zono *z, uint32_t q, uint32_t j) {
 }
 
 static void add(lump *to, double by, lump size) {
-  to->most += by * size.most, to->rest += by * size.rest, to->path += by * size.path;
+  to->rest += by * size.rest, to->path += by * size.path;
   to->mean += by * size.mean, to->moment += by * size.moment;
 }
 

@@ -8,7 +8,7 @@ typedef struct residual {
   double *W, *dW; /* [na x nslot] adjoints of the equations: middle, half width */
   double *lean;   /* [na x (na + nvarying) x nx] of the half width, what each eps makes: of unknowns, of what varies */
   double *row;    /* [nx] */
-  lump *size;     /* [na] what is left of equation q, by lumps that have no column of their own */
+  lump *size;     /* [na] what is left of equation q, by lumps that have no column of their own; no `most` */
   double *miss;   /* [na] by how much an unknown differs besides */
 } residual;
 
