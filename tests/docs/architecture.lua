@@ -61,6 +61,8 @@ for room, counts in pairs(now) do
   end
 end
 local kernel = 0 -- without the descriptions of functions, of which there are as many as functions
-for _, part in ipairs { "abi", "base", "num", "graph", "host" } do kernel = kernel + now["framework/kernel/" .. part][1] end
+for _, part in ipairs { "abi", "base", "num", "graph", "host" } do
+  kernel = kernel + now["framework/kernel/" .. part][1]
+end
 assert(kernel <= MOST, ("the kernel has %d lines, %d are allowed"):format(kernel, MOST))
 print(("%d stops, %d rooms, %d lines of kernel"):format(stops, n, kernel))
