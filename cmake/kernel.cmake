@@ -3,7 +3,7 @@
 #   ambit_inside    everything, for what is built here: the command, the Lua module, the conformance kit, tests
 set(framework ${PROJECT_SOURCE_DIR}/framework)
 set(kernel_sources "")
-foreach(room kernel algebra mechanics models verbs)
+foreach(room kernel functions algebra mechanics models verbs)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${framework}/${room}/*.c)
   list(APPEND kernel_sources ${sources})
 endforeach()

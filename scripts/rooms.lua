@@ -9,6 +9,7 @@ local rooms = {
     { "framework/kernel/host", "finds, checks and loads plugins; what it lends them" },
     { "framework/kernel/functions", "one file for each function of expressions" } } },
   { "framework/api", "the C API: headers of what `libambit` exports" },
+  { "framework/functions", "log1p, hypot and their like: one file each, which says all that others need to know" },
   { "framework/algebra", "rewriting of expressions that the kernel does without" },
   { "framework/mechanics", "what elements add up to: dynamics, loops, constraints" },
   { "framework/models", "what a scene states a model with: units, mechanisms, robots, equations" },

@@ -5,8 +5,8 @@
 # layer that defines what it declares (`api_`). A plugin sees <ambit/...>, files of its own folder and plugins/shared; headers of
 # the ABI see the ABI only. Besides, bounds are read from arithmetics by one function, which looks at them.
 cmake_minimum_required(VERSION 3.22)
-set(layers abi base num graph functions host algebra mechanics models verbs script main)
-set(kernel abi base num graph functions host)
+set(layers abi base num graph host functions algebra mechanics models verbs script main)
+set(kernel abi base num graph host)
 set(verbs run split evaluate simulate sample event verify roots stability sensitivity reduce)
 set(sees_simulate split)
 set(api_base arena status)

@@ -1,4 +1,4 @@
-/* function.h -- what the kernel knows of a function that is described in one place, kernel/functions/NAME.c.
+/* function.h -- what the kernel knows of a function that is described in one place, framework/functions/NAME.c.
 **
 ** Everything that looks at opcodes takes AMBIT_FUNCTIONS by this description: intervals and Taylor coefficients (num),
 ** derivatives, inverses and tapes (graph), arithmetics through "ambit.num/1", units and source texts. Those of one

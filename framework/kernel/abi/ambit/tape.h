@@ -34,7 +34,7 @@
   X(MIN, 2, "min")     /* r := the smaller of a and b; not smooth where a = b */                                       \
   X(MAX, 2, "max")     /* r := the larger of a and b; not smooth where a = b */
 
-/* Functions, each described in one file of framework/kernel/functions: X(NAME, arity, symbol), append only. Kernel and
+/* Functions, each described in one file of framework/functions: X(NAME, arity, symbol), append only. Kernel and
 ** plugins take them by that description (num.h: map, taylor); no SERIES tape holds one. */
 #define AMBIT_FUNCTIONS(X)                                                                                             \
   X(LOG1P, 1, log1p) /* r := ln(1 + a), a > -1 */                                                                      \
