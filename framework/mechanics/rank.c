@@ -82,14 +82,14 @@ static ambit_status read_leaves(certificate *s, const ambit_rank_request *q) {
 
 /* -- tapes */
 
-static ambit_status open_contractor(certificate *s, ambit_lease *lease) {
+static ambit_status open_contractor(certificate *s, ambit_scope *scope) {
   size_t n = s->c->n + s->c->npure;
   ambit_expr *g = ambit_arena_alloc(s->arena, (n + 1) * sizeof *g);
   if (!g) return ambit_no_memory(s->f);
   for (size_t k = 0; k < n; k++) g[k] = s->c->row[k].g;
   ambit_status status = ambit_tape_seal(s->g, s->arena, n, g, s->nin, s->leaf, 0, 0, &s->residual, s->f);
   if (status != AMBIT_OK) return status;
-  return ambit_contract_service_v1.open(&lease->host, s->residual, &s->contractor) == AMBIT_OK ? AMBIT_OK
+  return ambit_contract_service_v1.open(&scope->host, s->residual, &s->contractor) == AMBIT_OK ? AMBIT_OK
                                                                                                : ambit_no_memory(s->f);
 }
 
@@ -243,11 +243,11 @@ ambit_status ambit_rank_certify(const ambit_rank_request *q, ambit_arena *arena,
   certificate s = {
     .c = &r->loops.constraints, .g = ambit_mechanism_graph(q->mechanism), .arena = arena, .f = f, .budget = q->budget
   };
-  ambit_lease *lease = NULL;
-  status = ambit_lease_open(&lease, NULL, NULL);
+  ambit_scope *scope = NULL;
+  status = ambit_scope_open(&scope, NULL, NULL);
   if (status != AMBIT_OK) return ambit_no_memory(f);
   status = read_leaves(&s, q);
-  if (status == AMBIT_OK) status = open_contractor(&s, lease);
+  if (status == AMBIT_OK) status = open_contractor(&s, scope);
   if (status == AMBIT_OK) status = certify(&s, &r->loops.partition, r);
   ambit_partition other;
   bool proved = r->outcome == AMBIT_RANK_PROVED || r->outcome == AMBIT_RANK_EMPTY;
@@ -260,6 +260,6 @@ ambit_status ambit_rank_certify(const ambit_rank_request *q, ambit_arena *arena,
     s.boxes += spent;
   }
   r->boxes = s.boxes;
-  ambit_lease_close(lease);
+  ambit_scope_close(scope);
   return status;
 }

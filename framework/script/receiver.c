@@ -113,7 +113,7 @@ void ambit_receiver_tell(
   if (!own && status == AMBIT_STOPPED && r->deadline > 0 && !ambit_interrupt_pending()) code = AMBIT_CODE_STOPPED_LIMIT;
   if (!own && status == AMBIT_STOPPED && (r->pace.is_hopeless || r->pace.is_overdue) && !ambit_interrupt_pending()) {
     status = AMBIT_UNABLE;
-    code = AMBIT_CODE_UNABLE_CREEP;
+    code = AMBIT_CODE_UNABLE_SHORT_STEPS;
     snprintf(slow, sizeof slow, "at t = %.9g s steps are so short, or take so long, that the end is out of reach",
         r->pace.t);
     reason = slow;

@@ -42,16 +42,16 @@ static int evaluate(lua_State *L) {
 
 /* What is asked of `simulate` besides: a run that is a part of another verb's work is `silent`, it writes no records of
 ** its own; patience, due, reach: as ambit_pace. The data to cut come in three lists. */
-typedef struct wishes {
+typedef struct settings {
   uint32_t threads, pieces;
   bool dense, last, silent;
   double patience, due, reach;
   size_t ncut;
   const ambit_cut *cut;
-} wishes;
+} settings;
 
-static wishes read_wishes(lua_State *L, int idx) {
-#define ONE(member, kind) AMBIT_LUA_ONE(wishes, #member, kind, 0, member)
+static settings read_settings(lua_State *L, int idx) {
+#define ONE(member, kind) AMBIT_LUA_ONE(settings, #member, kind, 0, member)
   static const ambit_lua_field cut[] = { AMBIT_LUA_ONE(ambit_cut, "unknown", AMBIT_LUA_EXPRESSION, 0, unknown),
     AMBIT_LUA_ONE(ambit_cut, "name", AMBIT_LUA_TEXT, 0, name),
     AMBIT_LUA_ONE(ambit_cut, "parts", AMBIT_LUA_COUNT, 0, parts) };
@@ -59,10 +59,10 @@ static wishes read_wishes(lua_State *L, int idx) {
   static const ambit_lua_field field[] = { ONE(threads, AMBIT_LUA_COUNT), ONE(pieces, AMBIT_LUA_COUNT),
     ONE(dense, AMBIT_LUA_FLAG), ONE(last, AMBIT_LUA_FLAG), ONE(silent, AMBIT_LUA_FLAG), ONE(patience, AMBIT_LUA_NUMBER),
     ONE(due, AMBIT_LUA_NUMBER), ONE(reach, AMBIT_LUA_NUMBER),
-    { "cuts", AMBIT_LUA_ROWS, 0, offsetof(wishes, cut), offsetof(wishes, ncut), &cuts } };
+    { "cuts", AMBIT_LUA_ROWS, 0, offsetof(settings, cut), offsetof(settings, ncut), &cuts } };
 #undef ONE
-  static const ambit_lua_fields fields = AMBIT_LUA_FIELDS(wishes, field);
-  wishes w = { 0 };
+  static const ambit_lua_fields fields = AMBIT_LUA_FIELDS(settings, field);
+  settings w = { 0 };
   if (!lua_isnoneornil(L, idx)) ambit_lua_read(L, idx, "simulate", &fields, &w);
   return w;
 }
@@ -79,15 +79,15 @@ static void push_result(lua_State *L, const ambit_receiver *to, const ambit_simu
   ambit_receiver_tell(L, to, result->status, result->code, result->reason);
 }
 
-/* simulate(flow, events or nil, wishes or nil) -> track, result, report */
+/* simulate(flow, events or nil, settings or nil) -> track, result, report */
 static int simulate(lua_State *L) {
   lua_settop(L, 3);
   ambit_lua_events *events = luaL_testudata(L, 2, AMBIT_TYPE_EVENTS);
-  wishes w = read_wishes(L, 3);
+  settings w = read_settings(L, 3);
   /* for events everybody needs the rates */
   ambit_simulate_request q = events ? ambit_lua_read_flow(L, 1, "simulate") : ambit_lua_read_outline(L, 1, "simulate");
   q.threads = w.threads, q.pieces = w.pieces, q.ncut = w.ncut, q.cut = w.cut;
-  q.wish = AMBIT_WISH_SET | (w.dense ? AMBIT_WISH_DENSE : 0);
+  q.extras = AMBIT_EXTRA_SET | (w.dense ? AMBIT_EXTRA_DENSE : 0);
   uint32_t keep = (w.dense ? AMBIT_TRACK_DENSE : 0) | (w.last ? AMBIT_TRACK_LAST : 0);
   ambit_receiver to = ambit_receiver_push(L, q.system->nx, q.system->name, keep);
   if (w.silent) to.records = NULL;

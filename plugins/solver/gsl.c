@@ -5,7 +5,7 @@
 ** derivative with respect to time, which only the method bsimp reads, is a central difference. GSL allocates its own
 ** memory in open(); its error handler, which would end the process, is switched off there. The implicit methods also
 ** allocate while they run: GSL's LU decomposition does, from 2.6 on. Where the right-hand side jumps back and forth the
-** control of steps would creep for ever: `steps_max` ends that.
+** control of steps would go on for ever in tiny steps: `steps_max` ends that.
 */
 #include <ambit/block.h>
 #include <ambit/code.h>

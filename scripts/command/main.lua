@@ -90,7 +90,7 @@ return function(argv)
         if word == "--" or (command.scene and word:sub(1, 1) ~= "-" and word ~= "-") then break end
         if word == "--help" or word == "-h" then return print(command.usage) or 0 end
       end
-      _G.os.exit = scene.leave_by(function(wish) return wish end)
+      _G.os.exit = scene.leave_by(function(asked) return asked end)
       local code, message = command.run(arguments)
       if code == 2 then return usage_error(message, command.usage) end
       return code

@@ -98,7 +98,7 @@ function command.run(words)
     end
     return failed and 1 or code.exit(session.worst)
   end
-  _G.os.exit = scene.leave_by(function(wish) return wish ~= 0 and wish or exit() end)
+  _G.os.exit = scene.leave_by(function(asked) return asked ~= 0 and asked or exit() end)
   if interactive then print(("ambit %s; Ctrl-D leaves"):format(ambit.version)) end
   for chunk in function() return read_chunk(read, env) end do
     if not run(chunk) then failed = true end

@@ -43,11 +43,11 @@ local function worst_of(problem)
 end
 
 -- The end of the scene, however it came: the last record, what is to be said, the exit code. problem: the error that
--- ended it; wish: what os.exit asked for, which may not make it better.
-local function finish(problem, wish)
+-- ended it; asked: what os.exit asked for, which may not make it better.
+local function finish(problem, asked)
   local worst, stopped, by_stop, _, limit = worst_of(problem), core.interrupted()
   local exit = code.exit(worst)
-  if wish and wish ~= 0 then exit = wish end
+  if asked and asked ~= 0 then exit = asked end
   if stopped then exit = by_stop end
   if problem then complain(problem) end
   local reason = limit or problem and tostring(problem):match "^[^\n]*"
@@ -79,7 +79,7 @@ function command.run(list)
     if not good then return complain(problem) or 1 end
     if options.json == "-" then scene.print_to_stderr() end
   end
-  _G.os.exit = scene.leave_by(function(wish) return finish(nil, wish) end)
+  _G.os.exit = scene.leave_by(function(asked) return finish(nil, asked) end)
   local good, problem = scene.run(file, words)
   return finish(not good and problem or nil)
 end

@@ -51,14 +51,14 @@ end
 
 scene.explain = explain
 
--- os.exit for a command: the exit code is what finish(wish) says, wish being what was asked for. The system keeps 8
+-- os.exit for a command: the exit code is what finish(asked) says, asked being what was asked for. The system keeps 8
 -- bits: a multiple of 256 would become 0, which nobody asked for.
 function scene.leave_by(finish)
-  return function(wish)
-    if wish == nil or wish == true then wish = 0 elseif wish == false then wish = 1 end
-    if math.type(wish) ~= "integer" then error("os.exit: expected true, false or a whole number", 2) end
-    if wish ~= 0 and wish % 256 == 0 then wish = 1 end
-    core.leave(finish(wish))
+  return function(asked)
+    if asked == nil or asked == true then asked = 0 elseif asked == false then asked = 1 end
+    if math.type(asked) ~= "integer" then error("os.exit: expected true, false or a whole number", 2) end
+    if asked ~= 0 and asked % 256 == 0 then asked = 1 end
+    core.leave(finish(asked))
   end
 end
 

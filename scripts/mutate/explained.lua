@@ -115,7 +115,7 @@ return {
     "the radius of a state without a column of its own goes to the rest of the set: both hold it",
   ["plugins/solver/lohner/step.c | sign 1 | for (uint32_t i = 0; i < s->nx; i++) s->box_excess[i] = H * s->tail_out[i] / (q + 1.0);"] =
     "a larger bound of the excess",
-  ["plugins/solver/lohner/step.c | guard 1 | if (by_slopes < BLUNT * by_centre && s->slope_order < o->slope_order_max) s->next_slope_order++;"] =
+  ["plugins/solver/lohner/step.c | guard 1 | if (by_slopes < SLOPES_LIMIT * by_centre && s->slope_order < o->slope_order_max) s->next_slope_order++;"] =
     "the order of slopes stays lower: wider slopes, the same proof",
   ["plugins/solver/stiff/collocation.c | logic 9 | return q->x && q->Z && q->c && q->size && q->least && q->unit && q->scale && q->A && q->residual && q->J && q->f &&"] =
     "memory that ran out for one array ran out for the next",

@@ -33,9 +33,9 @@ static void *at(const stage *s, uint32_t slot) { return s->base + slot * s->elem
 static stage open_stage(bench_arithmetic *b, uint32_t nvar, double symbols, double product) {
   stage s = { .b = b };
   const double option[3] = { symbols, product, 0 };
-  if (b->full.open && b->full.open(&b->lease->host, option, nvar, &s.ctx) != AMBIT_OK) exit(1);
+  if (b->full.open && b->full.open(&b->scope->host, option, nvar, &s.ctx) != AMBIT_OK) exit(1);
   s.elem = b->full.elem(s.ctx);
-  s.base = b->lease->host.alloc(&b->lease->host, (4 * OPERANDS + nvar) * s.elem);
+  s.base = b->scope->host.alloc(&b->scope->host, (4 * OPERANDS + nvar) * s.elem);
   if (!s.base) exit(1);
   return s;
 }

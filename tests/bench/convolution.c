@@ -214,8 +214,8 @@ static double jets_time(
   const ambit_jets *jets = general ? &ambit_jets_general : b->full.jets;
   void *ctx = general ? (void *)&source : b->ctx;
   series s = { jets, t, NULL, order, given, ndir ? 0x1p-30 : 0 }, centre = { jets, t, NULL, order, given, 0 };
-  if (jets->open(&b->lease->host, ctx, t, order, 0, NULL, &centre.self) != AMBIT_OK) exit(1);
-  if (jets->open(&b->lease->host, ctx, t, order, ndir, ndir ? centre.self : NULL, &s.self) != AMBIT_OK) exit(1);
+  if (jets->open(&b->scope->host, ctx, t, order, 0, NULL, &centre.self) != AMBIT_OK) exit(1);
+  if (jets->open(&b->scope->host, ctx, t, order, ndir, ndir ? centre.self : NULL, &s.self) != AMBIT_OK) exit(1);
   if (ndir) by_jets(&centre);
   double best = fastest(by_jets, &s);
   jets->close(s.self), jets->close(centre.self);

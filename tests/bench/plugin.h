@@ -10,7 +10,7 @@
 
 typedef struct bench_arithmetic {
   ambit_arithmetic full; /* completed by the kernel */
-  ambit_lease *lease;
+  ambit_scope *scope;
   void *ctx;
 } bench_arithmetic;
 
@@ -22,8 +22,8 @@ static inline bench_arithmetic bench_open(ambit_registry *r, const char *name, c
   ambit_status status = r ? ambit_registry_plugin(r, "arithmetic", name, &plugin, &f) : AMBIT_NOMEM;
   const ambit_arithmetic *offered = status == AMBIT_OK ? plugin->get(id) : NULL;
   if (offered && status == AMBIT_OK) status = ambit_arithmetic_complete(offered, &b.full, &f);
-  if (offered && status == AMBIT_OK) status = ambit_lease_open(&b.lease, NULL, NULL);
-  if (offered && status == AMBIT_OK && b.full.open) status = b.full.open(&b.lease->host, NULL, 0, &b.ctx);
+  if (offered && status == AMBIT_OK) status = ambit_scope_open(&b.scope, NULL, NULL);
+  if (offered && status == AMBIT_OK && b.full.open) status = b.full.open(&b.scope->host, NULL, 0, &b.ctx);
   if (offered && status == AMBIT_OK) return b;
   fprintf(stderr, "%s %s: %s\n", name, id, f.status ? f.message : "not offered");
   exit(1);
@@ -31,7 +31,7 @@ static inline bench_arithmetic bench_open(ambit_registry *r, const char *name, c
 
 static inline void bench_close(bench_arithmetic *b) {
   if (b->full.close) b->full.close(b->ctx);
-  ambit_lease_close(b->lease);
+  ambit_scope_close(b->scope);
 }
 
 static inline double bench_now(void) { /* ns */

@@ -14,7 +14,7 @@ static const char *const variant_name[] = { "widest", "AVX2", "portable" };
 
 typedef struct bench_model {
   ambit_arithmetic full;
-  ambit_lease *lease;
+  ambit_scope *scope;
   void *ctx;
   const ambit_taylor *taylor;
   size_t elem;
@@ -28,21 +28,21 @@ static bench_model open_model(ambit_registry *r, int which, uint32_t nvar, uint3
   const double option[] = { order, 16 };
   if (ambit_registry_plugin(r, "arithmetic", "taylor_model", &plugin, &f) != AMBIT_OK ||
       ambit_arithmetic_complete(plugin->get(variant[which]), &b.full, &f) != AMBIT_OK ||
-      ambit_lease_open(&b.lease, NULL, NULL) != AMBIT_OK ||
-      b.full.open(&b.lease->host, option, nvar, &b.ctx) != AMBIT_OK) {
+      ambit_scope_open(&b.scope, NULL, NULL) != AMBIT_OK ||
+      b.full.open(&b.scope->host, option, nvar, &b.ctx) != AMBIT_OK) {
     fprintf(stderr, "taylor_model: %s\n", f.message);
     exit(1);
   }
   b.taylor = plugin->get(AMBIT_TAYLOR);
   b.elem = b.full.elem(b.ctx);
-  b.block = b.lease->host.alloc(&b.lease->host, ROOM * b.elem);
+  b.block = b.scope->host.alloc(&b.scope->host, ROOM * b.elem);
   if (!b.block) exit(1);
   return b;
 }
 
 static void close_model(bench_model *b) {
   b->full.close ? b->full.close(b->ctx) : (void)0;
-  ambit_lease_close(b->lease);
+  ambit_scope_close(b->scope);
 }
 
 static void *at(const bench_model *b, uint32_t slot) { return b->block + slot * b->elem; }

@@ -124,7 +124,7 @@ static void inverses_narrow(void **unused) {
 typedef struct fixture {
   ambit_graph *graph;
   ambit_arena *arena;
-  ambit_lease *lease;
+  ambit_scope *scope;
   ambit_contractor *contractor;
   const ambit_tape *tape;
 } fixture;
@@ -133,10 +133,10 @@ static void seal(fixture *s, uint32_t nout, const ambit_expr *out, uint32_t nin,
   ambit_failure f = { 0 };
   if (ambit_tape_seal(s->graph, s->arena, nout, out, nin, in, 0, 0, &s->tape, &f) != AMBIT_OK)
     fail_msg("%s", f.message);
-  assert_int_equal(ambit_lease_open(&s->lease, NULL, NULL), AMBIT_OK);
-  const ambit_contract_service *service = s->lease->host.service(&s->lease->host, AMBIT_CONTRACT_SERVICE);
+  assert_int_equal(ambit_scope_open(&s->scope, NULL, NULL), AMBIT_OK);
+  const ambit_contract_service *service = s->scope->host.service(&s->scope->host, AMBIT_CONTRACT_SERVICE);
   assert_ptr_equal(service, &ambit_contract_service_v1);
-  assert_int_equal(service->open(&s->lease->host, s->tape, &s->contractor), AMBIT_OK);
+  assert_int_equal(service->open(&s->scope->host, s->tape, &s->contractor), AMBIT_OK);
 }
 
 /* x^2 + y^2 - 1 and atan2(y, x) - z */
@@ -154,7 +154,7 @@ static fixture make_fixture(void) {
 }
 
 static void free_fixture(fixture *s) {
-  ambit_lease_close(s->lease);
+  ambit_scope_close(s->scope);
   ambit_arena_close(s->arena);
   ambit_graph_close(s->graph);
 }

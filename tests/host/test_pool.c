@@ -20,17 +20,17 @@
 
 #define ITEMS 500
 
-static const ambit_pool_service *service(const ambit_lease *lease) {
-  const ambit_pool_service *s = lease->host.service(&lease->host, AMBIT_POOL_SERVICE);
+static const ambit_pool_service *service(const ambit_scope *scope) {
+  const ambit_pool_service *s = scope->host.service(&scope->host, AMBIT_POOL_SERVICE);
   assert_non_null(s);
   assert_int_equal(s->size, sizeof *s);
   return s;
 }
 
-static ambit_lease *lease_open(void) {
-  ambit_lease *lease;
-  assert_int_equal(ambit_lease_open(&lease, NULL, NULL), AMBIT_OK);
-  return lease;
+static ambit_scope *lease_open(void) {
+  ambit_scope *scope;
+  assert_int_equal(ambit_scope_open(&scope, NULL, NULL), AMBIT_OK);
+  return scope;
 }
 
 static void sleep_ms(long ms) {
@@ -68,10 +68,10 @@ static ambit_status count(void *user, uint32_t item, uint32_t number) {
 static void does_every_item_once(void **state) {
   (void)state;
   for (uint32_t threads = 0; threads <= 8; threads++) {
-    ambit_lease *lease = lease_open();
-    const ambit_pool_service *s = service(lease);
+    ambit_scope *scope = lease_open();
+    const ambit_pool_service *s = service(scope);
     ambit_pool *pool;
-    assert_int_equal(s->open(&lease->host, threads, &pool), AMBIT_OK);
+    assert_int_equal(s->open(&scope->host, threads, &pool), AMBIT_OK);
     tally *t = calloc(1, sizeof *t);
     t->threads = threads ? threads : 1;
     for (uint32_t round = 1; round <= 20; round++) {
@@ -85,7 +85,7 @@ static void does_every_item_once(void **state) {
     assert_int_equal(t->shared, 0);
     free(t);
     s->close(pool);
-    ambit_lease_close(lease);
+    ambit_scope_close(scope);
   }
 }
 
@@ -244,13 +244,13 @@ static void does_with_fewer_threads(void **state) {
 
 static void closes_with_its_host(void **state) {
   (void)state;
-  ambit_lease *lease = lease_open();
-  const ambit_pool_service *s = service(lease);
+  ambit_scope *scope = lease_open();
+  const ambit_pool_service *s = service(scope);
   ambit_pool *pool[3];
-  for (int i = 0; i < 3; i++) assert_int_equal(s->open(&lease->host, 3, &pool[i]), AMBIT_OK);
+  for (int i = 0; i < 3; i++) assert_int_equal(s->open(&scope->host, 3, &pool[i]), AMBIT_OK);
   s->close(pool[1]);
   s->close(NULL);
-  ambit_lease_close(lease); /* joins the other two: sanitizers would see what is left */
+  ambit_scope_close(scope); /* joins the other two: sanitizers would see what is left */
 }
 
 /* Idle workers sleep: no CPU time. */

@@ -17,10 +17,10 @@
 static void keep_line(void *user, const char *line) { snprintf(user, 64, "%s", line); }
 
 static void lends_memory(void **state) {
-  ambit_lease *lease;
+  ambit_scope *scope;
   (void)state;
-  assert_int_equal(ambit_lease_open(&lease, NULL, NULL), AMBIT_OK);
-  const ambit_host *h = &lease->host;
+  assert_int_equal(ambit_scope_open(&scope, NULL, NULL), AMBIT_OK);
+  const ambit_host *h = &scope->host;
   assert_int_equal(h->size, sizeof *h);
   assert_int_equal(h->abi, AMBIT_ABI);
   for (size_t bytes = 1; bytes < 100000; bytes = bytes * 3 + 1) {
@@ -31,35 +31,35 @@ static void lends_memory(void **state) {
   }
   assert_null(h->alloc(h, SIZE_MAX));
   h->note(h, "nobody listens to %d", 1);
-  ambit_lease_close(lease);
-  ambit_lease_close(NULL);
+  ambit_scope_close(scope);
+  ambit_scope_close(NULL);
 }
 
 static void keeps_the_first_failure(void **state) {
-  ambit_lease *lease;
+  ambit_scope *scope;
   char line[64] = "";
   (void)state;
-  assert_int_equal(ambit_lease_open(&lease, keep_line, line), AMBIT_OK);
-  const ambit_host *h = &lease->host;
+  assert_int_equal(ambit_scope_open(&scope, keep_line, line), AMBIT_OK);
+  const ambit_host *h = &scope->host;
   assert_int_equal((h->fail)(h, AMBIT_UNABLE, "step %d", 3), AMBIT_UNABLE);
   assert_int_equal((h->fail)(h, AMBIT_DOMAIN, "later"), AMBIT_DOMAIN);
-  assert_string_equal(lease->failure.message, "step 3");
-  assert_int_equal(lease->failure.status, AMBIT_UNABLE);
+  assert_string_equal(scope->failure.message, "step 3");
+  assert_int_equal(scope->failure.status, AMBIT_UNABLE);
   h->note(h, "order %d", 12);
   assert_string_equal(line, "order 12");
-  ambit_lease_close(lease);
+  ambit_scope_close(scope);
 }
 
 static void finds_services(void **state) {
-  ambit_lease *lease;
+  ambit_scope *scope;
   (void)state;
-  assert_int_equal(ambit_lease_open(&lease, NULL, NULL), AMBIT_OK);
-  const ambit_host *h = &lease->host;
+  assert_int_equal(ambit_scope_open(&scope, NULL, NULL), AMBIT_OK);
+  const ambit_host *h = &scope->host;
   assert_ptr_equal(h->service(h, "ambit.num/1"), &ambit_num_service_v1);
   assert_ptr_equal(h->service(h, "ambit.jet/1"), &ambit_jet_service_v1);
   assert_null(h->service(h, "ambit.jet/2"));
   assert_null(h->service(h, ""));
-  ambit_lease_close(lease);
+  ambit_scope_close(scope);
 }
 
 static int is_slow_path(struct dl_phdr_info *info, size_t size, void *found) {

@@ -13,7 +13,7 @@ typedef struct arithmetic_loader {
   void *library;
   const ambit_arithmetic *plugin; /* as exported */
   ambit_arithmetic full;          /* completed */
-  ambit_lease *lease;
+  ambit_scope *scope;
   void *ctx;          /* opened with every option at its fallback and no variables */
   double option[128]; /* its options */
 } arithmetic_loader;
@@ -30,12 +30,12 @@ static inline const char *arithmetic_load_as(arithmetic_loader *l, const char *n
   l->plugin = entry ? entry->get(interface_id) : NULL;
   if (!l->plugin) return "no arithmetic in this file";
   if (ambit_arithmetic_complete(l->plugin, &l->full, NULL) != AMBIT_OK) return "incomplete arithmetic";
-  if (ambit_lease_open(&l->lease, NULL, NULL) != AMBIT_OK) return "out of memory";
+  if (ambit_scope_open(&l->scope, NULL, NULL) != AMBIT_OK) return "out of memory";
   if (ambit_params_doubles(l->full.param) > sizeof l->option / sizeof *l->option) return "too many options";
-  if (ambit_params_resolve(l->full.param, name, 0, NULL, l->option, &l->lease->failure) != AMBIT_OK)
-    return l->lease->failure.message;
-  if (l->full.open && l->full.open(&l->lease->host, l->option, 0, &l->ctx) != AMBIT_OK)
-    return l->lease->failure.message;
+  if (ambit_params_resolve(l->full.param, name, 0, NULL, l->option, &l->scope->failure) != AMBIT_OK)
+    return l->scope->failure.message;
+  if (l->full.open && l->full.open(&l->scope->host, l->option, 0, &l->ctx) != AMBIT_OK)
+    return l->scope->failure.message;
   return NULL;
 }
 
@@ -45,7 +45,7 @@ static inline const char *arithmetic_load(arithmetic_loader *l, const char *name
 
 static inline void arithmetic_unload(arithmetic_loader *l) {
   if (l->ctx && l->full.close) l->full.close(l->ctx);
-  ambit_lease_close(l->lease); /* NULL is allowed */
+  ambit_scope_close(l->scope); /* NULL is allowed */
   if (l->library) dlclose(l->library);
 }
 #endif

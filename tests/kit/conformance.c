@@ -48,15 +48,15 @@ static void tell_fallback(void *user, const char *operation) { tell(user, "fallb
 static int check_arithmetic(const conformance *c, ambit_registry *r, const ambit_plugin *p, const char *name) {
   ambit_failure f = { 0 };
   const ambit_arithmetic *full;
-  ambit_lease *lease;
+  ambit_scope *scope;
   ambit_status status = ambit_registry_arithmetic(r, name, &full, &f);
-  if (status == AMBIT_OK && (status = ambit_lease_open(&lease, NULL, NULL)) != AMBIT_OK)
+  if (status == AMBIT_OK && (status = ambit_scope_open(&scope, NULL, NULL)) != AMBIT_OK)
     ambit_fail(&f, status, "out of memory");
   if (status != AMBIT_OK) return refuse(c, &f);
   if (!full->rigorous) tell(c, "note", "", "it proves nothing (rigorous = 0): only its values at points are judged");
   arithmetic_kit kit = { .plugin = p->get(AMBIT_ARITHMETIC),
     .full = full,
-    .host = &lease->host,
+    .host = &scope->host,
     .isotonic = c->isotonic,
     .seed = c->seed,
     .oracle = judge,
@@ -69,7 +69,7 @@ static int check_arithmetic(const conformance *c, ambit_registry *r, const ambit
     .begin = tell_begin_section,
     .done = tell_done_section };
   size_t broken = arithmetic_kit_run(&kit);
-  ambit_lease_close(lease);
+  ambit_scope_close(scope);
   return broken ? BROKEN : CONFORMS;
 }
 
@@ -104,7 +104,7 @@ enum { ARITHMETIC_OPTIONS = 128 };
 
 /* the first arithmetic that fits, opened as a scene would */
 static bool open_arithmetic(
-    ambit_registry *r, ambit_lease *lease, double option[ARITHMETIC_OPTIONS], solver_kit *kit, ambit_failure *f) {
+    ambit_registry *r, ambit_scope *scope, double option[ARITHMETIC_OPTIONS], solver_kit *kit, ambit_failure *f) {
   char name[64];
   const char *list = kit->plugin->arithmetics ? kit->plugin->arithmetics : "interval";
   snprintf(name, sizeof name, "%.*s", (int)strcspn(list, " "), list);
@@ -112,7 +112,7 @@ static bool open_arithmetic(
   const ambit_arithmetic *a = kit->arithmetic;
   if (ambit_params_doubles(a->param) > ARITHMETIC_OPTIONS) return false;
   if (ambit_params_resolve(a->param, name, 0, NULL, option, f) != AMBIT_OK) return false;
-  return !a->open || a->open(&lease->host, option, 0, &kit->actx) == AMBIT_OK;
+  return !a->open || a->open(&scope->host, option, 0, &kit->actx) == AMBIT_OK;
 }
 
 /* Random systems: one of each size in the usual check. */
@@ -183,18 +183,18 @@ static int check_solver(const conformance *c, ambit_registry *r, const char *nam
     .seed = c->seed,
     .finding = tell_finding,
     .user = (void *)(uintptr_t)c };
-  ambit_lease *lease;
+  ambit_scope *scope;
   double option[ARITHMETIC_OPTIONS];
-  if (ambit_lease_open(&lease, NULL, NULL) != AMBIT_OK) ambit_fail(&f, AMBIT_NOMEM, "out of memory");
+  if (ambit_scope_open(&scope, NULL, NULL) != AMBIT_OK) ambit_fail(&f, AMBIT_NOMEM, "out of memory");
   bool found = !f.message[0] && ambit_registry_solver(r, name, &kit.plugin, &f) == AMBIT_OK;
   if (found && kit.plugin->solves != AMBIT_SOLVES_FLOW) {
-    ambit_lease_close(lease);
+    ambit_scope_close(scope);
     return kit.plugin->solves == AMBIT_SOLVES_ROOTS ? check_roots(c, r, name) : check_reduction(c, r, name);
   }
-  bool ready = found && open_arithmetic(r, lease, option, &kit, &f);
+  bool ready = found && open_arithmetic(r, scope, option, &kit, &f);
   size_t broken = ready ? check_flow(c, &kit) : 0;
   if (ready && kit.actx && kit.arithmetic->close) kit.arithmetic->close(kit.actx);
-  ambit_lease_close(lease);
+  ambit_scope_close(scope);
   if (!ready) {
     ambit_fail(&f, AMBIT_UNABLE, "no arithmetic for it could be opened"); /* unless something else is said already */
     return refuse(c, &f);

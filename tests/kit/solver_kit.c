@@ -1,4 +1,4 @@
-/* solver_kit.c -- runs a solver on every problem, with and without wishes, and stops it. */
+/* solver_kit.c -- runs a solver on every problem, with and without extras, and stops it. */
 #include "host/params.h"
 #include "kit/conduct.h"
 #include "kit/guarded.h"
@@ -38,14 +38,14 @@ static void check_floating(state *s, unsigned before, const char *what) {
 static outcome run(state *s, watcher *w) {
   const solver_kit *kit = s->kit;
   outcome o = { .status = AMBIT_NOMEM };
-  ambit_lease *lease = NULL;
+  ambit_scope *scope = NULL;
   void *self = NULL;
   w->sink = (ambit_sink) { sizeof(ambit_sink), kit_emit, kit_progress };
   w->s = s, w->next = 1, w->t = s->problem.time[0];
-  if (ambit_lease_open(&lease, NULL, NULL) != AMBIT_OK) return o;
-  if (kit->service) lease->host.service = kit->service;
+  if (ambit_scope_open(&scope, NULL, NULL) != AMBIT_OK) return o;
+  if (kit->service) scope->host.service = kit->service;
   unsigned floating = conduct_floating();
-  o.status = kit->plugin->open(&lease->host, &s->problem, s->option, &self);
+  o.status = kit->plugin->open(&scope->host, &s->problem, s->option, &self);
   check_floating(s, floating, "open");
   if (o.status == AMBIT_OK) {
     o.status = kit->plugin->run(self, &w->sink);
@@ -53,8 +53,8 @@ static outcome run(state *s, watcher *w) {
     kit->plugin->close(self);
     check_floating(s, floating, "close");
   }
-  snprintf(o.reason, sizeof o.reason, "%s", lease->failure.message);
-  ambit_lease_close(lease);
+  snprintf(o.reason, sizeof o.reason, "%s", scope->failure.message);
+  ambit_scope_close(scope);
   s->counts->runs++;
   return o;
 }
@@ -115,14 +115,14 @@ static void check_run(state *s) {
   if (again.digest != w.digest || again.records != w.records) kit_find_solver(s, "another result the second time");
 }
 
-/* with every wish: what records say besides is true */
-static void check_wishes(state *s) {
+/* with every extra: what records say besides is true */
+static void check_extras(state *s) {
   watcher w = { .s = s };
-  s->problem.wish = AMBIT_WISH_DENSE | AMBIT_WISH_SET;
+  s->problem.extras = AMBIT_EXTRA_DENSE | AMBIT_EXTRA_SET;
   outcome o = run(s, &w);
   if (s->p->ends == INFINITY) check_complete(s, &w, &o);
-  s->problem.wish = 0;
-  check_allocations(s, &w, " of a run with wishes");
+  s->problem.extras = 0;
+  check_allocations(s, &w, " of a run with extras");
 }
 
 static void check_stops(state *s) {
@@ -168,7 +168,7 @@ static void run_all(state *s) {
   guard(&s->problem, true);
   if (all_guarded(&s->problem)) {
     check_run(s);
-    check_wishes(s);
+    check_extras(s);
     check_stops(s);
   } else
     kit_find_solver(s, "out of memory");
@@ -230,7 +230,7 @@ size_t solver_kit_run_random(const solver_kit *kit, size_t systems, solver_kit_c
     findings += run_problem(kit, counts, &r->problem, option);
   }
   free(r);
-  /* two runs of each may be complete: without and with wishes */
+  /* two runs of each may be complete: without and with settings */
   if (findings || 2 * (counts->complete - before) >= systems) return findings;
   kit->finding(kit->user, "random systems", "it gives up on three quarters of them");
   return 1;

@@ -29,7 +29,7 @@ typedef struct solver_kit {
   void *actx;
   size_t noption;
   const ambit_option *option;
-  uint32_t gives;              /* AMBIT_WISH_*: what must be in every step if it is wished for */
+  uint32_t gives;              /* AMBIT_EXTRA_*: what must be in every step if it is asked for */
   double tolerance;            /* of a solver that proves nothing: how far it may be off, relative to 1 + |x| */
   size_t (*allocations)(void); /* by this thread so far; NULL: not checked */
   const void *(*service)(

@@ -78,7 +78,7 @@ static void check_truth(state *s, const ambit_record *r) {
   for (int j = 0; j <= SAMPLES; j++) check_samples(s, instant(r, j), r->tube_lo, r->tube_hi, "the tube");
 }
 
-/* -- what records say on a wish */
+/* -- what records say besides */
 
 static void check_meets(state *s, double t, uint32_t i, ambit_interval x, double lo, double hi, const char *what) {
   if (!(x.lo <= hi && x.hi >= lo))
@@ -134,10 +134,10 @@ static void check_set(state *s, const ambit_record *r) {
 
 static void check_gifts(watcher *w, const ambit_record *r) {
   state *s = w->s;
-  uint32_t wish = s->problem.wish, missing = wish & s->kit->gives;
-  if ((!(wish & AMBIT_WISH_DENSE) && r->dense_mid) || (!(wish & AMBIT_WISH_SET) && r->set))
-    kit_find_solver(s, "a dense enclosure or a set that nobody wished for");
-  if (((missing & AMBIT_WISH_DENSE) && !r->dense_mid) || ((missing & AMBIT_WISH_SET) && !r->set))
+  uint32_t extras = s->problem.extras, missing = extras & s->kit->gives;
+  if ((!(extras & AMBIT_EXTRA_DENSE) && r->dense_mid) || (!(extras & AMBIT_EXTRA_SET) && r->set))
+    kit_find_solver(s, "a dense enclosure or a set that nobody asked for");
+  if (((missing & AMBIT_EXTRA_DENSE) && !r->dense_mid) || ((missing & AMBIT_EXTRA_SET) && !r->set))
     kit_find_solver(s, "no dense enclosure, or no set, in the step to t = %a", r->t_to);
   check_dense(w, r);
   check_set(s, r);

@@ -222,7 +222,7 @@ describe("a run of the solver that suits", function()
       if n == 1 then flow.times = { 0, 0.01 } end
       local track, facts, report = simulate(flow, watch, options)
       if n == 1 then
-        facts.status, facts.code, facts.reason, facts.cpu_seconds = "unable", "unable.creep", "made to", 60
+        facts.status, facts.code, facts.reason, facts.cpu_seconds = "unable", "unable.short_steps", "made to", 60
       end
       if flow.solver == "valencia" or options.pieces then
         facts.status, facts.code, facts.reason, facts.t_reached = "unable", "unable.step", "made to", 0
@@ -252,10 +252,10 @@ describe("verify", function()
   it("asks another solver where the first is open, and ends one that makes no way", function()
     local o = ambit.ode { states = { "x", "v" }, equations = function(s) return { s.v, -s.x - s.v / 10 } end }
     local asked, watch, own = {}, core.watch, suggest.solver
-    core.watch = function(flow, wishes) -- luacheck: ignore
-      local findings, outcome, report = watch(flow, wishes)
+    core.watch = function(flow, settings) -- luacheck: ignore
+      local findings, outcome, report = watch(flow, settings)
       local solver = flow.solver
-      assert.equal(2, wishes.patience)
+      assert.equal(2, settings.patience)
       if solver == "taylor_model" then outcome.status = "unable" findings[1].holds = false findings[1].hi = math.huge end
       asked[#asked + 1] = solver
       return findings, outcome, report

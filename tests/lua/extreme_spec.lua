@@ -45,7 +45,7 @@ end)
 describe("gsl", function()
   local decay = ambit.ode { states = { "x" }, equations = function(s) return { x = -s.x } end }
 
-  it("ends a run that creeps, and says which knob to turn", function()
+  it("ends a run that slows down without end, and says which knob to turn", function()
     local sliding = ambit.ode { states = { "x" }, equations = function(s) return { x = -s.x / ambit.abs(s.x) } end }
     local run = solve { sliding, initial = { x = 1 }, t = { 0, 2 }, solver = "gsl", steps_max = 5000, keep = "last" }
     assert.equal("unable", run.status)

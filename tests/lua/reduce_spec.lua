@@ -319,7 +319,7 @@ describe("reduce, techniques", function()
     assert.equal("v - x", text[1])
     assert.equal("min(1, x) - v*k", text[2]) -- x crosses 1: that one is left
     assert.is_true(true_error(small, draw, 0, 2, 200, 6).x < 1e-12)
-    q.reductions, q.keep = { "branch", "neglect", "constant" }, { "v" } -- the step of valencia creeps without v*k
+    q.reductions, q.keep = { "branch", "neglect", "constant" }, { "v" } -- valencia takes tiny steps without v*k
     local smaller = ambit.reduce(q)
     assert_proved(smaller, true_error(smaller, draw, 0, 2, 400, 6))
   end)

@@ -35,7 +35,7 @@ describe("a request of the core", function()
   end)
 
   it("says which words and numbers fit", function()
-    local function watching(wishes) return function(q) return core.watch(q, wishes) end end
+    local function watching(settings) return function(q) return core.watch(q, settings) end end
     fails(watching { conditions = { { g = core.expression(1), kind = "never" } } }, flow(),
       "core.watch: `kind`: expected one of its words, got string")
     fails(watching { cuts = -1 }, flow(), "core.watch: `cuts`: expected a whole number that is not negative")

@@ -17,7 +17,7 @@ static inline ambit_status verify_reopen(arithmetic_loader *l) {
   if (!l->full.open) return AMBIT_OK;
   if (l->full.close) l->full.close(l->ctx);
   l->ctx = NULL;
-  return l->full.open(&l->lease->host, l->option, 2, &l->ctx);
+  return l->full.open(&l->scope->host, l->option, 2, &l->ctx);
 }
 
 /* NULL, or what went wrong */
@@ -28,7 +28,7 @@ static inline const char *verify_open(verify_subject *v, const char *plugin) {
   if (trouble) return trouble;
   const ambit_arithmetic *full = &v->loaded.full;
   if (!full->rigorous) return "it promises no enclosures";
-  if (verify_reopen(&v->loaded) != AMBIT_OK) return v->loaded.lease->failure.message;
+  if (verify_reopen(&v->loaded) != AMBIT_OK) return v->loaded.scope->failure.message;
   size_t bytes = (3 * VERIFY_LANES * full->elem(v->loaded.ctx) + 63) / 64 * 64;
   v->block = aligned_alloc(64, bytes);
   if (!v->block) return "out of memory";

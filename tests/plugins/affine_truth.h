@@ -108,7 +108,7 @@ static inline affine_element *stage_at(const stage *s, uint32_t slot) {
 /* option: symbols, product, linearisation; NULL: the defaults */
 static inline stage stage_open(arithmetic_loader *l, uint32_t nvar, const double *option) {
   stage s = { .l = l, .nvar = nvar };
-  assert_int_equal(l->full.open(&l->lease->host, option, nvar, &s.ctx), AMBIT_OK);
+  assert_int_equal(l->full.open(&l->scope->host, option, nvar, &s.ctx), AMBIT_OK);
   s.elem = l->full.elem(s.ctx);
   s.base = calloc(TRUTH_SLOTS, s.elem);
   return s;

@@ -29,7 +29,7 @@ static inline size_t case_run(const arithmetic_loader *l, bool isotonic, size_t 
   *fallbacks = 0;
   arithmetic_kit kit = { .plugin = l->plugin,
     .full = &l->full,
-    .host = &l->lease->host,
+    .host = &l->scope->host,
     .isotonic = isotonic,
     .seed = 4711,
     .oracle = case_oracle,

@@ -76,16 +76,16 @@ static inline ambit_status case_try(const solver_case *c, case_option bad, char 
   const ambit_param *param = c->kit.plugin->param;
   double option[32];
   size_t at = 0;
-  ambit_lease *lease;
+  ambit_scope *scope;
   void *self = NULL;
   const ambit_problem problem = { .size = sizeof problem };
   while (strcmp(param[at].name, bad.name) != 0) at++;
   assert_int_equal(ambit_params_resolve(param, c->kit.name, 0, NULL, option, NULL), AMBIT_OK);
   option[at] = bad.value;
-  assert_int_equal(ambit_lease_open(&lease, NULL, NULL), AMBIT_OK);
-  ambit_status status = c->kit.plugin->open(&lease->host, &problem, option, &self);
-  snprintf(message, AMBIT_MESSAGE_MAX, "%s", lease->failure.message);
-  ambit_lease_close(lease);
+  assert_int_equal(ambit_scope_open(&scope, NULL, NULL), AMBIT_OK);
+  ambit_status status = c->kit.plugin->open(&scope->host, &problem, option, &self);
+  snprintf(message, AMBIT_MESSAGE_MAX, "%s", scope->failure.message);
+  ambit_scope_close(scope);
   return status;
 }
 

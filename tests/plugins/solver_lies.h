@@ -13,11 +13,11 @@ static const void *lie(const ambit_host *h, const char *id) {
 
 /* From now on the solver of the case gets `lying`. */
 static void lies(solver_case *c) {
-  ambit_lease *lease;
-  assert_int_equal(ambit_lease_open(&lease, NULL, NULL), AMBIT_OK);
-  kernel_service = lease->host.service;
-  truthful = *(const ambit_jet_service *)kernel_service(&lease->host, AMBIT_JET_SERVICE);
-  ambit_lease_close(lease);
+  ambit_scope *scope;
+  assert_int_equal(ambit_scope_open(&scope, NULL, NULL), AMBIT_OK);
+  kernel_service = scope->host.service;
+  truthful = *(const ambit_jet_service *)kernel_service(&scope->host, AMBIT_JET_SERVICE);
+  ambit_scope_close(scope);
   c->kit.service = lie;
   lying = truthful;
 }

@@ -28,10 +28,10 @@ static inline void taylor_open(taylor_case *c, int which, uint32_t nvar, uint32_
   const ambit_plugin *entry = dlsym(c->l.library, "ambit_entry");
   c->a = &c->l.full, c->t = entry->get(AMBIT_TAYLOR);
   assert_non_null(c->t);
-  if (c->a->open(&c->l.lease->host, option, nvar, &c->ctx) != AMBIT_OK) fail_msg("%s", c->l.lease->failure.message);
+  if (c->a->open(&c->l.scope->host, option, nvar, &c->ctx) != AMBIT_OK) fail_msg("%s", c->l.scope->failure.message);
   c->t->shape(c->ctx, &c->nvar, &c->order, &c->count);
   c->elem = c->a->elem(c->ctx);
-  c->block = c->l.lease->host.alloc(&c->l.lease->host, slots * lanes * c->elem);
+  c->block = c->l.scope->host.alloc(&c->l.scope->host, slots * lanes * c->elem);
   assert_non_null(c->block);
 }
 

@@ -249,8 +249,8 @@ static void refuse(double symbols, uint32_t nvar, ambit_status status, const cha
   void *ctx = NULL;
   const double option[3] = { symbols, 0, 0 };
   load_variant(&l, 0);
-  assert_int_equal(l.full.open(&l.lease->host, option, nvar, &ctx), status);
-  if (!strstr(l.lease->failure.message, words)) fail_msg("no `%s` in: %s", words, l.lease->failure.message);
+  assert_int_equal(l.full.open(&l.scope->host, option, nvar, &ctx), status);
+  if (!strstr(l.scope->failure.message, words)) fail_msg("no `%s` in: %s", words, l.scope->failure.message);
   arithmetic_unload(&l);
 }
 

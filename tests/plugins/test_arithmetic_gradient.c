@@ -28,7 +28,7 @@ static bench *open_as(const char *interface_id) {
   bench *b = calloc(1, sizeof *b);
   const char *problem = arithmetic_load_as(&b->l, "gradient", interface_id);
   if (problem) fail_msg("%s", problem);
-  assert_int_equal(b->l.plugin->open(&b->l.lease->host, NULL, VARIABLES, &b->ctx), AMBIT_OK);
+  assert_int_equal(b->l.plugin->open(&b->l.scope->host, NULL, VARIABLES, &b->ctx), AMBIT_OK);
   assert_int_equal(b->l.full.elem(b->ctx), DOUBLES * 8);
   return b;
 }

@@ -130,7 +130,7 @@ typedef struct coefficients {
 static void run_jets(const arithmetic_loader *l, const ambit_tape *t, coefficients *c) {
   void *jets;
   const ambit_jets *j = l->plugin->jets;
-  assert_int_equal(j->open(&l->lease->host, l->ctx, t, ORDER, 2, NULL, &jets), AMBIT_OK);
+  assert_int_equal(j->open(&l->scope->host, l->ctx, t, ORDER, 2, NULL, &jets), AMBIT_OK);
   c->flags = 0;
   for (uint32_t k = 0; k <= ORDER; k++) {
     static const double slope[2][2] = { { 1.0 / 3, 0x1p-1074 }, { 0, -0.7 } };
@@ -193,7 +193,7 @@ static void a_subnormal_coefficient_is_none(void **unused) {
   for (size_t e = 0; e < ENVIRONMENTS; e++) {
     void *jets;
     const ambit_jets *j = l.plugin->jets;
-    assert_int_equal(j->open(&l.lease->host, l.ctx, tape, 2, 0, NULL, &jets), AMBIT_OK);
+    assert_int_equal(j->open(&l.scope->host, l.ctx, tape, 2, 0, NULL, &jets), AMBIT_OK);
     enter_environment(e);
     j->put(jets, 0, 0, 1, 0, NULL, NULL);
     j->put(jets, 0, 1, 0x1p-1074, 0, NULL, NULL);

@@ -170,23 +170,23 @@ static void check_slope(const void *jets, const family *f, series_oracle *x, ser
 
 typedef struct twin { /* series at the centre and over the box, and the truth at both points */
   void *centre, *box;
-  ambit_lease *lease;
+  ambit_scope *scope;
   series_oracle at_centre, at_point;
 } twin;
 
 static void twin_open(twin *w, const ambit_tape *t, const family *f, int slopes) {
   const ambit_jets *jets = loader.plugin->jets;
-  assert_int_equal(ambit_lease_open(&w->lease, NULL, NULL), AMBIT_OK);
-  assert_int_equal(jets->open(&w->lease->host, loader.ctx, t, f->order, 0, NULL, &w->centre), AMBIT_OK);
+  assert_int_equal(ambit_scope_open(&w->scope, NULL, NULL), AMBIT_OK);
+  assert_int_equal(jets->open(&w->scope->host, loader.ctx, t, f->order, 0, NULL, &w->centre), AMBIT_OK);
   assert_int_equal(
-      jets->open(&w->lease->host, loader.ctx, t, f->order, f->ndir, slopes ? w->centre : NULL, &w->box), AMBIT_OK);
+      jets->open(&w->scope->host, loader.ctx, t, f->order, f->ndir, slopes ? w->centre : NULL, &w->box), AMBIT_OK);
   series_open(&w->at_centre, t, f->order), series_open(&w->at_point, t, f->order);
 }
 
 static void twin_close(twin *w) {
   loader.plugin->jets->close(w->centre), loader.plugin->jets->close(w->box);
   series_close(&w->at_centre), series_close(&w->at_point);
-  ambit_lease_close(w->lease);
+  ambit_scope_close(w->scope);
 }
 
 static uint32_t advance(twin *w, const family *f, const ambit_tape *t) {
@@ -244,7 +244,7 @@ typedef struct single { /* y = op(x, x2) and its series; x and x2 are inputs 0 a
   tape_builder builder;
   const ambit_tape *tape;
   uint32_t slot;
-  ambit_lease *lease;
+  ambit_scope *scope;
   void *jets;
 } single;
 
@@ -256,13 +256,13 @@ static void single_open(single *s, uint32_t op, uint32_t order) {
   int binary = op == AMBIT_OP_MUL || op == AMBIT_OP_DIV || op == AMBIT_OP_ATAN2 || op == AMBIT_OP_MIN;
   s->slot = tape_op(&s->builder, op, x, binary ? y : x);
   s->tape = tape_seal(&s->builder, one);
-  assert_int_equal(ambit_lease_open(&s->lease, NULL, NULL), AMBIT_OK);
-  assert_int_equal(loader.plugin->jets->open(&s->lease->host, loader.ctx, s->tape, order, 1, NULL, &s->jets), AMBIT_OK);
+  assert_int_equal(ambit_scope_open(&s->scope, NULL, NULL), AMBIT_OK);
+  assert_int_equal(loader.plugin->jets->open(&s->scope->host, loader.ctx, s->tape, order, 1, NULL, &s->jets), AMBIT_OK);
 }
 
 static void single_close(single *s) {
   loader.plugin->jets->close(s->jets);
-  ambit_lease_close(s->lease);
+  ambit_scope_close(s->scope);
 }
 
 static void single_put(single *s, uint32_t k, double x, double xr, double y, double yr) {
@@ -377,7 +377,7 @@ static void a_lost_centre_is_no_centre(void **state) {
   single s;
   void *box;
   single_open(&s, AMBIT_OP_EXP, 4);
-  assert_int_equal(loader.plugin->jets->open(&s.lease->host, loader.ctx, s.tape, 4, 1, s.jets, &box), AMBIT_OK);
+  assert_int_equal(loader.plugin->jets->open(&s.scope->host, loader.ctx, s.tape, 4, 1, s.jets, &box), AMBIT_OK);
   single_put(&s, 0, 1000, 0, 0, 0);
   loader.plugin->jets->advance(s.jets, 0);
   loader.plugin->jets->put(box, 0, 0, 1, 0, NULL, NULL);
@@ -412,20 +412,20 @@ static void solves_a_riccati_equation(void **state) {
 static void refuses_other_tapes(void **state) {
   (void)state;
   tape_builder t;
-  ambit_lease *lease;
+  ambit_scope *scope;
   void *jets;
-  assert_int_equal(ambit_lease_open(&lease, NULL, NULL), AMBIT_OK);
+  assert_int_equal(ambit_scope_open(&scope, NULL, NULL), AMBIT_OK);
   tape_begin(&t);
   uint32_t one = tape_constant(&t, 1, 1), x = tape_input(&t, AMBIT_DEGREE_ANY);
   tape_unary(&t, AMBIT_OP_TAN, x);
   const ambit_tape *plain = tape_seal(&t, AMBIT_NO_SLOT);
-  assert_int_equal(loader.plugin->jets->open(&lease->host, loader.ctx, plain, 4, 0, NULL, &jets), AMBIT_INVALID);
-  assert_non_null(strstr(lease->failure.message, "sealed for power series"));
-  ambit_failure_clear(&lease->failure);
+  assert_int_equal(loader.plugin->jets->open(&scope->host, loader.ctx, plain, 4, 0, NULL, &jets), AMBIT_INVALID);
+  assert_non_null(strstr(scope->failure.message, "sealed for power series"));
+  ambit_failure_clear(&scope->failure);
   const ambit_tape *tangent = tape_seal(&t, one);
-  assert_int_equal(loader.plugin->jets->open(&lease->host, loader.ctx, tangent, 4, 0, NULL, &jets), AMBIT_INVALID);
-  assert_non_null(strstr(lease->failure.message, "no rule"));
-  ambit_lease_close(lease);
+  assert_int_equal(loader.plugin->jets->open(&scope->host, loader.ctx, tangent, 4, 0, NULL, &jets), AMBIT_INVALID);
+  assert_non_null(strstr(scope->failure.message, "no rule"));
+  ambit_scope_close(scope);
 }
 
 static void refuses_a_shorter_centre(void **state) {
@@ -433,8 +433,8 @@ static void refuses_a_shorter_centre(void **state) {
   single s;
   void *box;
   single_open(&s, AMBIT_OP_EXP, 4);
-  assert_int_equal(loader.plugin->jets->open(&s.lease->host, loader.ctx, s.tape, 5, 1, s.jets, &box), AMBIT_INVALID);
-  assert_non_null(strstr(s.lease->failure.message, "centre"));
+  assert_int_equal(loader.plugin->jets->open(&s.scope->host, loader.ctx, s.tape, 5, 1, s.jets, &box), AMBIT_INVALID);
+  assert_non_null(strstr(s.scope->failure.message, "centre"));
   single_close(&s);
 }
 
@@ -442,16 +442,16 @@ static void refuses_a_shorter_centre(void **state) {
 static void kinks_of_constants_are_kept(void **state) {
   (void)state;
   tape_builder t;
-  ambit_lease *lease;
+  ambit_scope *scope;
   void *centre, *box;
   const ambit_jets *j = loader.plugin->jets;
   tape_begin(&t);
   uint32_t one = tape_constant(&t, 1, 1), p = tape_input(&t, 0), q = tape_input(&t, 0);
   uint32_t size = tape_unary(&t, AMBIT_OP_ABS, p), least = tape_op(&t, AMBIT_OP_MIN, p, q);
   const ambit_tape *tape = tape_seal(&t, one);
-  assert_int_equal(ambit_lease_open(&lease, NULL, NULL), AMBIT_OK);
-  assert_int_equal(j->open(&lease->host, loader.ctx, tape, 1, 0, NULL, &centre), AMBIT_OK);
-  assert_int_equal(j->open(&lease->host, loader.ctx, tape, 1, 1, centre, &box), AMBIT_OK);
+  assert_int_equal(ambit_scope_open(&scope, NULL, NULL), AMBIT_OK);
+  assert_int_equal(j->open(&scope->host, loader.ctx, tape, 1, 0, NULL, &centre), AMBIT_OK);
+  assert_int_equal(j->open(&scope->host, loader.ctx, tape, 1, 1, centre, &box), AMBIT_OK);
   const double slope_p = 1, slope_q = 0.5, none = 0;
   j->put(centre, 0, 0, 0.25, 0, NULL, NULL), j->put(centre, 1, 0, 0.375, 0, NULL, NULL);
   j->put(box, 0, 0, 0.25, 0.5, &slope_p, &none), j->put(box, 1, 0, 0.375, 0.5, &slope_q, &none);
@@ -462,7 +462,7 @@ static void kinks_of_constants_are_kept(void **state) {
   j->get(box, least, 0, &mid, &rad, &dmid, &drad);
   assert_true(mid - rad == -0.25 && mid + rad == 0.75 && dmid == 0.75 && drad == 0.25);
   j->close(centre), j->close(box);
-  ambit_lease_close(lease);
+  ambit_scope_close(scope);
 }
 
 static void put_point(void *jets, uint32_t k, double x, double slope) {
@@ -487,8 +487,8 @@ static void copies_are_rounded_outward(void **state) {
   single_open(&exponential, AMBIT_OP_EXP, 3), single_open(&square, AMBIT_OP_SQR, 0);
   const ambit_jets *j = loader.plugin->jets;
   assert_int_equal(
-      j->open(&exponential.lease->host, loader.ctx, exponential.tape, 3, 1, exponential.jets, &exponential_box), 0);
-  assert_int_equal(j->open(&square.lease->host, loader.ctx, square.tape, 0, 1, square.jets, &square_box), 0);
+      j->open(&exponential.scope->host, loader.ctx, exponential.tape, 3, 1, exponential.jets, &exponential_box), 0);
+  assert_int_equal(j->open(&square.scope->host, loader.ctx, square.tape, 0, 1, square.jets, &square_box), 0);
   for (int i = 0; i < 3000; i++) {
     double v = oracle_uniform(&random, 1, 2), w = oracle_uniform(&random, 1, 2), d = oracle_uniform(&random, 1, 2);
     for (uint32_t k = 0; k <= 3; k++) {

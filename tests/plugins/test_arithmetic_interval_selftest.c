@@ -11,13 +11,13 @@ static const char *const variant[] = { "ambit.arithmetic.portable/1", "ambit.ari
 
 /* the plugin's status and message in an environment where upward mode is `mode` */
 static ambit_status open_in(const ambit_arithmetic *plugin, const char *mode, char *message, size_t room) {
-  ambit_lease *lease;
+  ambit_scope *scope;
   void *ctx = NULL;
   assert_int_equal(setenv("AMBIT_TEST_ROUNDING", mode, 1), 0);
-  assert_int_equal(ambit_lease_open(&lease, NULL, NULL), AMBIT_OK);
-  ambit_status status = plugin->open(&lease->host, NULL, 0, &ctx);
-  snprintf(message, room, "%s", lease->failure.message);
-  ambit_lease_close(lease);
+  assert_int_equal(ambit_scope_open(&scope, NULL, NULL), AMBIT_OK);
+  ambit_status status = plugin->open(&scope->host, NULL, 0, &ctx);
+  snprintf(message, room, "%s", scope->failure.message);
+  ambit_scope_close(scope);
   return status;
 }
 

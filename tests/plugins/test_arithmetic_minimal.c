@@ -140,7 +140,7 @@ static const char *first_finding(const arithmetic_loader *l, const ambit_arithme
   assert_int_equal(ambit_arithmetic_complete(broken, &full, NULL), AMBIT_OK);
   arithmetic_kit kit = { .plugin = broken,
     .full = &full,
-    .host = &l->lease->host,
+    .host = &l->scope->host,
     .isotonic = true,
     .seed = 1,
     .oracle = case_oracle,
@@ -207,7 +207,7 @@ static void options_at_other_values(void **state) {
   const ambit_option option = { "order", "3" };
   arithmetic_kit kit = { .plugin = &l.full,
     .full = &l.full,
-    .host = &l.lease->host,
+    .host = &l.scope->host,
     .seed = 1,
     .oracle = case_oracle,
     .finding = quiet,

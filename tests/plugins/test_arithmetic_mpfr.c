@@ -11,7 +11,7 @@ static void kit_at_precision(const char *text, bool isotonic) {
   const ambit_option option = { "precision", text };
   arithmetic_kit kit = { .plugin = l.plugin,
     .full = &l.full,
-    .host = &l.lease->host,
+    .host = &l.scope->host,
     .isotonic = isotonic,
     .seed = 99,
     .noption = 1,
@@ -47,7 +47,7 @@ typedef struct bench {
 static bench open_at(double precision) {
   bench b;
   case_load(&b.l, "mpfr");
-  assert_int_equal(b.l.plugin->open(&b.l.lease->host, &precision, 0, &b.ctx), AMBIT_OK);
+  assert_int_equal(b.l.plugin->open(&b.l.scope->host, &precision, 0, &b.ctx), AMBIT_OK);
   b.elem = b.l.full.elem(b.ctx);
   b.block = calloc(3, b.elem);
   return b;
@@ -302,8 +302,8 @@ static void refuses_precisions(void **state) {
     arithmetic_loader l;
     void *ctx;
     case_load(&l, "mpfr");
-    assert_int_equal(l.plugin->open(&l.lease->host, &bad[i], 0, &ctx), AMBIT_INVALID);
-    assert_non_null(strstr(l.lease->failure.message, "expected 2 to 1000000"));
+    assert_int_equal(l.plugin->open(&l.scope->host, &bad[i], 0, &ctx), AMBIT_INVALID);
+    assert_non_null(strstr(l.scope->failure.message, "expected 2 to 1000000"));
     arithmetic_unload(&l);
   }
 }

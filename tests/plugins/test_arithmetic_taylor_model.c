@@ -76,15 +76,15 @@ static void ignores_the_environment(void **state) {
 static ambit_status try_open(arithmetic_loader *l, double order, double boxes, uint32_t nvar) {
   const double option[] = { order, boxes };
   void *ctx = NULL;
-  return l->full.open(&l->lease->host, option, nvar, &ctx);
+  return l->full.open(&l->scope->host, option, nvar, &ctx);
 }
 
 static void refuses(void **state) {
   (void)state;
   arithmetic_loader l;
   case_load(&l, "taylor_model");
-  assert_int_equal(try_open(&l, 12, 16, 40), AMBIT_NOMEM); /* 2e11 monomials; the lease keeps the first message */
-  if (!strstr(l.lease->failure.message, "2.06379e+11 monomials")) fail_msg("%s", l.lease->failure.message);
+  assert_int_equal(try_open(&l, 12, 16, 40), AMBIT_NOMEM); /* 2e11 monomials; the scope keeps the first message */
+  if (!strstr(l.scope->failure.message, "2.06379e+11 monomials")) fail_msg("%s", l.scope->failure.message);
   assert_int_equal(try_open(&l, 61, 16, 1), AMBIT_INVALID);
   assert_int_equal(try_open(&l, -1, 16, 1), AMBIT_INVALID);
   assert_int_equal(try_open(&l, NAN, 16, 1), AMBIT_INVALID);

@@ -113,15 +113,15 @@ static void run(bool general) {
     size_t points = 0;
     for (int round = 0; round < ROUNDS; round++) {
       static scene s;
-      ambit_lease *lease;
+      ambit_scope *scope;
       ambit_jet *centre, *box;
       build(&s, series_op[o], &random);
-      assert_int_equal(ambit_lease_open(&lease, NULL, NULL), AMBIT_OK);
-      assert_int_equal(service->open(&lease->host, &s.tape.tape, &l.full, l.ctx, ORDER, 0, NULL, &centre), AMBIT_OK);
-      assert_int_equal(service->open(&lease->host, &s.tape.tape, &l.full, l.ctx, ORDER, 1, centre, &box), AMBIT_OK);
+      assert_int_equal(ambit_scope_open(&scope, NULL, NULL), AMBIT_OK);
+      assert_int_equal(service->open(&scope->host, &s.tape.tape, &l.full, l.ctx, ORDER, 0, NULL, &centre), AMBIT_OK);
+      assert_int_equal(service->open(&scope->host, &s.tape.tape, &l.full, l.ctx, ORDER, 1, centre, &box), AMBIT_OK);
       if (!(solve(&s, centre, box) & (AMBIT_F_PARTIAL | AMBIT_F_EMPTY))) check(&s, series_op[o], box, &points);
       service->close(centre), service->close(box);
-      ambit_lease_close(lease);
+      ambit_scope_close(scope);
     }
     if (points < 2000) fail_msg("op %u: only %zu points", series_op[o], points);
   }

@@ -53,16 +53,16 @@ static void longest_step_is_kept(void **unused) {
 
 static ambit_status try_option(const solver_case *c, size_t i, double value, char *message) {
   double option[8];
-  ambit_lease *lease;
+  ambit_scope *scope;
   void *self = NULL;
   const double time[] = { 0, 1 };
   const ambit_problem problem = { .size = sizeof problem, .ntime = 2, .time = time, .arithmetic = c->kit.arithmetic };
   assert_int_equal(ambit_params_resolve(c->kit.plugin->param, "gsl", 0, NULL, option, NULL), AMBIT_OK);
   option[i] = value;
-  assert_int_equal(ambit_lease_open(&lease, NULL, NULL), AMBIT_OK);
-  ambit_status status = c->kit.plugin->open(&lease->host, &problem, option, &self);
-  snprintf(message, AMBIT_MESSAGE_MAX, "%s", lease->failure.message);
-  ambit_lease_close(lease);
+  assert_int_equal(ambit_scope_open(&scope, NULL, NULL), AMBIT_OK);
+  ambit_status status = c->kit.plugin->open(&scope->host, &problem, option, &self);
+  snprintf(message, AMBIT_MESSAGE_MAX, "%s", scope->failure.message);
+  ambit_scope_close(scope);
   return status;
 }
 

@@ -93,7 +93,7 @@ static void what_is_spoilt_is_found(void **unused) {
   ambit_solver spoilt = *honest;
   spoilt.run = run;
   c.kit.plugin = &spoilt;
-  c.kit.gives = AMBIT_WISH_DENSE | AMBIT_WISH_SET;
+  c.kit.gives = AMBIT_EXTRA_DENSE | AMBIT_EXTRA_SET;
   for (kind = NOTHING; kind < SPOILS; kind++) {
     c.kit.finding = kind == NOTHING ? case_show : case_hide;
     /* few terms, so that remainders and rests are more than rounding */

@@ -15,7 +15,7 @@
 #define BITS 300
 
 typedef struct sample {
-  ambit_lease *lease;
+  ambit_scope *scope;
   krawczyk k;
   double lo[N * N], hi[N * N], off_lo[N * N], off_hi[N * N], scale[N], margin[N], best[N], B[N * N], work[N * N];
   span diagonal[N], b[N], row[N], f[N], hull[N], z[N], mid[N];
@@ -27,9 +27,9 @@ static uint32_t below(uint32_t n) { return (uint32_t)(ambit_random_bits(&draws) 
 
 static void sample_open(sample *s) {
   *s = (sample) { 0 };
-  assert_int_equal(ambit_lease_open(&s->lease, NULL, NULL), AMBIT_OK);
-  s->k = (krawczyk) { .host = &s->lease->host, .n = N, .b = s->b, .row = s->row, .f = s->f, .hull = s->hull };
-  s->k.num = s->lease->host.service(&s->lease->host, AMBIT_NUM_SERVICE);
+  assert_int_equal(ambit_scope_open(&s->scope, NULL, NULL), AMBIT_OK);
+  s->k = (krawczyk) { .host = &s->scope->host, .n = N, .b = s->b, .row = s->row, .f = s->f, .hull = s->hull };
+  s->k.num = s->scope->host.service(&s->scope->host, AMBIT_NUM_SERVICE);
   s->k.off = (matrix) { s->off_lo, s->off_hi }, s->k.diagonal = s->diagonal, s->k.scale = s->scale;
   s->k.mid = s->mid, s->k.margin = s->margin, s->k.best = s->best, s->k.B = s->B, s->k.work = s->work;
 }
@@ -58,7 +58,7 @@ static void singular_matrices_are_not_regular(void **unused) {
     set(&s);
     assert_false(krawczyk_is_regular(&s.k));
   }
-  ambit_lease_close(s.lease);
+  ambit_scope_close(s.scope);
 }
 
 /* x := component i of the solution of a x = -b, by Cramer's rule */
@@ -112,7 +112,7 @@ static void solutions_of_corners_are_held(void **unused) {
       krawczyk_bound_solution(&s.k, s.z);
     for (uint32_t corner = 0; corner < 1u << (N * N + N); corner++) check_corner(&s, corner);
   }
-  ambit_lease_close(s.lease);
+  ambit_scope_close(s.scope);
 }
 
 /* one row a z = -b for a around 0: solutions of the corners are in z, and none of them between the ends of the gap */
@@ -143,7 +143,7 @@ static void gaps_hold_no_solution(void **unused) {
   }
   assert_true(gaps > 1000);
   mpfr_clear(x);
-  ambit_lease_close(s.lease);
+  ambit_scope_close(s.scope);
 }
 
 int main(void) {

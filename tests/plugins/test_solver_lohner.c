@@ -12,7 +12,7 @@ static void passes_the_kit(void **unused) {
     { "step", "taylor" }, { "step", "hermite_obreschkoff" } };
   solver_case c;
   case_open(&c, "lohner", "interval");
-  c.kit.gives = AMBIT_WISH_DENSE | AMBIT_WISH_SET;
+  c.kit.gives = AMBIT_EXTRA_DENSE | AMBIT_EXTRA_SET;
   case_passes(&c, sizeof option / sizeof *option, option);
   case_close(&c);
 }
@@ -106,7 +106,7 @@ static void many_steps_need_no_more_memory(void **unused) {
     .initial = m.initial,
     .ntime = 2,
     .time = time,
-    .wish = AMBIT_WISH_DENSE | AMBIT_WISH_SET,
+    .extras = AMBIT_EXTRA_DENSE | AMBIT_EXTRA_SET,
     .sink = &c.sink };
   assert_int_equal(ambit_simulate(&q, &result, NULL, &m.failure), AMBIT_OK);
   assert_int_equal(result.status, AMBIT_OK);

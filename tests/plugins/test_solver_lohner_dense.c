@@ -79,7 +79,7 @@ static judge judged(const model *m, double from, double to, size_t noption, cons
     .initial = m->initial,
     .ntime = 2,
     .time = time,
-    .wish = AMBIT_WISH_DENSE | AMBIT_WISH_SET,
+    .extras = AMBIT_EXTRA_DENSE | AMBIT_EXTRA_SET,
     .sink = &g.sink };
   if (ambit_simulate(&q, &result, NULL, &f) != AMBIT_OK) fail_msg("%s%s", m->failure.message, f.message);
   if (result.status != AMBIT_OK) fail_msg("%s", result.reason);

@@ -10,19 +10,19 @@
 #include <cmocka.h>
 
 typedef struct rig {
-  ambit_lease *lease;
+  ambit_scope *scope;
   history g;
   uint64_t random;
 } rig;
 
 static void open_rig(rig *r, uint32_t n, uint32_t keep) {
   *r = (rig) { .random = 17 + n + keep };
-  assert_int_equal(ambit_lease_open(&r->lease, NULL, NULL), AMBIT_OK);
-  assert_true(history_open(&r->lease->host, &r->g, n, keep));
+  assert_int_equal(ambit_scope_open(&r->scope, NULL, NULL), AMBIT_OK);
+  assert_true(history_open(&r->scope->host, &r->g, n, keep));
   history_clear(&r->g);
 }
 
-static void close_rig(rig *r) { ambit_lease_close(r->lease); }
+static void close_rig(rig *r) { ambit_scope_close(r->scope); }
 
 /* the functions under test are workers in upward mode */
 static AMBIT_WORKER void push(history *g, const double *box) { history_push(g, box); }

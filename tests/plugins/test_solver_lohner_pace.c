@@ -1,4 +1,4 @@
-/* How long steps of lohner are: runs over wide sets that creep end soon, others do not end for it, and data are not
+/* How long steps of lohner are: runs over wide sets that slow down end soon, others do not end for it, and data are not
 ** blurred where the flow is linear. */
 #include "solver_case.h"
 #include "kit/reference_models.h"

@@ -149,7 +149,7 @@ static void clusters_save_proofs(void **state) {
   case_close(c);
 }
 
-/* A cluster of 8 with one culprit, the last: 8 fail, 4 pass, the other 4 are known to fail, and so on. */
+/* A cluster of 8 with one blamed, the last: 8 fail, 4 pass, the other 4 are known to fail, and so on. */
 static void a_known_failure_is_not_proved_again(void **state) {
   (void)state;
   double rank[8] = { 1, 1, 1, 1, 1, 1, 1, 1 };

@@ -7,7 +7,7 @@ static void passes_the_kit(void **unused) {
     { "nodes", "20" }, { "degree", "2" }, { "step_max", "0.05" } };
   solver_case c;
   case_open(&c, "stiff", "interval");
-  c.kit.gives = AMBIT_WISH_DENSE | AMBIT_WISH_SET;
+  c.kit.gives = AMBIT_EXTRA_DENSE | AMBIT_EXTRA_SET;
   case_passes(&c, sizeof option / sizeof *option, option);
   case_close(&c);
 }

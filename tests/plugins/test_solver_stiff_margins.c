@@ -157,11 +157,11 @@ static void powers_without_room(void **state) {
   fields to;
   series base;
   terms alone = { .count = 1, .degree = 0 };
-  ambit_lease *lease;
+  ambit_scope *scope;
   (void)state;
   memset(&s, 0, sizeof s);
-  assert_int_equal(ambit_lease_open(&lease, NULL, NULL), AMBIT_OK);
-  const ambit_host *h = &lease->host;
+  assert_int_equal(ambit_scope_open(&scope, NULL, NULL), AMBIT_OK);
+  const ambit_host *h = &scope->host;
   tape_begin(&b);
   tape_input(&b, 1);
   const ambit_tape *t = tape_seal(&b, AMBIT_NO_SLOT);
@@ -173,7 +173,7 @@ static void powers_without_room(void **state) {
   const field *u = fields_input(&to, 0);
   assert_int_equal(u->c.n, 2);
   assert_true(u->c.tail >= 0.375 && u->c.tail < 0.376);
-  ambit_lease_close(lease);
+  ambit_scope_close(scope);
 }
 
 int main(void) {

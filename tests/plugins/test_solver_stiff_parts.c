@@ -63,10 +63,10 @@ static void truth(size_t n, const double *M, const double *d, double length, con
 
 static const ambit_num_service *num_service(void) {
   static const ambit_num_service *num;
-  ambit_lease *lease;
-  assert_int_equal(ambit_lease_open(&lease, NULL, NULL), AMBIT_OK);
-  num = lease->host.service(&lease->host, AMBIT_NUM_SERVICE);
-  ambit_lease_close(lease);
+  ambit_scope *scope;
+  assert_int_equal(ambit_scope_open(&scope, NULL, NULL), AMBIT_OK);
+  num = scope->host.service(&scope->host, AMBIT_NUM_SERVICE);
+  ambit_scope_close(scope);
   return num;
 }
 

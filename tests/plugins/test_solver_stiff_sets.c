@@ -41,7 +41,7 @@ static void run_set(set_run *run, const model *m, size_t ntime, const double *ti
     .initial = m->initial,
     .ntime = ntime,
     .time = time,
-    .wish = AMBIT_WISH_SET,
+    .extras = AMBIT_EXTRA_SET,
     .sink = &run->k.sink };
   if (!run->k.record || ambit_simulate(&q, &run->k.result, NULL, &f) != AMBIT_OK)
     fail_msg("%s%s", m->failure.message, f.message);

@@ -126,7 +126,7 @@ static run follow_with(model *m, double from, double to, double every, int sampl
   ambit_arena *arena = ambit_arena_open();
   ambit_failure failure = { 0 };
   ambit_problem p;
-  ambit_lease *lease;
+  ambit_scope *scope;
   double values[16];
   const double time[] = { from, to };
   void *self = NULL;
@@ -147,8 +147,8 @@ static run follow_with(model *m, double from, double to, double every, int sampl
   p.worker = NULL, p.nworker = 1;
   assert_int_equal(
       ambit_params_resolve(c.kit.plugin->param, "taylor_model", noption, option, values, &failure), AMBIT_OK);
-  assert_int_equal(ambit_lease_open(&lease, NULL, NULL), AMBIT_OK);
-  run r = { .status = c.kit.plugin->open(&lease->host, &p, values, &self) };
+  assert_int_equal(ambit_scope_open(&scope, NULL, NULL), AMBIT_OK);
+  run r = { .status = c.kit.plugin->open(&scope->host, &p, values, &self) };
   if (r.status == AMBIT_OK) {
     j.f = self;
     assert_true(p.nu <= UNKNOWNS);
@@ -164,8 +164,8 @@ static run follow_with(model *m, double from, double to, double every, int sampl
     for (int k = 0; k < samples; k++) solution_close(&j.oracle[k]);
   }
   r.checks = j.checks, r.misses = j.misses, r.most_pieces = j.most_pieces, r.t = j.t;
-  snprintf(r.reason, sizeof r.reason, "%s", lease->failure.message);
-  ambit_lease_close(lease);
+  snprintf(r.reason, sizeof r.reason, "%s", scope->failure.message);
+  ambit_scope_close(scope);
   case_close(&c);
   ambit_arena_close(arena);
   return r;

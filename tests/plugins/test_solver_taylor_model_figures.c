@@ -82,7 +82,7 @@ static track run_over(const char *arithmetic, const model *m, double from, doubl
     .ntime = 2,
     .time = time,
     .threads = threads,
-    .wish = AMBIT_WISH_DENSE | AMBIT_WISH_SET,
+    .extras = AMBIT_EXTRA_DENSE | AMBIT_EXTRA_SET,
     .sink = &t.sink };
   if (!t.record || ambit_simulate(&q, &t.result, NULL, &f) != AMBIT_OK) fail_msg("%s%s", m->failure.message, f.message);
   ambit_registry_close(registry);

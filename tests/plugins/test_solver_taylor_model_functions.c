@@ -23,7 +23,7 @@ static double between(double lo, double hi) { return ambit_random_in(&draws, (am
 static uint32_t below(uint32_t n) { return (uint32_t)(ambit_random_bits(&draws) >> 32) % n; }
 
 typedef struct sample {
-  ambit_lease *lease;
+  ambit_scope *scope;
   space space;
   series_source source;
   tape_builder tape;
@@ -33,8 +33,8 @@ typedef struct sample {
 
 /* one operation on two inputs, or on the first */
 static void sample_open(sample *s, uint32_t op) {
-  assert_int_equal(ambit_lease_open(&s->lease, NULL, NULL), AMBIT_OK);
-  const ambit_host *h = &s->lease->host;
+  assert_int_equal(ambit_scope_open(&s->scope, NULL, NULL), AMBIT_OK);
+  const ambit_host *h = &s->scope->host;
   assert_int_equal(space_open(h, &s->space, UNKNOWNS, DEGREE), AMBIT_OK);
   s->source = (series_source) { &s->space, h->service(h, AMBIT_NUM_SERVICE), NULL };
   tape_builder *t = &s->tape;
@@ -48,7 +48,7 @@ static void sample_open(sample *s, uint32_t op) {
 
 static void sample_close(sample *s) {
   series_jets.close(s->self);
-  ambit_lease_close(s->lease);
+  ambit_scope_close(s->scope);
 }
 
 /* `about` and monomials of the given size in all, +- rad */
@@ -148,8 +148,8 @@ static void constants_hold_their_intervals(void **unused) {
   (void)unused;
   sample s;
   for (int n = 0; n < 2000; n++) {
-    assert_int_equal(ambit_lease_open(&s.lease, NULL, NULL), AMBIT_OK);
-    const ambit_host *h = &s.lease->host;
+    assert_int_equal(ambit_scope_open(&s.scope, NULL, NULL), AMBIT_OK);
+    const ambit_host *h = &s.scope->host;
     double lo = between(-2, 2), hi = lo;
     for (uint32_t k = below(6); k-- > 0;) hi = nextafter(hi, INFINITY);
     if (n % 2) lo = between(-1e-16, 1e-16), hi = between(0.5, 1); /* half the width is no double */

@@ -57,7 +57,7 @@ static void sample_open(sample *s, uint32_t order) {
   memset(s, 0, sizeof *s);
   const char *problem = arithmetic_load(&s->arithmetic, "interval");
   if (problem) fail_msg("%s", problem);
-  const ambit_host *host = &s->arithmetic.lease->host;
+  const ambit_host *host = &s->arithmetic.scope->host;
   const ambit_tape *tape = right_hand_side(&s->tape);
   s->f = (flow) { .host = host, .jet = host->service(host, AMBIT_JET_SERVICE), .nx = STATES, .np = 1, .ns = 1 };
   s->f.problem.rhs = tape, s->f.options.slope_order = order, s->f.options.tolerance = 1;

@@ -14,7 +14,7 @@
 #define POINTS 40
 
 typedef struct range_case {
-  ambit_lease *lease;
+  ambit_scope *scope;
   space space;
   search search;
   double *p, *middle, *whole;
@@ -22,8 +22,8 @@ typedef struct range_case {
 
 static void open_case(range_case *c, uint32_t m, uint32_t d) {
   memset(c, 0, sizeof *c);
-  assert_int_equal(ambit_lease_open(&c->lease, NULL, NULL), AMBIT_OK);
-  const ambit_host *h = &c->lease->host;
+  assert_int_equal(ambit_scope_open(&c->scope, NULL, NULL), AMBIT_OK);
+  const ambit_host *h = &c->scope->host;
   assert_int_equal(space_open(h, &c->space, m, d), AMBIT_OK);
   assert_true(search_open(h, &c->search, &c->space, ROOM));
   c->p = h->alloc(h, c->space.size * sizeof(double));
@@ -105,7 +105,7 @@ static void bounds_are_never_below_a_value(void **unused) {
       draw(&c, &random, bent[n % 4]);
       assert_true(highest_found(&c, &random, bound_of(&c, 1e-6)) <= 0);
     }
-    ambit_lease_close(c.lease);
+    ambit_scope_close(c.scope);
   }
 }
 
@@ -121,7 +121,7 @@ static void linear_terms_lead_to_the_maximum(void **unused) {
     assert_true(best <= 0 && best > -1e-3);
     assert_true(c.search.used <= 16); /* halving alone uses up all the room */
   }
-  ambit_lease_close(c.lease);
+  ambit_scope_close(c.scope);
 }
 
 int main(void) {

@@ -10,7 +10,7 @@ static void passes_the_kit_over_every_arithmetic(void **unused) {
     solver_case c;
     case_open(&c, "valencia", fitting[i]);
     assert_int_equal(c.kit.plugin->needs_rigorous, 1);
-    c.kit.gives = AMBIT_WISH_DENSE | AMBIT_WISH_SET;
+    c.kit.gives = AMBIT_EXTRA_DENSE | AMBIT_EXTRA_SET;
     size_t findings = case_findings(&c, NULL, NULL);
     if (findings) fail_msg("over %s: %zu findings", fitting[i], findings);
     case_close(&c);

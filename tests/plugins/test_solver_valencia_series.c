@@ -52,7 +52,7 @@ static const ambit_tape *right_hand_side(tape_builder *b) {
 static void sample_open(sample *x) {
   const char *problem = arithmetic_load(&x->arithmetic, "interval");
   if (problem) fail_msg("%s", problem);
-  const ambit_host *host = &x->arithmetic.lease->host;
+  const ambit_host *host = &x->arithmetic.scope->host;
   const ambit_tape *tape = right_hand_side(&x->tape);
   const ambit_jet_service *jet = host->service(host, AMBIT_JET_SERVICE);
   const ambit_arithmetic *arithmetic = &x->arithmetic.full;

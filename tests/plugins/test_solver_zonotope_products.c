@@ -108,7 +108,8 @@ static void what_products_leave_out_is_in_the_set(void **unused) {
     if (most[n] < 0.5) fail_msg("only %.2g of the set is reached at scale %g", most[n], scale[n]);
 }
 
-/* Moved by a step in which none come up: kept as they are, or, where that is less than the budgets, put into the box. */
+/* Moved by a step in which none come up: kept as they are, or, where that is less than the budgets, put into the
+** box. */
 static void check_end(zono *z, int small) {
   quartic *q = z->proof->quartic;
   double by[2][2];

@@ -286,7 +286,7 @@ static void rows_satisfy_their_relations(void **unused) {
     uint32_t na = n % 4 == 3 ? UNKNOWNS : n % 3, nx = 2 + n % 3;
     open_case(&z, &k, nx, na, n % 2);
     assert_true(zono_open_proof(&z));
-    if (!zono_series(&z)) fail_msg("tape %u: why %d, slot %u", n, z.why, z.culprit);
+    if (!zono_series(&z)) fail_msg("tape %u: why %d, slot %u", n, z.why, z.blamed);
     multiply(NULL, NULL, 0, NULL, NULL, 0), list_monomials(&z.shape);
     checker c = { &z, lend(&host, (z.shape.stride + 1) * sizeof(long double)), 0 };
     for (uint32_t i = 0; i < k.tape.ninstr; i++)

@@ -82,7 +82,8 @@ static void open_step(zono *z, maker *k, const family *f) {
   uint32_t n = f->n;
   *z = (zono) { .host = &host, .nx = n, .np = 1, .m = 2, .K = f->K, .K_max = f->K, .ngen_max = f->kept * n };
   z->program = (program) { .tape = &k->tape, .nx = n, .np = 1 };
-  z->problem.wish = AMBIT_WISH_DENSE | AMBIT_WISH_SET, z->problem.nu = 2, z->problem.u_lo = lo, z->problem.u_hi = hi;
+  z->problem.extras = AMBIT_EXTRA_DENSE | AMBIT_EXTRA_SET, z->problem.nu = 2, z->problem.u_lo = lo,
+  z->problem.u_hi = hi;
   z->unknown = lend(&host, 8), z->about = lend(&host, 16), z->scale = lend(&host, 16);
   z->unknown[1] = 1, z->scale[0] = z->scale[1] = 1;
   assert_true(shape_open(&host, &z->shape, z->m, n));

@@ -61,12 +61,12 @@ static void counts_series(void **state) {
     ambit_jet *jet;
     const ambit_jet_service *jets = &ambit_jet_service_v1;
     assert_int_equal(ambit_context_open(s->registry, name[i], 0, NULL, 0, &c, NULL), AMBIT_OK);
-    assert_int_equal(jets->open(&c.lease->host, t, c.arithmetic, c.ctx, ORDER, NDIR, NULL, &jet), AMBIT_OK);
-    ambit_work work = ambit_lease_work(c.lease);
+    assert_int_equal(jets->open(&c.scope->host, t, c.arithmetic, c.ctx, ORDER, NDIR, NULL, &jet), AMBIT_OK);
+    ambit_work work = ambit_scope_work(c.scope);
     assert_true(work.series == 1 && work.orders == 0 && work.coefficients == 0);
     put_all(jets, jet);
     for (uint32_t k = 0; k <= ORDER; k++) assert_int_equal(jets->advance(jet, k), 0);
-    work = ambit_lease_work(c.lease);
+    work = ambit_scope_work(c.scope);
     assert_int_equal(work.orders, ORDER + 1);
     assert_int_equal(work.coefficients, (4 + ORDER * 3) * (1 + NDIR)); /* the square has one of order 0 only */
     assert_int_equal(work.skipped, ORDER * (1 + NDIR));
@@ -74,7 +74,7 @@ static void counts_series(void **state) {
     double tail[2];
     assert_int_equal(jets->tail(jet, ORDER, 0.1, NULL, NULL, tail, NULL), AMBIT_OK);
     jets->advance(jet, ORDER + 1); /* refused: nothing is computed */
-    work = ambit_lease_work(c.lease);
+    work = ambit_scope_work(c.scope);
     assert_int_equal(work.tails, 1);
     assert_int_equal(work.orders, ORDER + 1);
     jets->close(jet);
@@ -90,13 +90,13 @@ static void counts_values(void **state) {
   ambit_context c;
   ambit_lane lane;
   assert_int_equal(ambit_context_open(s->registry, "real", 0, NULL, 0, &c, NULL), AMBIT_OK);
-  ambit_work before = ambit_lease_work(c.lease);
-  assert_int_equal(ambit_lane_open(&lane, &c.lease->host, t, c.arithmetic, c.ctx), AMBIT_OK);
-  ambit_work opened = ambit_lease_work(c.lease);
+  ambit_work before = ambit_scope_work(c.scope);
+  assert_int_equal(ambit_lane_open(&lane, &c.scope->host, t, c.arithmetic, c.ctx), AMBIT_OK);
+  ambit_work opened = ambit_scope_work(c.scope);
   assert_int_equal(opened.allocations, before.allocations + 2); /* the block and its record of work */
   assert_true(opened.allocated >= before.allocated + t->nslot * lane.elem);
   for (int i = 0; i < 7; i++) ambit_lane_run(&lane);
-  ambit_work work = ambit_lease_work(c.lease);
+  ambit_work work = ambit_scope_work(c.scope);
   assert_int_equal(work.evaluations, 7);
   assert_int_equal(work.operations, 7 * 3);
   assert_int_equal(work.allocations, opened.allocations);
@@ -110,14 +110,14 @@ static void *refuse(const ambit_host *h, size_t bytes) { return (void)h, (void)b
 
 static void does_not_count_for_others(void **state) {
   (void)state;
-  ambit_lease *lease;
-  assert_int_equal(ambit_lease_open(&lease, NULL, NULL), AMBIT_OK);
-  ambit_host own = lease->host;
+  ambit_scope *scope;
+  assert_int_equal(ambit_scope_open(&scope, NULL, NULL), AMBIT_OK);
+  ambit_host own = scope->host;
   own.alloc = refuse;
   assert_null(ambit_work_open(&own));
-  assert_non_null(ambit_work_open(&lease->host));
-  ambit_lease_close(lease);
-  assert_int_equal(ambit_lease_work(NULL).allocations, 0);
+  assert_non_null(ambit_work_open(&scope->host));
+  ambit_scope_close(scope);
+  assert_int_equal(ambit_scope_work(NULL).allocations, 0);
 }
 
 static void counts_an_evaluation(void **state) {
@@ -431,9 +431,9 @@ static void profiles_without_changing(void **state) {
 
 static void lends_the_meter_only_then(void **state) {
   (void)state;
-  ambit_lease *lease;
-  assert_int_equal(ambit_lease_open(&lease, NULL, NULL), AMBIT_OK);
-  const ambit_host *h = &lease->host;
+  ambit_scope *scope;
+  assert_int_equal(ambit_scope_open(&scope, NULL, NULL), AMBIT_OK);
+  const ambit_host *h = &scope->host;
   assert_null(h->service(h, AMBIT_METER_SERVICE));
   ambit_profile *p = ambit_profile_begin();
   const ambit_meter_service *meter = h->service(h, AMBIT_METER_SERVICE);
@@ -446,7 +446,7 @@ static void lends_the_meter_only_then(void **state) {
   assert_non_null(find(mine, "SIN"));
   assert_non_null(find(mine, "other"));
   ambit_profile_close(p);
-  ambit_lease_close(lease);
+  ambit_scope_close(scope);
 }
 
 int main(void) {

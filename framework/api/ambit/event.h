@@ -59,7 +59,7 @@ AMBIT_EXPORT ambit_status ambit_event_watch_open(
     const ambit_event_watch_request *q, ambit_event_watch **w, ambit_failure *f);
 AMBIT_EXPORT void ambit_event_watch_close(ambit_event_watch *w); /* NULL is allowed */
 
-/* The sink to run the solver with (AMBIT_WISH_DENSE makes it tight); everything goes on to `outer`, which may be
+/* The sink to run the solver with (AMBIT_EXTRA_DENSE makes it tight); everything goes on to `outer`, which may be
 ** NULL. One run per watch. */
 AMBIT_EXPORT ambit_sink *ambit_event_watch_sink(ambit_event_watch *w, ambit_sink *outer);
 /* After the run: decides what is still undecided. */

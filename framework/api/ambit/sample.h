@@ -47,7 +47,7 @@ AMBIT_EXPORT ambit_status ambit_sample_expressions(const ambit_evaluate_request 
 
 /* A system. Without a solver in the request, draws are integrated side by side (sample_lanes.h), those for which that
 ** fails one by one by "gsl", stiff systems all of them by its method msbdf; with a solver, one by one by that. The
-** request's sink, threads, cuts and wishes are not looked at. hull [ntime * nx]: of state i at time[k] at k * nx + i,
+** request's sink, threads, cuts and extras are not looked at. hull [ntime * nx]: of state i at time[k] at k * nx + i,
 ** empty if no draw reached it; error [ntime * nx] (or NULL): ten times what a hundredth of the tolerances changes in
 ** the extreme draws, an estimate; NaN where that is not known. */
 AMBIT_EXPORT ambit_status ambit_sample_system(const ambit_simulate_request *q, const ambit_sample_plan *plan,

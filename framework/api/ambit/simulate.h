@@ -25,7 +25,7 @@ typedef struct ambit_simulate_request {
   size_t ncut;          /* uncertain data to cut, or names of others */
   const ambit_cut *cut; /* without cuts and `pieces` the run is one */
   uint32_t pieces;      /* at most so many by choice of the data to cut; 0: only those of `cut` */
-  uint32_t wish;        /* AMBIT_WISH_*: what the sink would like besides */
+  uint32_t extras;      /* AMBIT_EXTRA_*: what the sink asks for besides */
   /* or NULL: is told, before the first record, the unknowns that sets (ambit_set) are functions of */
   void (*prepared)(void *user, size_t nu, const ambit_expr *unknown);
   void *prepared_user;

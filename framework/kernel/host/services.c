@@ -14,28 +14,28 @@
 
 #define NOTE_MAX 512
 
-/* a record of counted work, one of the lease's */
+/* a record of counted work, one of the scope's */
 typedef struct counted {
   ambit_work work; /* first */
   struct counted *next;
 } counted;
 
 /* fail() may come from any thread of a plugin, so the message is guarded. */
-typedef struct guarded_lease {
-  ambit_lease lease; /* first: host, lease and this share one address */
+typedef struct guarded_scope {
+  ambit_scope scope; /* first: host, scope and this share one address */
   pthread_mutex_t lock;
   ambit_pool *pools; /* those that are open */
   counted *counted;
-} guarded_lease;
+} guarded_scope;
 
 static void *alloc(const ambit_host *h, size_t bytes) {
-  return ambit_arena_alloc(((const ambit_lease *)(const void *)h)->arena, bytes);
+  return ambit_arena_alloc(((const ambit_scope *)(const void *)h)->arena, bytes);
 }
 
 static void keep(const ambit_host *h, ambit_status status, const char *code, const char *message) {
-  guarded_lease *guarded = (guarded_lease *)(uintptr_t)h;
+  guarded_scope *guarded = (guarded_scope *)(uintptr_t)h;
   pthread_mutex_lock(&guarded->lock);
-  ambit_fail_code(&guarded->lease.failure, status, code, "%s", message);
+  ambit_fail_code(&guarded->scope.failure, status, code, "%s", message);
   pthread_mutex_unlock(&guarded->lock);
 }
 
@@ -60,24 +60,24 @@ static ambit_status fail_code(const ambit_host *h, ambit_status status, const ch
 }
 
 static void note(const ambit_host *h, const char *format, ...) {
-  const ambit_lease *lease = (const ambit_lease *)(const void *)h;
-  if (!lease->note) return;
+  const ambit_scope *scope = (const ambit_scope *)(const void *)h;
+  if (!scope->note) return;
   char line[NOTE_MAX];
   va_list arguments;
   va_start(arguments, format);
   vsnprintf(line, sizeof line, format, arguments);
   va_end(arguments);
-  lease->note(lease->user, line);
+  scope->note(scope->user, line);
 }
 
 static ambit_status open_pool(const ambit_host *h, uint32_t threads, ambit_pool **pool) {
-  guarded_lease *guarded = (guarded_lease *)(uintptr_t)h;
+  guarded_scope *guarded = (guarded_scope *)(uintptr_t)h;
   return ambit_pool_open(&guarded->pools, threads, pool);
 }
 
 static ambit_work *open_work(const ambit_host *h) {
   if (h->alloc != alloc) return NULL; /* somebody's own host, which lends our services */
-  guarded_lease *guarded = (guarded_lease *)(uintptr_t)h;
+  guarded_scope *guarded = (guarded_scope *)(uintptr_t)h;
   counted *made = alloc(h, sizeof *made);
   if (!made) return NULL;
   made->next = guarded->counted;
@@ -105,40 +105,40 @@ static const void *service(const ambit_host *h, const char *id) {
   return ambit_meter_is_on() ? ambit_metered_service(id, plain) : plain;
 }
 
-ambit_status ambit_lease_open(ambit_lease **lease, void (*sink)(void *user, const char *line), void *user) {
-  *lease = NULL;
-  guarded_lease *guarded = calloc(1, sizeof *guarded);
+ambit_status ambit_scope_open(ambit_scope **scope, void (*sink)(void *user, const char *line), void *user) {
+  *scope = NULL;
+  guarded_scope *guarded = calloc(1, sizeof *guarded);
   if (!guarded) return AMBIT_NOMEM;
-  guarded->lease = (ambit_lease) {
+  guarded->scope = (ambit_scope) {
     .host = { sizeof(ambit_host), AMBIT_ABI, alloc, fail, note, service, fail_code },
     .arena = ambit_arena_open(),
     .note = sink,
     .user = user,
   };
-  if (!guarded->lease.arena) {
+  if (!guarded->scope.arena) {
     free(guarded);
     return AMBIT_NOMEM;
   }
   pthread_mutex_init(&guarded->lock, NULL);
-  *lease = &guarded->lease;
+  *scope = &guarded->scope;
   return AMBIT_OK;
 }
 
-void ambit_lease_close(ambit_lease *lease) {
-  if (!lease) return;
-  guarded_lease *guarded = (guarded_lease *)(void *)lease;
+void ambit_scope_close(ambit_scope *scope) {
+  if (!scope) return;
+  guarded_scope *guarded = (guarded_scope *)(void *)scope;
   while (guarded->pools) ambit_pool_close(guarded->pools);
   pthread_mutex_destroy(&guarded->lock);
-  ambit_arena_close(lease->arena);
+  ambit_arena_close(scope->arena);
   free(guarded);
 }
 
-ambit_work ambit_lease_work(const ambit_lease *lease) {
+ambit_work ambit_scope_work(const ambit_scope *scope) {
   ambit_work sum = { 0 };
-  if (!lease) return sum;
-  for (const counted *c = ((const guarded_lease *)(const void *)lease)->counted; c; c = c->next)
+  if (!scope) return sum;
+  for (const counted *c = ((const guarded_scope *)(const void *)scope)->counted; c; c = c->next)
     ambit_work_add(&sum, &c->work);
-  sum.allocations += ambit_arena_count(lease->arena);
-  sum.allocated += ambit_arena_bytes(lease->arena);
+  sum.allocations += ambit_arena_count(scope->arena);
+  sum.allocated += ambit_arena_bytes(scope->arena);
   return sum;
 }

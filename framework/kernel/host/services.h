@@ -6,17 +6,17 @@
 #include <ambit/work.h>
 
 /* One host object per opened context or solver; freed together with it. */
-typedef struct ambit_lease {
+typedef struct ambit_scope {
   ambit_host host;
   ambit_arena *arena;
   ambit_failure failure;
   void (*note)(void *user, const char *line);
   void *user;
-} ambit_lease;
+} ambit_scope;
 
-ambit_status ambit_lease_open(ambit_lease **lease, void (*note)(void *user, const char *line), void *user);
-void ambit_lease_close(ambit_lease *lease);
+ambit_status ambit_scope_open(ambit_scope **scope, void (*note)(void *user, const char *line), void *user);
+void ambit_scope_close(ambit_scope *scope);
 
-/* What was counted on this lease until now (zeros for NULL); nobody counts meanwhile. */
-ambit_work ambit_lease_work(const ambit_lease *lease);
+/* What was counted on this scope until now (zeros for NULL); nobody counts meanwhile. */
+ambit_work ambit_scope_work(const ambit_scope *scope);
 #endif

@@ -49,7 +49,7 @@ static void spread(const ambit_partial *p, const ambit_walk *walk, bool *taint) 
 }
 
 /* The first node of this operation (UNTAINTED: of any) that may leave its domain though its operands do not. */
-static ambit_expr find_culprit(const ambit_partial *p, const ambit_walk *walk, uint32_t op) {
+static ambit_expr find_blamed(const ambit_partial *p, const ambit_walk *walk, uint32_t op) {
   for (size_t i = 0; i < walk->count; i++) {
     const ambit_node *x = ambit_graph_node(p->graph, walk->node[i]);
     if (x->total || walk->a[i] == i || (op != UNTAINTED && x->op != op)) continue;
@@ -62,7 +62,7 @@ static ambit_expr find_culprit(const ambit_partial *p, const ambit_walk *walk, u
 static ambit_status tell(const ambit_partial *p, size_t i, uint32_t op, char blame[AMBIT_BLAME_MAX], ambit_failure *f) {
   ambit_walk walk;
   if (!ambit_walk_open(p->graph, 1, &p->bound->expr[i], NULL, &walk)) return ambit_no_memory(f);
-  ambit_expr e = find_culprit(p, &walk, op);
+  ambit_expr e = find_blamed(p, &walk, op);
   ambit_walk_close(&walk);
   const char *text =
       e == AMBIT_NO_EXPR ? (op == UNTAINTED ? "" : ambit_op_symbol(op)) : ambit_kink_text(p->graph, e, p->arena);

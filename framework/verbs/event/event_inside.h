@@ -25,7 +25,7 @@ struct ambit_event_watch {
   ambit_sink sink; /* first: what ambit_simulate sees */
   ambit_sink *outer;
   ambit_arena *arena;
-  ambit_lease *lease;
+  ambit_scope *scope;
   uint32_t nx, nin;
   size_t n;
   watched *one;

@@ -97,7 +97,7 @@ static ambit_status seal(build *b) {
     if (status == AMBIT_OK)
       status = ambit_tape_seal(b->graph, w->arena, 2, g, w->nin, b->input, w->nx, 0, &e->both, b->f);
     if (status != AMBIT_OK) return status;
-    if (ambit_contract_service_v1.open(&w->lease->host, e->value, &e->contractor) != AMBIT_OK) return no_memory(b);
+    if (ambit_contract_service_v1.open(&w->scope->host, e->value, &e->contractor) != AMBIT_OK) return no_memory(b);
     slots = e->both->nslot > slots ? e->both->nslot : slots;
     slots = e->value->nslot > slots ? e->value->nslot : slots;
   }
@@ -187,7 +187,7 @@ ambit_status ambit_event_watch_open(const ambit_event_watch_request *q, ambit_ev
   *out = NULL;
   build b = { .q = q, .graph = q->system->graph, .w = make(q), .f = f };
   if (!b.w) return ambit_no_memory(f);
-  ambit_status status = ambit_lease_open(&b.w->lease, NULL, NULL);
+  ambit_status status = ambit_scope_open(&b.w->scope, NULL, NULL);
   if (status != AMBIT_OK) no_memory(&b);
   if (status == AMBIT_OK && !(b.all = room(&b, 2 * q->n + q->system->nx, sizeof *b.all))) status = no_memory(&b);
   if (status == AMBIT_OK) status = differentiate(&b);
@@ -204,6 +204,6 @@ ambit_status ambit_event_watch_open(const ambit_event_watch_request *q, ambit_ev
 
 void ambit_event_watch_close(ambit_event_watch *w) {
   if (!w) return;
-  ambit_lease_close(w->lease);
+  ambit_scope_close(w->scope);
   ambit_arena_close(w->arena);
 }

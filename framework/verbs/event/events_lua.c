@@ -31,13 +31,13 @@ static ambit_lua_events *push_events(lua_State *L, size_t nx) {
 
 /* What events are looked for: those of `list`, of the run of `system` from `initial` at `start`. room: most that are
 ** kept; quiet: the run writes no records; hold: keep the set before the event that ends it. */
-typedef struct wishes {
+typedef struct settings {
   ambit_event_watch_request q;
   size_t nx;
   bool quiet, hold;
-} wishes;
+} settings;
 
-static wishes read_wishes(lua_State *L, int idx) {
+static settings read_settings(lua_State *L, int idx) {
 #define ONE(key, kind, member) AMBIT_LUA_ONE(ambit_event, key, kind, 0, member)
   static const ambit_lua_field event[] = { ONE("name", AMBIT_LUA_TEXT, name), ONE("g", AMBIT_LUA_EXPRESSION, g),
     ONE("direction", AMBIT_LUA_SIGN, direction), ONE("stop", AMBIT_LUA_SWITCH, stop),
@@ -45,23 +45,24 @@ static wishes read_wishes(lua_State *L, int idx) {
 #undef ONE
   static const ambit_lua_fields events = AMBIT_LUA_FIELDS(ambit_event, event);
   static const ambit_lua_field field[] = { { .key = "system", .kind = AMBIT_LUA_OTHER },
-    AMBIT_LUA_LIST(wishes, "initial", AMBIT_LUA_EXPRESSIONS, AMBIT_LUA_NEEDED | AMBIT_LUA_SAME, q.initial, nx),
-    AMBIT_LUA_ONE(wishes, "start", AMBIT_LUA_NUMBER, AMBIT_LUA_NEEDED, q.t_start),
-    { "list", AMBIT_LUA_ROWS, AMBIT_LUA_NEEDED, offsetof(wishes, q.event), offsetof(wishes, q.n), &events },
-    AMBIT_LUA_ONE(wishes, "room", AMBIT_LUA_SIZE, AMBIT_LUA_NEEDED, q.room),
-    AMBIT_LUA_ONE(wishes, "quiet", AMBIT_LUA_FLAG, 0, quiet), AMBIT_LUA_ONE(wishes, "hold", AMBIT_LUA_FLAG, 0, hold) };
-  static const ambit_lua_fields fields = AMBIT_LUA_FIELDS(wishes, field);
+    AMBIT_LUA_LIST(settings, "initial", AMBIT_LUA_EXPRESSIONS, AMBIT_LUA_NEEDED | AMBIT_LUA_SAME, q.initial, nx),
+    AMBIT_LUA_ONE(settings, "start", AMBIT_LUA_NUMBER, AMBIT_LUA_NEEDED, q.t_start),
+    { "list", AMBIT_LUA_ROWS, AMBIT_LUA_NEEDED, offsetof(settings, q.event), offsetof(settings, q.n), &events },
+    AMBIT_LUA_ONE(settings, "room", AMBIT_LUA_SIZE, AMBIT_LUA_NEEDED, q.room),
+    AMBIT_LUA_ONE(settings, "quiet", AMBIT_LUA_FLAG, 0, quiet),
+    AMBIT_LUA_ONE(settings, "hold", AMBIT_LUA_FLAG, 0, hold) };
+  static const ambit_lua_fields fields = AMBIT_LUA_FIELDS(settings, field);
   luaL_checktype(L, idx, LUA_TTABLE);
   lua_getfield(L, idx, "system");
   const ambit_system *s = &ambit_lua_check_system(L, lua_gettop(L))->system;
-  wishes w = { .q = { .system = s }, .nx = s->nx };
+  settings w = { .q = { .system = s }, .nx = s->nx };
   ambit_lua_read(L, idx, "events", &fields, &w);
   return w;
 }
 
-/* events(wishes) -> what looks for them */
+/* events(settings) -> what looks for them */
 static int events_new(lua_State *L) {
-  wishes wanted = read_wishes(L, 1);
+  settings wanted = read_settings(L, 1);
   ambit_lua_events *w = push_events(L, wanted.nx);
   w->quiet = wanted.quiet;
   w->hold = wanted.hold;
@@ -105,8 +106,8 @@ void ambit_lua_events_begin(ambit_lua_events *w, ambit_simulate_request *q, ambi
   w->sink = (ambit_sink) { sizeof(ambit_sink), emit, progress };
   w->to = to;
   if (w->quiet) to->records = NULL;
-  if (w->hold) q->wish |= AMBIT_WISH_SET;
-  q->wish |= AMBIT_WISH_DENSE;
+  if (w->hold) q->extras |= AMBIT_EXTRA_SET;
+  q->extras |= AMBIT_EXTRA_DENSE;
   q->sink = ambit_event_watch_sink(w->watch, &w->sink);
 }
 

@@ -21,7 +21,7 @@ typedef struct job {
   const ambit_solver *solver;
   char arithmetic[AMBIT_NAME_MAX];
   ambit_context context;
-  ambit_lease *lease;
+  ambit_scope *scope;
   double *option;
   ambit_reduction reduction;
   ambit_problem problem;
@@ -73,11 +73,11 @@ static ambit_status find_solver(job *j, ambit_failure *f) {
   if (status == AMBIT_OK && j->solver->solves != AMBIT_SOLVES_REDUCTION) status = refuse_solver(q, j->solver, f);
   if (status == AMBIT_OK)
     status = ambit_pair_choose(q->registry, q->solver, j->solver, AMBIT_DEFAULT_POINTS, j->arithmetic, f);
-  if (status == AMBIT_OK) status = ambit_context_lease(q->registry, &j->lease, f);
+  if (status == AMBIT_OK) status = ambit_context_scope(q->registry, &j->scope, f);
   if (status != AMBIT_OK) return status;
   ambit_failure own = { 0 };
   j->option =
-      ambit_context_options(j->lease, j->solver->param, "solver", q->solver, q->nsolver_option, q->solver_option, &own);
+      ambit_context_options(j->scope, j->solver->param, "solver", q->solver, q->nsolver_option, q->solver_option, &own);
   return j->option ? AMBIT_OK : ambit_fail(f, own.status, "%s", own.message);
 }
 
@@ -216,11 +216,11 @@ static void judge(const job *j, ambit_status said, ambit_reduction_result *resul
     ; /* what a broken arithmetic gave is not believed */
   else if (j->broken)
     ambit_fail_code(&why, AMBIT_BROKEN, AMBIT_CODE_BROKEN_RECORD, "solver `%s` is broken: it gave %s", name, j->broken);
-  else if (said == AMBIT_STOPPED && !j->lease->failure.message[0])
+  else if (said == AMBIT_STOPPED && !j->scope->failure.message[0])
     ambit_fail_code(
         &why, AMBIT_STOPPED, AMBIT_CODE_STOPPED_REQUEST, "stopped on request; what was accepted until then is proved");
   else if (said != AMBIT_OK)
-    ambit_guard_explain(known ? said : AMBIT_BROKEN, name, &j->lease->failure, "gave up without a reason", &why);
+    ambit_guard_explain(known ? said : AMBIT_BROKEN, name, &j->scope->failure, "gave up without a reason", &why);
   result->status = why.status;
   memcpy(result->reason, why.message, sizeof result->reason);
   memcpy(result->code, why.code, sizeof result->code);
@@ -231,13 +231,13 @@ static ambit_status run(job *j, ambit_failure *f) {
   ambit_sink silent = { sizeof silent, emit, progress };
   double begun = ambit_context_seconds();
   ambit_stage_enter("open", AMBIT_FRAME_SOLVER, j->q->solver);
-  ambit_status status = j->solver->open(&j->lease->host, &j->problem, j->option, &self);
+  ambit_status status = j->solver->open(&j->scope->host, &j->problem, j->option, &self);
   ambit_stage_leave();
   j->tally.open = ambit_context_seconds() - begun;
   if (status != AMBIT_OK) {
     char who[96];
     snprintf(who, sizeof who, "solver `%s`", j->q->solver);
-    return ambit_context_failed(j->lease, status, who, f);
+    return ambit_context_failed(j->scope, status, who, f);
   }
   ambit_stage_enter("run", AMBIT_FRAME_SOLVER, j->q->solver);
   ambit_status said = j->solver->run(self, j->q->sink ? j->q->sink : &silent);
@@ -258,7 +258,7 @@ static void fill_report(const job *j, ambit_report *report) {
   report->graph_nodes = ambit_graph_made(j->q->graph);
   const ambit_tape *const tape[] = { r->effect, r->jacobian, r->output_jacobian, r->rates, r->output_value };
   for (size_t i = 0; i < sizeof tape / sizeof *tape; i++) ambit_report_count(report, tape[i]);
-  ambit_tally_report(&j->tally, j->arena, j->lease, 1, &j->context, report);
+  ambit_tally_report(&j->tally, j->arena, j->scope, 1, &j->context, report);
 }
 
 ambit_status ambit_reduction_run(const ambit_reduction_request *q, uint8_t *cut, ambit_reduction_result *result,
@@ -276,7 +276,7 @@ ambit_status ambit_reduction_run(const ambit_reduction_request *q, uint8_t *cut,
   result->cpu_seconds_rank = fmax(0, result->cpu_seconds - j.outside);
   if (status == AMBIT_OK && report) fill_report(&j, report);
   ambit_context_close(&j.context);
-  ambit_lease_close(j.lease);
+  ambit_scope_close(j.scope);
   ambit_arena_close(j.arena);
   return status;
 }

@@ -114,7 +114,7 @@ bool ambit_equations_at(
   return true;
 }
 
-static ambit_status inspect(const ambit_ready *r, ambit_lease *lease, const ambit_interval *box, bool with_data,
+static ambit_status inspect(const ambit_ready *r, ambit_scope *scope, const ambit_interval *box, bool with_data,
     bool *smooth, ambit_failure *f) {
   const ambit_tape *tape;
   ambit_contractor *contractor;
@@ -122,7 +122,7 @@ static ambit_status inspect(const ambit_ready *r, ambit_lease *lease, const ambi
   if (!lo || !hi) return ambit_no_memory(f);
   ambit_status status = ambit_equations_seal(r, r->ne, r->equation, 0, &tape, f);
   if (status != AMBIT_OK) return status;
-  if (ambit_contract_service_v1.open(&lease->host, tape, &contractor) != AMBIT_OK) return ambit_no_memory(f);
+  if (ambit_contract_service_v1.open(&scope->host, tape, &contractor) != AMBIT_OK) return ambit_no_memory(f);
   for (size_t i = 0; i < r->nx + r->np; i++) {
     ambit_interval x = i < r->nx ? box[i] : r->p[i - r->nx];
     lo[i] = x.lo, hi[i] = x.hi;
@@ -136,13 +136,13 @@ static ambit_status inspect(const ambit_ready *r, ambit_lease *lease, const ambi
 ambit_status ambit_equations_are_smooth(const ambit_equations *q, ambit_registry *registry, const ambit_interval *box,
     bool with_data, bool *smooth, ambit_failure *f) {
   ambit_arena *arena = ambit_arena_open();
-  ambit_lease *lease = NULL;
+  ambit_scope *scope = NULL;
   ambit_ready ready = { 0 };
   *smooth = false;
   ambit_status status = arena ? ambit_equations_prepare(q, arena, &ready, f) : ambit_no_memory(f);
-  if (status == AMBIT_OK) status = ambit_context_lease(registry, &lease, f);
-  if (status == AMBIT_OK) status = inspect(&ready, lease, box, with_data, smooth, f);
-  ambit_lease_close(lease);
+  if (status == AMBIT_OK) status = ambit_context_scope(registry, &scope, f);
+  if (status == AMBIT_OK) status = inspect(&ready, scope, box, with_data, smooth, f);
+  ambit_scope_close(scope);
   ambit_arena_close(arena);
   return status;
 }

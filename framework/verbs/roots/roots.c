@@ -29,7 +29,7 @@ typedef struct job {
   uint32_t seal;
   ambit_problem problem;
   ambit_context context;
-  ambit_lease *lease;
+  ambit_scope *scope;
   double *option;
   ambit_tally tally;
 } job;
@@ -141,7 +141,7 @@ static ambit_status build_problem(job *j, uint32_t want, ambit_failure *f) {
     .size = sizeof *p, .nx = (uint32_t)r->nx, .np = (uint32_t)r->np, .nu = (uint32_t)r->np, .name = r->name
   };
   size_t further = r->ne - r->nx;
-  if (is_implied(j)) p->wish = AMBIT_WISH_IMPLIED;
+  if (is_implied(j)) p->extras = AMBIT_EXTRA_IMPLIED;
   ambit_status status = copy_ranges(j, f);
   if (status == AMBIT_OK) status = ambit_equations_seal(r, r->nx, r->equation, j->seal, &p->rhs, f);
   if (status == AMBIT_OK && (want & AMBIT_WANT_JACOBIAN))
@@ -164,11 +164,11 @@ static ambit_status find_solver(job *j, ambit_failure *f) {
   if (status == AMBIT_OK && j->solver->solves != AMBIT_SOLVES_ROOTS) status = refuse_solver(q, j->solver, f);
   if (status == AMBIT_OK)
     status = ambit_pair_choose(q->registry, q->solver, j->solver, q->arithmetic, j->arithmetic, f);
-  if (status == AMBIT_OK) status = ambit_context_lease(q->registry, &j->lease, f);
+  if (status == AMBIT_OK) status = ambit_context_scope(q->registry, &j->scope, f);
   if (status != AMBIT_OK) return status;
   ambit_failure own = { 0 };
   j->option =
-      ambit_context_options(j->lease, j->solver->param, "solver", q->solver, q->nsolver_option, q->solver_option, &own);
+      ambit_context_options(j->scope, j->solver->param, "solver", q->solver, q->nsolver_option, q->solver_option, &own);
   if (!j->option) return ambit_fail(f, own.status, "%s", own.message);
   const ambit_arithmetic *arithmetic;
   status = ambit_registry_arithmetic(q->registry, j->arithmetic, &arithmetic, f);
@@ -250,7 +250,7 @@ static int32_t progress(ambit_sink *s, double done, const char *message) {
 /* -- the run */
 
 static void judge(const job *j, const guard *g, ambit_status said, ambit_roots_result *result) {
-  const ambit_failure *own = &j->lease->failure;
+  const ambit_failure *own = &j->scope->failure;
   const char *fault = g->broken, *name = j->q->solver;
   ambit_failure why = { 0 };
   ambit_context_sound(&j->context, &why);
@@ -278,22 +278,22 @@ static ambit_status run(job *j, ambit_roots_result *result, ambit_failure *f) {
   result->further = is_implied(j) ? 0 : j->problem.ninvariant;
   double begun = ambit_context_seconds();
   ambit_stage_enter("open", AMBIT_FRAME_SOLVER, j->q->solver);
-  ambit_status status = j->solver->open(&j->lease->host, &j->problem, j->option, &self);
+  ambit_status status = j->solver->open(&j->scope->host, &j->problem, j->option, &self);
   ambit_stage_leave();
   j->tally.open = ambit_context_seconds() - begun;
   if (status != AMBIT_OK) {
     char who[96];
     snprintf(who, sizeof who, "solver `%s`", j->q->solver);
-    return ambit_context_failed(j->lease, status, who, f);
+    return ambit_context_failed(j->scope, status, who, f);
   }
-  ambit_tally_run(&j->tally, j->lease, 1, &j->context);
+  ambit_tally_run(&j->tally, j->scope, 1, &j->context);
   double start = ambit_context_seconds();
   ambit_stage_enter("run", AMBIT_FRAME_SOLVER, j->q->solver);
   ambit_status said = j->solver->run(self, &g.sink);
   ambit_stage_leave();
   ambit_allocation_forbid(0);
   result->cpu_seconds = ambit_context_seconds() - start;
-  ambit_tally_ran(&j->tally, j->lease, 1, &j->context);
+  ambit_tally_ran(&j->tally, j->scope, 1, &j->context);
   begun = ambit_context_seconds();
   j->solver->close(self);
   j->tally.close = ambit_context_seconds() - begun;
@@ -315,7 +315,7 @@ static void fill_report(const job *j, const ambit_roots_result *result, ambit_re
   report->parameters = report->unknowns = p->np;
   report->steps = result->boxes;
   report->seconds_run = result->cpu_seconds;
-  ambit_tally_report(&j->tally, j->arena, j->lease, 1, &j->context, report);
+  ambit_tally_report(&j->tally, j->arena, j->scope, 1, &j->context, report);
 }
 
 ambit_status ambit_roots(
@@ -329,7 +329,7 @@ ambit_status ambit_roots(
   if (status == AMBIT_OK) status = run(&j, result, f);
   if (status == AMBIT_OK && report) fill_report(&j, result, report);
   ambit_context_close(&j.context);
-  ambit_lease_close(j.lease);
+  ambit_scope_close(j.scope);
   ambit_arena_close(j.arena);
   return status;
 }

@@ -23,19 +23,19 @@ static ambit_status check_floating_point(ambit_failure *f) {
   return AMBIT_OK;
 }
 
-ambit_status ambit_context_lease(ambit_registry *r, ambit_lease **lease, ambit_failure *f) {
-  *lease = NULL;
+ambit_status ambit_context_scope(ambit_registry *r, ambit_scope **scope, ambit_failure *f) {
+  *scope = NULL;
   ambit_status floating = check_floating_point(f);
   if (floating != AMBIT_OK) return floating;
-  ambit_status status = ambit_lease_open(lease, forward_note, r);
+  ambit_status status = ambit_scope_open(scope, forward_note, r);
   return status == AMBIT_OK ? status : ambit_fail(f, status, "out of memory");
 }
 
-double *ambit_context_options(ambit_lease *lease, const ambit_param *param, const char *kind, const char *name,
+double *ambit_context_options(ambit_scope *scope, const ambit_param *param, const char *kind, const char *name,
     size_t noption, const ambit_option *option, ambit_failure *f) {
   char owner[96];
   snprintf(owner, sizeof owner, "%s `%s`", kind, name);
-  double *value = ambit_arena_alloc(lease->arena, ambit_params_doubles(param) * sizeof *value);
+  double *value = ambit_arena_alloc(scope->arena, ambit_params_doubles(param) * sizeof *value);
   if (!value) {
     ambit_no_memory(f);
     return NULL;
@@ -49,8 +49,8 @@ static const char *memory_advice(ambit_status status, const char *said) {
   return "; make fewer data uncertain, split the model, lower `order` where it is an option, or allow more memory";
 }
 
-ambit_status ambit_context_failed(const ambit_lease *lease, ambit_status status, const char *who, ambit_failure *f) {
-  const char *said = lease->failure.message, *advice = memory_advice(status, said);
+ambit_status ambit_context_failed(const ambit_scope *scope, ambit_status status, const char *who, ambit_failure *f) {
+  const char *said = scope->failure.message, *advice = memory_advice(status, said);
   if (said[0]) return ambit_fail(f, status, "%s: %s%s", who, said, advice);
   return ambit_fail(f, status, "%s: %s, without a reason%s", who, ambit_status_name(status), advice);
 }
@@ -60,12 +60,12 @@ static ambit_status open_arithmetic(ambit_context *c, ambit_failure *f) {
   if (!c->arithmetic->open) return AMBIT_OK;
   ambit_meter_enter(AMBIT_FRAME_STAGE, "context");
   ambit_meter_enter(AMBIT_FRAME_ARITHMETIC, c->name);
-  ambit_status status = c->arithmetic->open(&c->lease->host, c->option, c->nvar, &c->ctx);
+  ambit_status status = c->arithmetic->open(&c->scope->host, c->option, c->nvar, &c->ctx);
   ambit_meter_leave();
   ambit_meter_leave();
   if (status == AMBIT_OK) return AMBIT_OK;
   snprintf(who, sizeof who, "arithmetic `%s`", c->name);
-  return ambit_context_failed(c->lease, status, who, f);
+  return ambit_context_failed(c->scope, status, who, f);
 }
 
 ambit_status ambit_context_open(ambit_registry *r, const char *name, size_t noption, const ambit_option *option,
@@ -75,15 +75,15 @@ ambit_status ambit_context_open(ambit_registry *r, const char *name, size_t nopt
   snprintf(c->name, sizeof c->name, "%s", name);
   ambit_failure own = { 0 };
   ambit_status status = ambit_registry_arithmetic(r, name, &c->arithmetic, &own);
-  if (status == AMBIT_OK) status = ambit_context_lease(r, &c->lease, &own);
+  if (status == AMBIT_OK) status = ambit_context_scope(r, &c->scope, &own);
   if (status == AMBIT_OK) {
-    c->option = ambit_context_options(c->lease, c->arithmetic->param, "arithmetic", name, noption, option, &own);
+    c->option = ambit_context_options(c->scope, c->arithmetic->param, "arithmetic", name, noption, option, &own);
     status = own.status;
   }
   if (status == AMBIT_OK) status = open_arithmetic(c, &own);
   c->seconds = ambit_clock_cpu() - begun;
   if (status == AMBIT_OK) return AMBIT_OK;
-  ambit_lease_close(c->lease);
+  ambit_scope_close(c->scope);
   *c = (ambit_context) { 0 };
   return ambit_fail(f, status, "%s", own.message);
 }
@@ -91,14 +91,14 @@ ambit_status ambit_context_open(ambit_registry *r, const char *name, size_t nopt
 ambit_status ambit_context_renew(ambit_registry *r, ambit_context *c, ambit_failure *f) {
   if (!c->arithmetic || !c->arithmetic->open) return AMBIT_OK;
   ambit_context fresh = { .arithmetic = c->arithmetic, .nvar = c->nvar, .seconds = c->seconds, .spent = c->spent };
-  ambit_work before = ambit_lease_work(c->lease);
+  ambit_work before = ambit_scope_work(c->scope);
   ambit_work_add(&fresh.spent, &before);
   memcpy(fresh.name, c->name, sizeof fresh.name);
   ambit_failure own = { 0 };
-  ambit_status status = ambit_context_lease(r, &fresh.lease, f);
+  ambit_status status = ambit_context_scope(r, &fresh.scope, f);
   if (status != AMBIT_OK) return status;
   size_t n = ambit_params_doubles(c->arithmetic->param);
-  fresh.option = ambit_arena_alloc(fresh.lease->arena, n * sizeof *fresh.option);
+  fresh.option = ambit_arena_alloc(fresh.scope->arena, n * sizeof *fresh.option);
   if (fresh.option) {
     memcpy(fresh.option, c->option, n * sizeof *fresh.option);
     status = open_arithmetic(&fresh, &own);
@@ -106,7 +106,7 @@ ambit_status ambit_context_renew(ambit_registry *r, ambit_context *c, ambit_fail
     status = ambit_fail(&own, AMBIT_NOMEM, "out of memory");
   }
   if (status != AMBIT_OK) {
-    ambit_lease_close(fresh.lease);
+    ambit_scope_close(fresh.scope);
     return ambit_fail(f, status, "%s", own.message);
   }
   ambit_context_close(c);
@@ -116,7 +116,7 @@ ambit_status ambit_context_renew(ambit_registry *r, ambit_context *c, ambit_fail
 
 void ambit_context_close(ambit_context *c) {
   if (c->ctx && c->arithmetic->close) c->arithmetic->close(c->ctx);
-  ambit_lease_close(c->lease);
+  ambit_scope_close(c->scope);
   *c = (ambit_context) { 0 };
 }
 

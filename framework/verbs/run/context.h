@@ -8,8 +8,8 @@ typedef struct ambit_context {
   char name[64];                      /* for messages */
   const ambit_arithmetic *arithmetic; /* completed */
   void *ctx;
-  ambit_lease *lease;
-  double *option; /* as open() got them, in the lease's arena */
+  ambit_scope *scope;
+  double *option; /* as open() got them, in the scope's arena */
   uint32_t nvar;
   double seconds;   /* of CPU time, to open it */
   ambit_work spent; /* counted before it was renewed */
@@ -26,13 +26,13 @@ void ambit_context_close(ambit_context *c); /* a zeroed one is allowed */
 ** believed. A zeroed context is sound. */
 ambit_status ambit_context_sound(const ambit_context *c, ambit_failure *f);
 
-/* A lease whose notes go to the registry. */
-ambit_status ambit_context_lease(ambit_registry *r, ambit_lease **lease, ambit_failure *f);
-/* Options by name -> the array for open(), in the lease's arena; NULL: f says why. */
-double *ambit_context_options(ambit_lease *lease, const ambit_param *param, const char *kind, const char *name,
+/* A scope whose notes go to the registry. */
+ambit_status ambit_context_scope(ambit_registry *r, ambit_scope **scope, ambit_failure *f);
+/* Options by name -> the array for open(), in the scope's arena; NULL: f says why. */
+double *ambit_context_options(ambit_scope *scope, const ambit_param *param, const char *kind, const char *name,
     size_t noption, const ambit_option *option, ambit_failure *f);
 /* The failure of a plugin's call: its own message if it left one, else `who` and the status. */
-ambit_status ambit_context_failed(const ambit_lease *lease, ambit_status status, const char *who, ambit_failure *f);
+ambit_status ambit_context_failed(const ambit_scope *scope, ambit_status status, const char *who, ambit_failure *f);
 
 double ambit_context_seconds(void); /* CPU time of this process */
 #endif

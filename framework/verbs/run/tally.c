@@ -1,4 +1,4 @@
-/* tally.c -- sums over leases, differences of clocks. */
+/* tally.c -- sums over scopes, differences of clocks. */
 #include "verbs/run/tally.h"
 
 ambit_tally ambit_tally_begin(const ambit_graph *g) {
@@ -12,30 +12,30 @@ void ambit_tally_built(ambit_tally *t) {
   t->tape = ambit_graph_sealing_seconds(t->graph) - t->sealing;
 }
 
-static void add_lease(ambit_work *sum, const ambit_lease *lease) {
-  ambit_work work = ambit_lease_work(lease);
+static void add_scope(ambit_work *sum, const ambit_scope *scope) {
+  ambit_work work = ambit_scope_work(scope);
   ambit_work_add(sum, &work);
 }
 
-static ambit_work add_leases(const ambit_lease *lease, size_t ncontext, const ambit_context *context) {
+static ambit_work add_scopes(const ambit_scope *scope, size_t ncontext, const ambit_context *context) {
   ambit_work sum = { 0 };
-  add_lease(&sum, lease);
+  add_scope(&sum, scope);
   for (size_t i = 0; i < ncontext; i++) {
-    add_lease(&sum, context[i].lease);
+    add_scope(&sum, context[i].scope);
     ambit_work_add(&sum, &context[i].spent);
   }
   return sum;
 }
 
-void ambit_tally_run(ambit_tally *t, const ambit_lease *lease, size_t ncontext, const ambit_context *context) {
-  t->before = add_leases(lease, ncontext, context).allocations;
+void ambit_tally_run(ambit_tally *t, const ambit_scope *scope, size_t ncontext, const ambit_context *context) {
+  t->before = add_scopes(scope, ncontext, context).allocations;
 }
 
-void ambit_tally_ran(ambit_tally *t, const ambit_lease *lease, size_t ncontext, const ambit_context *context) {
-  t->work.allocations_run += add_leases(lease, ncontext, context).allocations - t->before;
+void ambit_tally_ran(ambit_tally *t, const ambit_scope *scope, size_t ncontext, const ambit_context *context) {
+  t->work.allocations_run += add_scopes(scope, ncontext, context).allocations - t->before;
 }
 
-void ambit_tally_report(const ambit_tally *t, const ambit_arena *arena, const ambit_lease *lease, size_t ncontext,
+void ambit_tally_report(const ambit_tally *t, const ambit_arena *arena, const ambit_scope *scope, size_t ncontext,
     const ambit_context *context, ambit_report *report) {
   report->seconds_build = t->built;
   report->seconds_tape = t->tape;
@@ -44,7 +44,7 @@ void ambit_tally_report(const ambit_tally *t, const ambit_arena *arena, const am
   report->seconds_graph = graph > 0 ? graph : 0;
   report->seconds_open = t->open;
   report->seconds_close = t->close;
-  report->work = add_leases(lease, ncontext, context);
+  report->work = add_scopes(scope, ncontext, context);
   ambit_work_add(&report->work, &t->work);
   report->work.allocations += ambit_arena_count(arena);
   report->work.allocated += ambit_arena_bytes(arena);

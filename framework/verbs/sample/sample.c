@@ -213,7 +213,7 @@ static void fill_report(const job *j, double built, ambit_sample_result *result,
   ambit_report_count(report, j->tape);
   report->seconds_build = built;
   for (uint32_t k = 0; k < j->ndrawer; k++) {
-    ambit_work opened = ambit_lease_work(j->drawer[k].context.lease);
+    ambit_work opened = ambit_scope_work(j->drawer[k].context.scope);
     ambit_work_add(&report->work, &opened);
     ambit_work_add(&report->work, ambit_batch_work(j->drawer[k].batch));
   }

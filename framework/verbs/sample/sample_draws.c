@@ -18,7 +18,7 @@ typedef struct drawer {
   double *u_point;          /* [nu] */
   double *lo, *hi;          /* [nx + np] */
   double *middle;           /* [nx] */
-  ambit_work work;          /* of the leases of its draws */
+  ambit_work work;          /* of the scopes of its draws */
 } drawer;
 
 struct ambit_draws {
@@ -29,7 +29,7 @@ struct ambit_draws {
   char arithmetic[AMBIT_NAME_MAX];
   ambit_problem problem;
   const ambit_tape *initial;
-  ambit_lease *options; /* holds `option` */
+  ambit_scope *options; /* holds `option` */
   double *option;
   uint32_t ndrawer;
   drawer *drawer; /* [ndrawer] */
@@ -37,7 +37,7 @@ struct ambit_draws {
 
 void ambit_draws_work(const ambit_draws *draws, ambit_work *sum) {
   for (uint32_t i = 0; i < draws->ndrawer; i++) {
-    ambit_work opened = ambit_lease_work(draws->drawer[i].context.lease);
+    ambit_work opened = ambit_scope_work(draws->drawer[i].context.scope);
     ambit_work_add(sum, &opened);
     ambit_work_add(sum, &draws->drawer[i].work);
   }
@@ -87,7 +87,7 @@ static ambit_status open_drawers(ambit_draws *draws, uint32_t n, uint32_t want, 
 static ambit_status read_options(ambit_draws *d, const ambit_draws_request *request, ambit_failure *f) {
   const ambit_simulate_request *q = d->q;
   ambit_failure own = { 0 };
-  ambit_status status = ambit_context_lease(q->registry, &d->options, f);
+  ambit_status status = ambit_context_scope(q->registry, &d->options, f);
   if (status != AMBIT_OK) return status;
   size_t n = request->solver ? request->noption : q->nsolver_option;
   const ambit_option *option = request->solver ? request->option : q->solver_option;
@@ -150,7 +150,7 @@ ambit_status ambit_draws_open(const ambit_draws_request *request, ambit_draws **
 void ambit_draws_close(ambit_draws *d) {
   if (!d) return;
   for (uint32_t i = 0; i < d->ndrawer; i++) ambit_context_close(&d->drawer[i].context);
-  ambit_lease_close(d->options);
+  ambit_scope_close(d->options);
   ambit_arena_close(d->arena);
 }
 
@@ -218,8 +218,8 @@ static void place_data(const ambit_draws *draws, drawer *d, const ambit_draws_on
   }
 }
 
-static void tell_reason(const ambit_draws_one *one, bool reached, ambit_status status, const ambit_lease *lease) {
-  const char *own = lease->failure.message;
+static void tell_reason(const ambit_draws_one *one, bool reached, ambit_status status, const ambit_scope *scope) {
+  const char *own = scope->failure.message;
   snprintf(one->reason, one->room, "%s",
       reached              ? ""
       : own[0]             ? own
@@ -228,19 +228,19 @@ static void tell_reason(const ambit_draws_one *one, bool reached, ambit_status s
 }
 
 static ambit_status integrate(
-    const ambit_draws *draws, drawer *d, const ambit_draws_one *one, ambit_lease *lease, bool *reached) {
+    const ambit_draws *draws, drawer *d, const ambit_draws_one *one, ambit_scope *scope, bool *reached) {
   collector c = { { sizeof(ambit_sink), emit, ignore_progress }, &d->problem, one, d->middle, 1 };
   void *self = NULL;
   *reached = false;
   collect(&c, 0, d->lo, d->hi);
   ambit_stage_enter("open", AMBIT_FRAME_SOLVER, draws->solver_name);
-  ambit_status status = draws->solver->open(&lease->host, &d->problem, draws->option, &self);
+  ambit_status status = draws->solver->open(&scope->host, &d->problem, draws->option, &self);
   ambit_stage_leave();
   if (status == AMBIT_INVALID || status == AMBIT_NOMEM || status == AMBIT_BROKEN) {
     char who[96];
     ambit_failure own = { 0 };
     snprintf(who, sizeof who, "solver `%s`", draws->solver_name);
-    ambit_context_failed(lease, status, who, &own);
+    ambit_context_failed(scope, status, who, &own);
     snprintf(one->reason, one->room, "%s", own.message);
     return status;
   }
@@ -251,19 +251,19 @@ static ambit_status integrate(
     draws->solver->close(self);
   }
   *reached = status == AMBIT_OK && c.next >= draws->problem.ntime;
-  tell_reason(one, *reached, status, lease);
+  tell_reason(one, *reached, status, scope);
   return AMBIT_OK;
 }
 
 ambit_status ambit_draws_make(ambit_draws *draws, uint32_t worker, const ambit_draws_one *one, bool *reached) {
   drawer *d = &draws->drawer[worker];
-  ambit_lease *lease;
-  ambit_status status = ambit_context_lease(draws->q->registry, &lease, NULL);
+  ambit_scope *scope;
+  ambit_status status = ambit_context_scope(draws->q->registry, &scope, NULL);
   if (status != AMBIT_OK) return status;
   place_data(draws, d, one);
-  status = integrate(draws, d, one, lease, reached);
-  ambit_work work = ambit_lease_work(lease);
+  status = integrate(draws, d, one, scope, reached);
+  ambit_work work = ambit_scope_work(scope);
   ambit_work_add(&d->work, &work);
-  ambit_lease_close(lease);
+  ambit_scope_close(scope);
   return status;
 }

@@ -157,7 +157,7 @@ void ambit_flow_close(ambit_flow *flow) {
 ambit_work ambit_flow_work(const ambit_flow *flow) {
   ambit_work sum = { 0 };
   for (uint32_t i = 0; i < flow->ndrawer; i++) {
-    ambit_work opened = ambit_lease_work(flow->drawer[i].context.lease);
+    ambit_work opened = ambit_scope_work(flow->drawer[i].context.scope);
     ambit_work_add(&sum, &opened);
     if (flow->drawer[i].initial) ambit_work_add(&sum, ambit_batch_work(flow->drawer[i].initial));
     if (flow->drawer[i].lanes) ambit_work_add(&sum, ambit_lanes_work(flow->drawer[i].lanes));

@@ -8,26 +8,26 @@
 #include <math.h>
 
 /* The plan of a sample. cpu: s of CPU time, after which it is stopped; 0: never. */
-typedef struct wishes {
+typedef struct settings {
   ambit_sample_plan plan;
   double cpu;
-} wishes;
+} settings;
 
-static wishes read_wishes(lua_State *L, int idx, const char *what) {
-#define ONE(key, kind, flags, member) AMBIT_LUA_ONE(wishes, key, kind, flags, member)
+static settings read_settings(lua_State *L, int idx, const char *what) {
+#define ONE(key, kind, flags, member) AMBIT_LUA_ONE(settings, key, kind, flags, member)
   static const ambit_lua_field field[] = { ONE("draws", AMBIT_LUA_SIZE, AMBIT_LUA_NEEDED, plan.draws),
     ONE("seed", AMBIT_LUA_WORK, AMBIT_LUA_NEEDED, plan.seed), ONE("points", AMBIT_LUA_TEXT, 0, plan.points),
     ONE("no_corners", AMBIT_LUA_FLAG, 0, plan.no_corners), ONE("polish", AMBIT_LUA_FLAG, 0, plan.polish),
     ONE("threads", AMBIT_LUA_COUNT, 0, plan.threads), ONE("relative", AMBIT_LUA_NUMBER, 0, plan.relative),
     ONE("absolute", AMBIT_LUA_NUMBER, 0, plan.absolute), ONE("cpu", AMBIT_LUA_NUMBER, 0, cpu) };
 #undef ONE
-  static const ambit_lua_fields fields = AMBIT_LUA_FIELDS(wishes, field);
-  wishes w = { 0 };
+  static const ambit_lua_fields fields = AMBIT_LUA_FIELDS(settings, field);
+  settings w = { 0 };
   ambit_lua_read(L, idx, what, &fields, &w);
   return w;
 }
 
-static void begin(lua_State *L, ambit_receiver *to, wishes *w) {
+static void begin(lua_State *L, ambit_receiver *to, settings *w) {
   to->deadline = 0;
   w->plan.sink = &to->sink;
   ambit_receiver_begin(L, to);
@@ -70,7 +70,7 @@ static void mark_partial(lua_State *L, lua_Integer i) {
 
 /* sample_expressions(question: arithmetic nil is real, plan) -> {sampled}, {defined draws}, report, facts */
 static int sample_expressions(lua_State *L) {
-  wishes w = read_wishes(L, 2, "sample_expressions");
+  settings w = read_settings(L, 2, "sample_expressions");
   ambit_evaluate_request q = ambit_lua_read_question(L, 1, "sample_expressions");
   ambit_interval *hull = lua_newuserdatauv(L, (q.nexpr + 1) * sizeof *hull, 0);
   double *error = lua_newuserdatauv(L, (q.nexpr + 1) * sizeof *error, 0);
@@ -98,7 +98,7 @@ static int sample_expressions(lua_State *L) {
 
 /* sample_system(flow, plan) -> {sampled} by instant and state, facts, report. Solver "": lanes. */
 static int sample_system(lua_State *L) {
-  wishes w = read_wishes(L, 2, "sample_system");
+  settings w = read_settings(L, 2, "sample_system");
   ambit_simulate_request q = ambit_lua_read_flow(L, 1, "sample_system");
   if (q.solver && !q.solver[0]) q.solver = NULL;
   size_t n = q.ntime * q.system->nx;

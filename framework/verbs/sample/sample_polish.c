@@ -4,7 +4,7 @@
 
 #define ROOM 1024        /* candidates at a time */
 #define SLIGHT 1e-9      /* gains below this part of the width of what was seen are none */
-#define MOST_ROUNDS 1000 /* of the same part of the range, after which gains are creeping */
+#define MOST_ROUNDS 1000 /* of the same part of the range, after which gains are small */
 
 typedef struct search {
   const ambit_extreme *best;

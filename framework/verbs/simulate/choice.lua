@@ -16,7 +16,7 @@ local REACH = 8         -- times what a steady try has taken, that its rest may 
 local CUT = 4           -- times that, for the parts of a run that came to the end
 local PART = 0.5        -- of what is left of that: what one try has without question, or one hull of draws
 local AGAIN = 2         -- times what a run took that was stopped for its pace, after which it must be steady
-local CREEP = "unable.creep"
+local TOO_FAR = "unable.short_steps"
 local PIECES = { 8, 64 } -- into which the data are cut where every solver fails
 local DRAWS, MOST = 8, 128 -- draws of the hull for each datum, and at most
 local VISIBLE = 1e-6    -- width of a hull, in parts of its state, below which it is mostly rounding
@@ -315,7 +315,7 @@ function choice.solve(q, ask)
     tried = { { solver = first.solver, outcome = describe(first), run = first } } }
   local good = try_all(state, other_solvers(state))
   good = good or first.report.unknowns > 0 and try_all(state, cut_data(state))
-  if not good and state.best.code == CREEP and not state.by.pieces and not state.by.from then
+  if not good and state.best.code == TOO_FAR and not state.by.pieces and not state.by.from then
     try_all(state, carry_on(state))
   end
   local best = state.best

@@ -31,7 +31,7 @@ typedef struct job {
   uint32_t threads, ncontext; /* threads of the run; contexts that are open */
   ambit_context *context;
   void **ctx; /* [ncontext] of the contexts */
-  ambit_lease *lease;
+  ambit_scope *scope;
   double *option;
   ambit_tally tally;
 } job;
@@ -86,7 +86,7 @@ static ambit_status build(job *j, uint32_t want, uint32_t seal, ambit_failure *f
     q->range };
   ambit_status status = ambit_problem_build(&request, j->arena, &j->problem, f);
   if (status != AMBIT_OK) return status;
-  j->problem.wish = q->wish;
+  j->problem.extras = q->extras;
   const ambit_problem *p = &j->problem;
   ambit_share_note(p->rhs, "right-hand side", p->nx, p->name);
   if (p->implicit) ambit_share_note(p->implicit->tape, "implicit form", p->nx + p->implicit->na, NULL);
@@ -103,14 +103,14 @@ static ambit_status prepare(job *j, ambit_failure *f) {
   ambit_status status = ambit_registry_solver(q->registry, q->solver, &j->solver, f);
   if (status == AMBIT_OK)
     status = ambit_pair_choose(q->registry, q->solver, j->solver, q->arithmetic, j->arithmetic, f);
-  if (status == AMBIT_OK) status = ambit_context_lease(q->registry, &j->lease, f);
+  if (status == AMBIT_OK) status = ambit_context_scope(q->registry, &j->scope, f);
   if (status != AMBIT_OK) return status;
   if (j->solver->solves != AMBIT_SOLVES_FLOW)
     return ambit_fail(f, AMBIT_INVALID, "solver `%s` %s and does not advance in time; `simulate` needs one that does",
         q->solver, j->solver->solves == AMBIT_SOLVES_ROOTS ? "finds roots" : "is for ambit.reduce");
   ambit_failure own = { 0 };
   j->option =
-      ambit_context_options(j->lease, j->solver->param, "solver", q->solver, q->nsolver_option, q->solver_option, &own);
+      ambit_context_options(j->scope, j->solver->param, "solver", q->solver, q->nsolver_option, q->solver_option, &own);
   if (!j->option) return ambit_fail(f, own.status, "%s", own.message);
   const ambit_arithmetic *arithmetic;
   status = ambit_registry_arithmetic(q->registry, j->arithmetic, &arithmetic, f);
@@ -179,21 +179,21 @@ static ambit_status run_whole(job *j, ambit_guard *g, ambit_simulate_result *res
   void *self = NULL;
   double begun = ambit_context_seconds();
   ambit_stage_enter("open", AMBIT_FRAME_SOLVER, j->q->solver);
-  ambit_status status = j->solver->open(&j->lease->host, &j->problem, j->option, &self);
+  ambit_status status = j->solver->open(&j->scope->host, &j->problem, j->option, &self);
   ambit_stage_leave();
   j->tally.open = ambit_context_seconds() - begun;
   if (status == AMBIT_UNABLE || status == AMBIT_DOMAIN) {
     ambit_failure why;
-    ambit_guard_explain(status, j->q->solver, &j->lease->failure, "could not start and gave no reason", &why);
+    ambit_guard_explain(status, j->q->solver, &j->scope->failure, "could not start and gave no reason", &why);
     tell(j, &why, result);
     return AMBIT_OK;
   }
   if (status != AMBIT_OK) {
     char who[96];
     snprintf(who, sizeof who, "solver `%s`", j->q->solver);
-    return ambit_context_failed(j->lease, status, who, f);
+    return ambit_context_failed(j->scope, status, who, f);
   }
-  ambit_tally_run(&j->tally, j->lease, j->ncontext, j->context);
+  ambit_tally_run(&j->tally, j->scope, j->ncontext, j->context);
   double start = ambit_context_seconds(), wall = wall_seconds();
   ambit_stage_enter("run", AMBIT_FRAME_SOLVER, j->q->solver);
   ambit_status said = j->solver->run(self, &g->sink);
@@ -201,11 +201,11 @@ static ambit_status run_whole(job *j, ambit_guard *g, ambit_simulate_result *res
   ambit_allocation_forbid(0);
   result->cpu_seconds = ambit_context_seconds() - start;
   result->wall_seconds = wall_seconds() - wall;
-  ambit_tally_ran(&j->tally, j->lease, j->ncontext, j->context);
+  ambit_tally_ran(&j->tally, j->scope, j->ncontext, j->context);
   begun = ambit_context_seconds();
   j->solver->close(self);
   j->tally.close = ambit_context_seconds() - begun;
-  finish(j, g, said, &j->lease->failure, result);
+  finish(j, g, said, &j->scope->failure, result);
   return AMBIT_OK;
 }
 
@@ -236,7 +236,7 @@ static void fill_report(const job *j, const ambit_simulate_result *result, ambit
   report->unknowns = j->problem.nu;
   report->steps = result->steps;
   report->seconds_run = result->cpu_seconds;
-  ambit_tally_report(&j->tally, j->arena, j->lease, j->ncontext, j->context, report);
+  ambit_tally_report(&j->tally, j->arena, j->scope, j->ncontext, j->context, report);
 }
 
 /* A solver that cannot work with these equations: a run without a step. */
@@ -269,7 +269,7 @@ ambit_status ambit_simulate(
     if (status == AMBIT_OK && report) fill_report(&j, result, report);
   }
   for (uint32_t i = 0; i < j.ncontext; i++) ambit_context_close(&j.context[i]);
-  ambit_lease_close(j.lease);
+  ambit_scope_close(j.scope);
   ambit_arena_close(j.arena);
   return status;
 }

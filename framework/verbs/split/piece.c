@@ -78,7 +78,7 @@ ambit_status ambit_piece_prepare(ambit_piece *p, const ambit_split *s, ambit_con
   p->sink = (ambit_sink) { sizeof(ambit_sink), emit, progress };
   p->split = s;
   p->problem = *whole;
-  p->problem.wish = 0; /* a union is neither a polynomial nor a set over the unknowns */
+  p->problem.extras = 0; /* a union is neither a polynomial nor a set over the unknowns */
   p->context = context;
   p->problem.nworker = 1;
   if (p->problem.worker) p->problem.worker = &p->problem.actx;
@@ -143,29 +143,29 @@ static void report_failure(ambit_piece *p, const ambit_failure *why) {
 
 /* -- the run */
 
-static ambit_status run(ambit_piece *p, ambit_lease *lease) {
+static ambit_status run(ambit_piece *p, ambit_scope *scope) {
   const ambit_split *s = p->split;
   void *self = NULL;
   ambit_failure why;
   ambit_stage_enter("open", AMBIT_FRAME_SOLVER, s->solver_name);
-  ambit_status status = s->solver->open(&lease->host, &p->problem, s->option, &self);
+  ambit_status status = s->solver->open(&scope->host, &p->problem, s->option, &self);
   ambit_stage_leave();
   if (status != AMBIT_OK) {
-    ambit_guard_explain(status, s->solver_name, &lease->failure, "could not start and gave no reason", &why);
+    ambit_guard_explain(status, s->solver_name, &scope->failure, "could not start and gave no reason", &why);
     report_failure(p, &why);
     return status == AMBIT_UNABLE || status == AMBIT_DOMAIN ? AMBIT_OK : status;
   }
   ambit_guard g = ambit_guard_make(&p->problem, &p->sink);
   ambit_tally tally = { 0 };
-  ambit_tally_run(&tally, lease, 1, p->context);
+  ambit_tally_run(&tally, scope, 1, p->context);
   ambit_stage_enter("run", AMBIT_FRAME_SOLVER, s->solver_name);
   ambit_status said = s->solver->run(self, &g.sink);
   ambit_stage_leave();
   ambit_allocation_forbid(0);
-  ambit_tally_ran(&tally, lease, 1, p->context);
+  ambit_tally_ran(&tally, scope, 1, p->context);
   ambit_work_add(&p->work, &tally.work);
   s->solver->close(self);
-  status = ambit_guard_judge(&g, said, s->solver_name, &lease->failure, &why);
+  status = ambit_guard_judge(&g, said, s->solver_name, &scope->failure, &why);
   if (p->skipped) {
     ambit_failure_clear(&why);
     status = ambit_fail_code(&why, AMBIT_BROKEN, AMBIT_CODE_BROKEN_TIME,
@@ -177,7 +177,7 @@ static ambit_status run(ambit_piece *p, ambit_lease *lease) {
 
 ambit_status ambit_piece_run(ambit_piece *p, const ambit_split *s, ambit_merge *merge, uint32_t number,
     int32_t (*look)(void *user), void *user) {
-  ambit_lease *lease;
+  ambit_scope *scope;
   ambit_failure f = { 0 };
   ambit_allocation_forbid(0);
   p->merge = merge;
@@ -191,14 +191,14 @@ ambit_status ambit_piece_run(ambit_piece *p, const ambit_split *s, ambit_merge *
   begin_interval(p);
   ambit_status status = ambit_context_renew(s->registry, p->context, &f);
   p->problem.actx = p->context->ctx;
-  if (status == AMBIT_OK) status = ambit_context_lease(s->registry, &lease, &f);
+  if (status == AMBIT_OK) status = ambit_context_scope(s->registry, &scope, &f);
   if (status != AMBIT_OK) {
     report_failure(p, &f);
     return status;
   }
-  status = run(p, lease);
-  ambit_work work = ambit_lease_work(lease);
+  status = run(p, scope);
+  ambit_work work = ambit_scope_work(scope);
   ambit_work_add(&p->work, &work);
-  ambit_lease_close(lease);
+  ambit_scope_close(scope);
   return status;
 }

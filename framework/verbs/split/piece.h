@@ -20,7 +20,7 @@ typedef struct ambit_piece {
   double *u_lo, *u_hi, *x_lo, *x_hi; /* [nu], [nx + np] */
   ambit_interval *u, *slot;
   ambit_merge_part part; /* of the interval that is being done */
-  ambit_work work;       /* of the leases of all pieces so far */
+  ambit_work work;       /* of the scopes of all pieces so far */
 } ambit_piece;
 
 ambit_status ambit_piece_prepare(ambit_piece *p, const ambit_split *s, ambit_context *context, ambit_arena *arena);

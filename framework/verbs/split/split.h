@@ -31,7 +31,7 @@ typedef struct ambit_split {
 typedef struct ambit_split_outcome {
   ambit_status said; /* OK, or what the piece that got least far said */
   uint32_t threads;  /* that worked: fewer than asked for where the system refuses them */
-  ambit_work work;   /* of the leases of all pieces */
+  ambit_work work;   /* of the scopes of all pieces */
   ambit_failure why; /* which piece, its data, its own reason */
 } ambit_split_outcome;
 

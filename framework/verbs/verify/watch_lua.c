@@ -9,14 +9,14 @@
 
 /* What is watched for: { conditions = { { g, kind, name, limit, rivals } }, cuts, unknowns, lo, hi: the box of data;
 ** threads, last, patience: as ambit_pace } */
-typedef struct wishes {
+typedef struct settings {
   ambit_watch_request w;
   const double *lo, *hi;
   uint32_t threads;
   double last, patience;
-} wishes;
+} settings;
 
-static void read_wishes(lua_State *L, int idx, wishes *to) {
+static void read_settings(lua_State *L, int idx, settings *to) {
   static const char *const kind[] = { "always", "at_end", "once", "most", NULL }; /* AMBIT_WATCH_* in order */
 #define ONE(key, kind, member) AMBIT_LUA_ONE(ambit_watch_condition, key, kind, 0, member)
   static const ambit_lua_field condition[] = { ONE("g", AMBIT_LUA_EXPRESSION, g),
@@ -24,16 +24,16 @@ static void read_wishes(lua_State *L, int idx, wishes *to) {
     ONE("name", AMBIT_LUA_TEXT, name), ONE("limit", AMBIT_LUA_NUMBER, limit), ONE("rivals", AMBIT_LUA_COUNT, rivals) };
 #undef ONE
   static const ambit_lua_fields conditions = AMBIT_LUA_FIELDS(ambit_watch_condition, condition);
-  static const ambit_lua_field field[] = { { "conditions", AMBIT_LUA_ROWS, 0, offsetof(wishes, w.condition),
-                                               offsetof(wishes, w.ncondition), &conditions },
-    AMBIT_LUA_ONE(wishes, "cuts", AMBIT_LUA_COUNT, 0, w.cuts),
-    AMBIT_LUA_LIST(wishes, "unknowns", AMBIT_LUA_EXPRESSIONS, 0, w.narrow, w.nnarrow),
-    AMBIT_LUA_LIST(wishes, "lo", AMBIT_LUA_NUMBERS, AMBIT_LUA_SAME, lo, w.nnarrow),
-    AMBIT_LUA_LIST(wishes, "hi", AMBIT_LUA_NUMBERS, AMBIT_LUA_SAME, hi, w.nnarrow),
-    AMBIT_LUA_ONE(wishes, "threads", AMBIT_LUA_COUNT, 0, threads),
-    AMBIT_LUA_ONE(wishes, "last", AMBIT_LUA_NUMBER, 0, last),
-    AMBIT_LUA_ONE(wishes, "patience", AMBIT_LUA_NUMBER, 0, patience) };
-  static const ambit_lua_fields fields = AMBIT_LUA_FIELDS(wishes, field);
+  static const ambit_lua_field field[] = { { "conditions", AMBIT_LUA_ROWS, 0, offsetof(settings, w.condition),
+                                               offsetof(settings, w.ncondition), &conditions },
+    AMBIT_LUA_ONE(settings, "cuts", AMBIT_LUA_COUNT, 0, w.cuts),
+    AMBIT_LUA_LIST(settings, "unknowns", AMBIT_LUA_EXPRESSIONS, 0, w.narrow, w.nnarrow),
+    AMBIT_LUA_LIST(settings, "lo", AMBIT_LUA_NUMBERS, AMBIT_LUA_SAME, lo, w.nnarrow),
+    AMBIT_LUA_LIST(settings, "hi", AMBIT_LUA_NUMBERS, AMBIT_LUA_SAME, hi, w.nnarrow),
+    AMBIT_LUA_ONE(settings, "threads", AMBIT_LUA_COUNT, 0, threads),
+    AMBIT_LUA_ONE(settings, "last", AMBIT_LUA_NUMBER, 0, last),
+    AMBIT_LUA_ONE(settings, "patience", AMBIT_LUA_NUMBER, 0, patience) };
+  static const ambit_lua_fields fields = AMBIT_LUA_FIELDS(settings, field);
   to->last = NAN;
   ambit_lua_read(L, idx, "watch", &fields, to);
   if (!isnan(to->last)) to->w.last = &to->last;
@@ -78,13 +78,13 @@ static void push_outcome(
   ambit_receiver_tell(L, to, result->status, result->code, result->reason);
 }
 
-/* watch(flow, wishes) -> {finding}, {status, reason, t_reached, rigorous, impossible: no solution meets the
+/* watch(flow, settings) -> {finding}, {status, reason, t_reached, rigorous, impossible: no solution meets the
 ** constraints, gave_up: a limit is exceeded}, report */
 static int watch(lua_State *L) {
   lua_settop(L, 2);
   ambit_simulate_request q = ambit_lua_read_flow(L, 1, "watch");
-  wishes own = { 0 };
-  read_wishes(L, 2, &own);
+  settings own = { 0 };
+  read_settings(L, 2, &own);
   own.w.system = q.system;
   own.w.initial = q.initial;
   if (q.ntime) own.w.start = q.time[0];
@@ -99,7 +99,7 @@ static int watch(lua_State *L) {
   ambit_watch *w;
   if (ambit_watch_open(&own.w, ambit_lua_push_system(L)->arena, &w, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
   q.sink = ambit_watch_sink(w);
-  q.wish = AMBIT_WISH_DENSE;
+  q.extras = AMBIT_EXTRA_DENSE;
   q.threads = own.threads;
   ambit_receiver_begin(L, &to);
   ambit_status status = ambit_simulate(&q, &result, &report, &f);

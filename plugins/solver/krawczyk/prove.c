@@ -12,8 +12,8 @@
 #define INFLATIONS 8
 #define REFINEMENTS 30
 #define SLOW 0.9
-#define SHARP 0.98 /* at the end every bit counts */
-#define WORTH 0.98 /* cutting once more must narrow an unknown by this */
+#define SLOPES_ALLOW 0.98 /* at the end every bit counts */
+#define WORTH 0.98        /* cutting once more must narrow an unknown by this */
 
 static int contract_once(const krawczyk *k, ambit_contractor *c, span *x) {
   for (uint32_t i = 0; i < k->m; i++) k->in_lo[i] = x[i].lo, k->in_hi[i] = x[i].hi;
@@ -40,7 +40,7 @@ void krawczyk_refine(krawczyk *k, span *x) {
       box_copy(k->m, x, k->left);
       return;
     }
-    if (box_shrinking(k->n, x, k->left) > SHARP) return;
+    if (box_shrinking(k->n, x, k->left) > SLOPES_ALLOW) return;
   }
 }
 

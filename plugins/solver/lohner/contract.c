@@ -34,7 +34,7 @@ static int is_apart(const lohner *s, uint32_t r) {
 static int is_met(lohner *s) {
   for (uint32_t r = 0; r < s->constraint.k; r++)
     if (is_apart(s, r)) {
-      s->constraint.culprit = r;
+      s->constraint.blamed = r;
       return 0;
     }
   return 1;
@@ -242,7 +242,7 @@ static enum why meet_hull(lohner *s) {
     s->lo[i] = larger_or_nan(lo[i], s->lo[i]);
     s->hi[i] = hi[i] < s->hi[i] ? hi[i] : s->hi[i];
     if (s->lo[i] > s->hi[i]) {
-      s->constraint.culprit = strongest(s, i);
+      s->constraint.blamed = strongest(s, i);
       return WHY_APART;
     }
   }

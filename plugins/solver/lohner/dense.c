@@ -1,4 +1,4 @@
-/* dense.c -- what a record says besides its bounds, on the problem's wish.
+/* dense.c -- what a record says besides its bounds, where the problem asks for it.
 **
 ** Dense enclosure: x(t + s) = sum_k x_k s^k +- excess + sum_j (sum_k s_jk s^k +- slope_excess_j) v_j for each state of
 ** the set (series.c), |v_j| <= r_j: middle x_k, a column s_jk r_j for each direction, and radii for what is rounded and
@@ -9,7 +9,7 @@
 #include "lohner.h"
 #include <string.h>
 
-static int wished(const lohner *s, uint32_t what) { return (s->problem.wish & what) != 0; }
+static int is_asked(const lohner *s, uint32_t what) { return (s->problem.extras & what) != 0; }
 
 /* -- memory */
 
@@ -43,12 +43,12 @@ static int open_set(lohner *s) {
   return 1;
 }
 
-int lohner_open_wishes(lohner *s) {
+int lohner_open_extras(lohner *s) {
   size_t n = (size_t)s->nx * (s->options.order + 1u);
-  if (wished(s, AMBIT_WISH_DENSE) && (!doubles(s->host, n, &s->dense_mid) || !doubles(s->host, n, &s->dense_rad) ||
-                                         !doubles(s->host, n * s->ndir, &s->dense_column)))
+  if (is_asked(s, AMBIT_EXTRA_DENSE) && (!doubles(s->host, n, &s->dense_mid) || !doubles(s->host, n, &s->dense_rad) ||
+                                            !doubles(s->host, n * s->ndir, &s->dense_column)))
     return 0;
-  return !wished(s, AMBIT_WISH_SET) || open_set(s);
+  return !is_asked(s, AMBIT_EXTRA_SET) || open_set(s);
 }
 
 /* -- the enclosure over the step */

@@ -33,10 +33,10 @@ typedef struct history {
 /* Why no step could be made; the run ends with a sentence about it (run.c). */
 enum why {
   WHY_NOTHING,
-  WHY_CENTRE,  /* the right-hand side has no series at the midpoint */
-  WHY_BOX,     /* nor over the whole set */
-  WHY_NO_STEP, /* no step that is long enough could be proved */
-  WHY_CREEP,   /* steps shrink so fast that the end is out of reach */
+  WHY_CENTRE,      /* the right-hand side has no series at the midpoint */
+  WHY_BOX,         /* nor over the whole set */
+  WHY_NO_STEP,     /* no step that is long enough could be proved */
+  WHY_SHORT_STEPS, /* steps shrink so fast that the end is out of reach */
   WHY_WIDE,
   WHY_APART, /* the set does not meet an invariant */
   WHY_STOPPED
@@ -85,7 +85,7 @@ typedef struct constraint {
   double *pivot_mid, *pivot_rad; /* [k x nx] scratch of the rank */
   double *largest;               /* [k] unit of each row, from the start */
   double *least;                 /* [k] pivots at the start, 0: none */
-  uint32_t culprit;              /* the invariant that is not met, or loses rank */
+  uint32_t blamed;               /* the invariant that is not met, or loses rank */
   int lost;                      /* it loses rank */
 } constraint;
 
@@ -156,11 +156,11 @@ typedef struct lohner {
   /* -- the record */
   double *lo, *hi, *tube_lo, *tube_hi; /* [nx] */
   double *about, *scale;               /* [nu] xi of an unknown is (u - about) / scale */
-  double *dense_mid, *dense_rad;       /* [nx x (order + 1)]; NULL: not wished for, as the next ones */
+  double *dense_mid, *dense_rad;       /* [nx x (order + 1)]; NULL: not asked for, as the next ones */
   double *dense_column;                /* [nx x ndir x (slope_order + 1)] */
   double *set_coefficient, *set_rest;  /* [nx x (nu + 1)] [nx] */
   ambit_set set;
-  uint32_t culprit; /* the state that is too wide */
+  uint32_t blamed;  /* the state that is too wide */
   const char *kink; /* why there is no step, or NULL */
 
   corrector corrector;
@@ -189,7 +189,7 @@ int lohner_is_filled(const lohner *s); /* some state counts as more than it is *
 
 /* pace.c */
 void lohner_start_pace(lohner *s);
-int lohner_creeps(lohner *s); /* to be asked after each step */
+int lohner_steps_shrink(lohner *s); /* to be asked after each step */
 
 /* series.c: coefficients of jets, values of polynomials */
 uint32_t lohner_centre_series(lohner *s);
@@ -219,7 +219,7 @@ void lohner_shift(const lohner *s, uint32_t i, double step, ball shift, double *
 void lohner_hull(lohner *s); /* rest, radius, lo, hi of the set */
 
 /* dense.c */
-int lohner_open_wishes(lohner *s); /* 0: out of memory */
+int lohner_open_extras(lohner *s); /* 0: out of memory */
 void lohner_dense(lohner *s);      /* the enclosure over the step, from the series and its proof */
 void lohner_grant(lohner *s, ambit_record *r);
 
@@ -237,7 +237,7 @@ int lohner_linearise(lohner *s, double t, uint32_t pieces);
 enum why lohner_contract(lohner *s, double t, uint32_t pieces);
 /* rank.c */
 void lohner_note_rank(lohner *s); /* as it is at the start */
-int lohner_loses_rank(lohner *s); /* 1: constraint.culprit depends on others here, as far as can be told */
+int lohner_loses_rank(lohner *s); /* 1: constraint.blamed depends on others here, as far as can be told */
 
 /* history.c */
 int history_open(const ambit_host *h, history *g, uint32_t n, uint32_t keep);

@@ -1,16 +1,16 @@
-/* pace.c -- runs that creep: over wide sets, steps shrink and shrink, and the end stays out of reach.
+/* pace.c -- runs that slow down without end: over wide sets, steps shrink and shrink, and the end is out of reach.
 **
-** A run creeps when four times as many steps win no more time: the longest step planned of steps (4 n, 8 n] is a
+** It does when four times as many steps win no more time: the longest step planned of steps (4 n, 8 n] is a
 ** quarter of that of steps (n, 2 n], or less. If steps go on to shrink at this rate, like exp(-rate t), the time that
 ** is left takes expm1(rate left) / (rate step) more of them; if these are too many, the run ends, after a small
-** multiple of the steps that it took before it crept. Only sets over which slopes vary are judged, and only steps that
+** multiple of the steps that it took before that. Only sets over which slopes vary are judged, and only steps that
 ** the solver chose: where thin sets take tiny steps, the solution asks for them. Whoever gives `step_min` decides for
 ** himself.
 */
 #include "lohner.h"
 
 #define FIRST 128       /* steps of which nothing is concluded */
-#define CREEPING 0.25   /* fall of steps over two doublings of their number */
+#define FALL 0.25       /* fall of steps over two doublings of their number */
 #define TOO_MANY 0x1p22 /* steps: minutes even for small systems */
 #define NEVER 0x1p34    /* steps, even if they shrink no more */
 
@@ -31,10 +31,10 @@ static int is_hopeless(const lohner *s) {
   if (s->options.patient || s->pace.until < 8 * FIRST || now->longest >= s->options.step_max) return 0;
   if (2 * now->wide < s->pace.until / 2) return 0;
   if (now->longest * NEVER < time_left(s)) return now->longest < 2 * then->longest;
-  return now->longest < CREEPING * then->longest && steps_ahead(s, then, now) > TOO_MANY;
+  return now->longest < FALL * then->longest && steps_ahead(s, then, now) > TOO_MANY;
 }
 
-int lohner_creeps(lohner *s) {
+int lohner_steps_shrink(lohner *s) {
   pace *p = &s->pace;
   stretch *now = &p->stretch[2];
   now->wide += s->wide != 0;

@@ -78,7 +78,7 @@ int lohner_loses_rank(lohner *s) {
   take_slopes(s);
   for (size_t n = 0; n < c->k && c->least[n] > 0; n++) {
     double pivot = next_pivot(s, &row, &column);
-    c->culprit = (uint32_t)row;
+    c->blamed = (uint32_t)row;
     if (!(pivot > LOST * c->least[n])) return 1;
     eliminate(s, row, column);
   }

@@ -43,7 +43,7 @@ static int explodes(lohner *s) {
     for (uint32_t j = 0; j < s->nc && s->varies <= BENT; j++) linear += fabs(s->column[(size_t)i * s->nc + j]);
     ambit_explosion_note(&e, i, s->hi[i] - s->lo[i], linear, &s->limit[i]);
   }
-  s->culprit = e.worst;
+  s->blamed = e.worst;
   return ambit_explodes(&e);
 }
 
@@ -58,7 +58,7 @@ static enum why advance(lohner *s) {
   if (s->options.width_max == 0 && explodes(s)) return WHY_WIDE;
   for (uint32_t i = 0; i < s->nx; i++) {
     s->size[i] = larger(FORGET * s->size[i], larger(fabs(s->lo[i]), fabs(s->hi[i])));
-    s->culprit = i;
+    s->blamed = i;
     if (!is_good(s, i)) return WHY_WIDE;
   }
   s->t = s->t_next;
@@ -73,7 +73,7 @@ static enum why integrate(lohner *s, ambit_sink *sink) {
     enum why why = advance(s);
     if (why != WHY_NOTHING) return why;
     if (emit(s, sink, t_from)) return WHY_STOPPED;
-    if (lohner_creeps(s) && s->next < s->problem.ntime) return WHY_CREEP;
+    if (lohner_steps_shrink(s) && s->next < s->problem.ntime) return WHY_SHORT_STEPS;
   }
   return WHY_NOTHING;
 }
@@ -97,15 +97,15 @@ static void say_rank(const lohner *s, size_t room, char *text) {
   text[0] = '\0';
   if (s->constraint.lost)
     snprintf(
-        text, room, " (the constraints may lose rank here: `%s`)", s->problem.invariant_name[s->constraint.culprit]);
+        text, room, " (the constraints may lose rank here: `%s`)", s->problem.invariant_name[s->constraint.blamed]);
 }
 
 /* Only solutions on which the invariants vanish are claimed, and there are none. */
 static ambit_status explain_apart(const lohner *s) {
-  const char *name = s->problem.invariant_name[s->constraint.culprit];
+  const char *name = s->problem.invariant_name[s->constraint.blamed];
   if (s->t == s->problem.time[0] && s->t_next == s->t)
     return s->host->fail_code(s->host, AMBIT_DOMAIN, AMBIT_CODE_DOMAIN_CONSTRAINT,
-        "the initial set does not meet the constraint `%s`: no initial state of it can satisfy it; mend the initial "
+        "the initial set does not meet the constraint `%s`: no initial state of it can satisfy it; correct the initial "
         "values",
         name);
   return s->host->fail_code(s->host, AMBIT_UNABLE, AMBIT_CODE_UNABLE_CONSTRAINT,
@@ -147,9 +147,9 @@ static ambit_status explain(const lohner *s, enum why why) {
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_WIDTH,
         "the enclosure of `%s` grew wider than %.4g in the step from t = %.9g s%s; split the initial set, raise "
         "`pieces`, or allow more by `width_max`",
-        s->problem.name[s->culprit], s->limit[s->culprit], s->t, rank);
-  case WHY_CREEP:
-    return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_CREEP,
+        s->problem.name[s->blamed], s->limit[s->blamed], s->t, rank);
+  case WHY_SHORT_STEPS:
+    return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_SHORT_STEPS,
         "at t = %.9g s steps over an enclosure up to %.3g wide, now of %.3g s, are so short that the end is out of "
         "reach: a solution may escape near here%s; if not, split the initial set, raise `tolerance`, or give a "
         "`step_min` to go on",

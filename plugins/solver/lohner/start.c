@@ -218,7 +218,7 @@ static ambit_status open_set(lohner *s, origin *o) {
         s->problem.time[0]);
   s->nc = count_columns(s, o);
   s->ndir = s->nc + s->nx;
-  if (!allocate_vectors(s) || !lohner_open_wishes(s)) return no_memory(s->host);
+  if (!allocate_vectors(s) || !lohner_open_extras(s)) return no_memory(s->host);
   keep_origin(s, o);
   ambit_status status = open_series(s);
   if (status == AMBIT_OK && s->options.formula != FORMULA_TAYLOR) status = lohner_open_corrector(s);

@@ -18,8 +18,8 @@
 #define GROWTH 3.0
 #define SHRINK 0.8
 #define SMALL_PART 0x1p-40 /* of the time span: a step that is first looked for is at least as long */
-#define BLUNT 0.5          /* slopes limit the step to this share of what the centre allows: raise their order */
-#define SHARP 1.5          /* lower it */
+#define SLOPES_LIMIT 0.5   /* slopes limit the step to this share of what the centre allows: raise their order */
+#define SLOPES_ALLOW 1.5   /* lower it */
 #define BEND 0.3
 #define TINY 0x1p-1000 /* so that zero is its own proof */
 #define GUESSES_OF_NOTHING 0x1p20
@@ -193,7 +193,7 @@ double lohner_share_of_time(const lohner *s) {
 ** step makes of it (a component that starts as a point grows by its first two derivatives). One
 ** that starts from zero and feels others by its third derivative only has none of these (see `fill`). The worst
 ** component. */
-static double bluntness(lohner *s, const double *added) {
+static double slope_error(lohner *s, const double *added) {
   double worst = 0, share = lohner_share_of_time(s);
   share *= s->nc == 0 ? SLOPPY : smaller(SLOPPY, larger(NEAT, s->varies));
   lohner_choose_grown(s);
@@ -208,25 +208,25 @@ static double bluntness(lohner *s, const double *added) {
   return worst >= 0 ? worst : INFINITY;
 }
 
-static double taylor_bluntness(lohner *s) {
+static double taylor_slope_error(lohner *s) {
   for (uint32_t i = 0; i < s->nx; i++) {
     s->added[i] = 0;
     for (uint32_t j = 0; j < s->ndir; j++) s->added[i] += s->slope_excess[(size_t)i * s->ndir + j] * lohner_reach(s, j);
   }
-  return bluntness(s, s->added);
+  return slope_error(s, s->added);
 }
 
 /* slopes at the end of the step by one of the formulas; sets `corrected` */
 static double find_slopes(lohner *s) {
   uint32_t formula = s->options.formula;
-  double ratio = formula == FORMULA_HERMITE_OBRESCHKOFF ? INFINITY : taylor_bluntness(s);
+  double ratio = formula == FORMULA_HERMITE_OBRESCHKOFF ? INFINITY : taylor_slope_error(s);
   s->corrected = 0;
   lohner_tube(s);
   if (ratio <= 1 || formula == FORMULA_TAYLOR) return ratio;
   if (formula == FORMULA_AUTO && (s->wide || s->slope_order < s->options.slope_order_max)) return ratio;
   if (!lohner_correct(s)) return INFINITY;
   s->corrected = 1;
-  return bluntness(s, s->corrector.added);
+  return slope_error(s, s->corrector.added);
 }
 
 /* -- both */
@@ -243,8 +243,8 @@ static double rescaled(const lohner *s, double ratio, uint32_t order) {
 static void adapt_slope_order(lohner *s, double by_centre, double by_slopes) {
   const options *o = &s->options;
   if (s->wide) by_slopes = INFINITY;
-  if (by_slopes < BLUNT * by_centre && s->slope_order < o->slope_order_max) s->next_slope_order++;
-  if (by_slopes > SHARP * by_centre && s->slope_order > o->slope_order) s->next_slope_order--;
+  if (by_slopes < SLOPES_LIMIT * by_centre && s->slope_order < o->slope_order_max) s->next_slope_order++;
+  if (by_slopes > SLOPES_ALLOW * by_centre && s->slope_order > o->slope_order) s->next_slope_order--;
 }
 
 /* Over wide sets: what slopes vary by at the end of the step, over what they would if that grew with time only, less

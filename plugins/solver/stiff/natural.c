@@ -122,10 +122,10 @@ void natural_choose(stiff *s, uint32_t j, uint32_t pieces) {
     now[c] = good ? fmin(growth(s) * 2 * pieces, HOPELESS) : HOPELESS;
   }
   for (uint32_t c = 0; c <= s->choices; c++) {
-    s->regret[c] = fmax(s->regret[c] + now[s->choice] - now[c], 0);
-    if (s->regret[c] > GAIN && (best == s->choice || s->regret[c] > s->regret[best])) best = c;
+    s->savings[c] = fmax(s->savings[c] + now[s->choice] - now[c], 0);
+    if (s->savings[c] > GAIN && (best == s->choice || s->savings[c] > s->savings[best])) best = c;
   }
   if (best == s->choice) return;
   s->choice = best;
-  memset(s->regret, 0, sizeof s->regret);
+  memset(s->savings, 0, sizeof s->savings);
 }

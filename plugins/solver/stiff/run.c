@@ -47,7 +47,7 @@ static int32_t emit(const stiff *s, ambit_sink *sink, double t_from) {
   const ambit_problem *p = &s->problem;
   const ambit_set set = { sizeof set, p->nu, s->spread ? s->terms.count : 1, 0, s->about, s->scale,
     s->spread ? s->terms.exponent : s->exponent, s->spread ? s->set_coefficient : s->set_middle, s->set_rest };
-  int dense = (p->wish & AMBIT_WISH_DENSE) && dense_is_good(s);
+  int dense = (p->extras & AMBIT_EXTRA_DENSE) && dense_is_good(s);
   const ambit_record r = { .size = sizeof r,
     .kind = AMBIT_REC_STEP,
     .t_from = t_from,
@@ -62,7 +62,7 @@ static int32_t emit(const stiff *s, ambit_sink *sink, double t_from) {
     .ndense = dense ? s->q.N + 1 : 0,
     .dense_mid = dense ? s->dense_mid : NULL,
     .dense_rad = dense ? s->dense_rad : NULL,
-    .set = p->wish & AMBIT_WISH_SET ? &set : NULL };
+    .set = p->extras & AMBIT_EXTRA_SET ? &set : NULL };
   double done = (s->t - p->time[0]) / (p->time[p->ntime - 1] - p->time[0]);
   int32_t stop = sink->emit(sink, &r);
   if (!stop && sink->progress) stop = sink->progress(sink, fmin(fmax(done, 0), 1), NULL);
@@ -87,7 +87,7 @@ static int explodes(stiff *s) {
     for (uint32_t t = 1; s->spread && t < s->terms.count; t++) linear += fabs(s->end_row[i * s->terms.count + t]);
     ambit_explosion_note(&e, i, width, linear, &s->limit[i]);
   }
-  s->culprit = e.worst;
+  s->blamed = e.worst;
   return ambit_explodes(&e);
 }
 
@@ -116,7 +116,7 @@ static enum why integrate(stiff *s, ambit_sink *sink) {
     hull(s);
     if (s->options.width_max == 0 && explodes(s)) return WHY_WIDE;
     for (uint32_t i = 0; i < s->nx; i++) {
-      s->culprit = i;
+      s->blamed = i;
       if (!is_good(s, i)) return WHY_WIDE;
     }
     s->t = s->t_next;
@@ -155,7 +155,7 @@ static ambit_status explain(const stiff *s, enum why why) {
         "the enclosure of `%s` grew wider than %.4g in the step from t = %.9g s; split the initial set, or allow more "
         "by "
         "`width_max`",
-        s->problem.name[s->culprit], s->limit[s->culprit], s->t);
+        s->problem.name[s->blamed], s->limit[s->blamed], s->t);
   case WHY_FAST:
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_RATES,
         "at t = %.9g s a step of %.3g s is too long for the rates of the equations: their product has no square among "

@@ -88,7 +88,7 @@ static enum why piece(stiff *s, uint32_t j, uint32_t m) {
   if (why != WHY_NOTHING) return why;
   evaluate_end(s);
   add_to_tube(s, j == 0);
-  if (s->problem.wish & AMBIT_WISH_DENSE) dense_piece(s, j);
+  if (s->problem.extras & AMBIT_EXTRA_DENSE) dense_piece(s, j);
   return WHY_NOTHING;
 }
 
@@ -150,7 +150,7 @@ static enum why prove_pieces(stiff *s) {
   s->half = (dd) { s->h.hi / (2.0 * m), s->h.lo / (2.0 * m) };
   evaluate_rates(s, m);
   if (too_fast(s, m)) return WHY_FAST;
-  if (s->problem.wish & AMBIT_WISH_DENSE) dense_start(s);
+  if (s->problem.extras & AMBIT_EXTRA_DENSE) dense_start(s);
   if (s->spread) choose_frame(s, m);
   for (uint32_t j = 0; j < m; j++) {
     enum why why = piece(s, j, m);

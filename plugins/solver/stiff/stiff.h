@@ -97,7 +97,7 @@ typedef struct stiff {
 
   /* -- linear invariants of the right-hand side (natural.c) */
   uint32_t ninvariant, choice, choices; /* choice 0: eigenvectors, k: natural frame k */
-  double regret[N_MAX + 1];             /* exponents that each choice would have saved */
+  double savings[N_MAX + 1];            /* exponents that each choice would have saved */
   square *natural_C, *natural_U;        /* [choices] exact inverses of each other */
   int *natural_still;                   /* [choices x nx] */
 
@@ -140,7 +140,7 @@ typedef struct stiff {
   double *dense_mid, *dense_rad;       /* [nx x (N + 1)] */
   uint32_t *exponent;                  /* [nu] zeros, where the set's only term is constant */
   double *set_middle, *set_rest;       /* [nx] */
-  uint32_t culprit;
+  uint32_t blamed;
   enum why last_why; /* of the last rejected step */
 } stiff;
 
@@ -201,7 +201,7 @@ void frame_refine(stiff *s);
 void frame_apply_slopes(const stiff *s, uint32_t l, uint32_t cols, const double *X, double *r);
 int frame_verify(stiff *s); /* in upward mode, as is all below */
 
-/* dense.c, only on the wish for it */
+/* dense.c, only where it is asked for */
 void dense_start(stiff *s);             /* the polynomial of the step, from the collocation */
 void dense_piece(stiff *s, uint32_t j); /* its radius, from each proved piece */
 int dense_is_good(const stiff *s);      /* 0: it cannot be written in doubles */

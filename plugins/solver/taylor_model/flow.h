@@ -45,7 +45,7 @@ typedef struct piece {
   double parent_rest;    /* relative truncation for which its parent was split; 0: for another reason, or not */
   double futile;         /* relative truncation that no split mends */
   enum why why;          /* of the last step that was not made */
-  uint32_t culprit;      /* state that is too wide */
+  uint32_t blamed;       /* state that is too wide */
   const char *kink;      /* that the last step could not pass, as the tape names it; NULL: none known */
   double *from, *to;     /* [m] its box of the unknowns of the run */
   double *x, *p;         /* [nx x space.size] [np x space.size] */
@@ -69,7 +69,7 @@ typedef struct worker {
   search search;
   span step;
   double t_next;
-  int at_goal, blunt;                                /* the step is only too long for the order of the slopes */
+  int at_goal, order_too_low;                        /* the step is only too long for the order of the slopes */
   uint32_t groups;                                   /* of sub-ranges, in the last step */
   double *tail_in, *dtail_in, *tail_out, *dtail_out; /* [nin] [nin x nx] [nx] [nx x nx] */
   double *local, *truncation;                        /* [nx] defect over the step: all of it; of time alone */
@@ -119,7 +119,7 @@ typedef struct flow {
   _Atomic int stop; /* the receiver wants no more: pieces on the way give up */
   /* -- the record */
   double *lo, *hi, *tube_lo, *tube_hi; /* [nx] */
-  struct dense *dense;                 /* NULL: not wished for */
+  struct dense *dense;                 /* NULL: not asked for */
   double *rest;                        /* [nx] */
   double *coefficient;                 /* [nx x monomials] */
   uint32_t *exponent;                  /* [monomials x nu] */

@@ -198,7 +198,7 @@ static int open_records(flow *f) {
   f->lo = doubles(f->host, nx), f->hi = doubles(f->host, nx), f->limit = doubles(f->host, nx);
   f->tube_lo = doubles(f->host, nx), f->tube_hi = doubles(f->host, nx);
   if (!f->lo || !f->hi || !f->limit || !f->tube_lo || !f->tube_hi || !open_set(f)) return 0;
-  return !(f->problem.wish & AMBIT_WISH_DENSE) || flow_open_dense(f);
+  return !(f->problem.extras & AMBIT_EXTRA_DENSE) || flow_open_dense(f);
 }
 
 static ambit_status open_all(flow *f) {

@@ -11,10 +11,10 @@
 #include <string.h>
 
 #define ATTEMPTS 6
-#define MOST_GROWTH 5.0 /* norm of |Df| h: a shorter step is better */
-#define BALANCING 12    /* rounds that find the units for it */
-#define SHARP 0.01      /* of a remainder, that slopes may add to it by what is beyond their order */
-#define TERMS 40        /* of the exponential; after them each is less than 5/41 of the one before */
+#define MOST_GROWTH 5.0   /* norm of |Df| h: a shorter step is better */
+#define BALANCING 12      /* rounds that find the units for it */
+#define SLOPES_ALLOW 0.01 /* of a remainder, that slopes may add to it by what is beyond their order */
+#define TERMS 40          /* of the exponential; after them each is less than 5/41 of the one before */
 
 /* -- the box and its slopes */
 
@@ -164,7 +164,7 @@ static int transfer(worker *w, uint32_t n) {
       added += w->dexcess[entry] * w->group_rest[j];
     }
     w->reach[(size_t)n * nx + i] = reach;
-    if (!(added <= SHARP * reach + w->flow->options.tolerance * w->size[i])) return 0;
+    if (!(added <= SLOPES_ALLOW * reach + w->flow->options.tolerance * w->size[i])) return 0;
   }
   return 1;
 }
@@ -282,10 +282,10 @@ static int find_distance(worker *w, const piece *p, uint32_t n) {
 }
 
 int flow_prove(worker *w, piece *p, uint32_t n) {
-  w->blunt = 0;
+  w->order_too_low = 0;
   find_box(w, p, n);
   if (solve_box(w, p) || (!(n && prove_alike(w)) && !prove_box(w))) return 0;
   find_tube(w);
-  w->blunt = !transfer(w, n);
-  return !w->blunt && find_distance(w, p, n);
+  w->order_too_low = !transfer(w, n);
+  return !w->order_too_low && find_distance(w, p, n);
 }

@@ -31,7 +31,7 @@ int32_t flow_emit(flow *f, double t_from, int dense) {
     .tube_hi = f->tube_hi,
     .order = f->options.time_order };
   if (dense && f->dense) flow_describe(f, &r);
-  if (dense && (f->problem.wish & AMBIT_WISH_SET)) r.set = flow_describe_set(f, &f->piece[0]);
+  if (dense && (f->problem.extras & AMBIT_EXTRA_SET)) r.set = flow_describe_set(f, &f->piece[0]);
   return shared_deliver(f->sink, &r, done(f));
 }
 
@@ -51,7 +51,7 @@ static int merge(flow *f) {
   ambit_explosion e = AMBIT_EXPLOSION_START;
   for (uint32_t i = 0; i < f->nx; i++) {
     double width = f->hi[i] - f->lo[i], most = 0;
-    f->piece[0].culprit = i, f->failed = 0;
+    f->piece[0].blamed = i, f->failed = 0;
     if (!(f->tube_lo[i] > -INFINITY && f->tube_hi[i] < INFINITY)) return 0;
     if (f->options.width_max > 0) {
       if (!(width <= f->limit[i])) return 0;
@@ -61,7 +61,7 @@ static int merge(flow *f) {
       most = larger(most, polynomial_norm(&f->space, f->piece[n].x + i * f->space.size));
     ambit_explosion_note(&e, i, width, most, &f->limit[i]);
   }
-  f->piece[0].culprit = e.worst;
+  f->piece[0].blamed = e.worst;
   return !ambit_explodes(&e);
 }
 
@@ -122,7 +122,7 @@ static enum why go_alone(flow *f) {
 static void choose_instant(flow *f) {
   const ambit_problem *p = &f->problem;
   double span = p->time[p->ntime - 1] - p->time[0], grid = span / f->options.outputs, goal = p->time[f->next];
-  for (uint32_t n = 0; n < f->npiece && !(p->wish & AMBIT_WISH_DENSE); n++)
+  for (uint32_t n = 0; n < f->npiece && !(p->extras & AMBIT_EXTRA_DENSE); n++)
     if (f->piece[n].guess > 0.5 * fabs(grid)) grid = grid > 0 ? 2 * f->piece[n].guess : -2 * f->piece[n].guess;
   f->t_to = f->t + grid;
   if (f->t_to == f->t || fabs(goal - f->t) < 1.5 * fabs(grid)) f->t_to = goal;
@@ -176,7 +176,7 @@ static ambit_status explain(const flow *f, enum why why) {
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_WIDTH,
         "the enclosure of `%s` grew wider than %.4g at t = %.9g s%s; narrow the initial set, raise `order` or "
         "`pieces_max`, or allow more by `width_max`",
-        f->problem.name[p->culprit], f->limit[p->culprit], p->t, pieces);
+        f->problem.name[p->blamed], f->limit[p->blamed], p->t, pieces);
   default:
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_STEP,
         "at t = %.9g s no step of at least %.3g s could be proved, with a box up to %.3g wide%s: a solution may escape "

@@ -121,7 +121,7 @@ void flow_start(flow *f) {
   size_t size = f->space.size;
   f->npiece = 1, f->next = 1, f->t = f->problem.time[0], f->failed = 0;
   p->t = f->t, p->depth = 0, p->level = f->levels - 1, p->done = p->tolerant = 0, p->parent_rest = p->futile = 0,
-  p->culprit = 0, p->kink = NULL;
+  p->blamed = 0, p->kink = NULL;
   p->guess = smaller(fabs(f->problem.time[1] - f->t), f->options.step_max);
   for (uint32_t v = 0; v < f->m; v++) p->from[v] = -1, p->to[v] = 1;
   memcpy(p->x, f->start_x, f->nx * size * sizeof(double));

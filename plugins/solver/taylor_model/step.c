@@ -128,12 +128,12 @@ static int is_bounded(const flow *f, piece *p) {
   for (uint32_t i = 0; i < f->nx; i++) {
     double width = 0, limit = f->limit[i];
     for (uint32_t n = 0; n < f->ns; n++) width = larger(width, 2 * p->rad[(size_t)n * (f->nx + f->np) + i]);
-    p->culprit = i;
+    p->blamed = i;
     if (f->options.width_max > 0 ? !(width <= limit) : !(width < INFINITY)) return 0;
     ambit_explosion_note(&e, i, width, polynomial_norm(&f->space, p->x + i * f->space.size), &limit);
   }
   if (f->options.width_max > 0 || !ambit_explodes(&e)) return 1;
-  p->culprit = e.worst;
+  p->blamed = e.worst;
   return 0;
 }
 
@@ -239,11 +239,11 @@ static enum why try_step(worker *w, piece *p, double goal) {
                                     : rescaled(w, over);
       return move(w, p);
     }
-    if (p->level && !w->blunt) { /* over smaller groups, before shorter */
+    if (p->level && !w->order_too_low) { /* over smaller groups, before shorter */
       p->level = p->level > 2 ? p->level - 2 : 0;
       continue;
     }
-    if (!w->blunt && ++failed == PATIENCE && !p->tolerant) return WHY_NO_STEP;
+    if (!w->order_too_low && ++failed == PATIENCE && !p->tolerant) return WHY_NO_STEP;
     most = length = 0.6 * w->step.length;
   }
   return WHY_NO_STEP;

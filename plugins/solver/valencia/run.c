@@ -65,11 +65,11 @@ static int32_t emit(valencia *s, ambit_sink *sink, double t_from) {
     .tube_lo = s->tube_lo,
     .tube_hi = s->tube_hi,
     .order = s->stages.n };
-  if (p->wish & AMBIT_WISH_DENSE) {
+  if (p->extras & AMBIT_EXTRA_DENSE) {
     find_dense(s);
     r.ndense = s->stages.n + 1, r.dense_mid = s->dense_mid, r.dense_rad = s->dense_rad;
   }
-  if (p->wish & AMBIT_WISH_SET && !s->is_cut) r.set = &set; /* else the set is not inside [lo, hi] */
+  if (p->extras & AMBIT_EXTRA_SET && !s->is_cut) r.set = &set; /* else the set is not inside [lo, hi] */
   double done = (s->t - p->time[0]) / (p->time[p->ntime - 1] - p->time[0]);
   return shared_deliver(sink, &r, done);
 }
@@ -245,12 +245,12 @@ static enum why try_steps(valencia *s) {
   }
 }
 
-/* A step that was cut at an instant says nothing against the length that was wished for. */
+/* A step that was cut at an instant says nothing against the length that was asked for. */
 static enum why find_step(valencia *s) {
-  double wish = s->guess;
+  double asked = s->guess;
   s->cut = 0;
   enum why why = try_steps(s);
-  if (why == WHY_NOTHING && s->cut) s->guess = larger(s->guess, wish);
+  if (why == WHY_NOTHING && s->cut) s->guess = larger(s->guess, asked);
   return why;
 }
 
@@ -267,7 +267,7 @@ static int explodes(valencia *s) {
     for (uint32_t k = 0; k < s->terms.n; k++) linear += fabs(s->p[(size_t)i * s->terms.n + k]);
     ambit_explosion_note(&e, i, s->hi[i] - s->lo[i], linear, &s->limit[i]);
   }
-  s->culprit = e.worst;
+  s->blamed = e.worst;
   return ambit_explodes(&e);
 }
 
@@ -333,7 +333,7 @@ static enum why advance(valencia *s) {
   note_magnitudes(s, s->t_next, FORGET);
   if (s->options.width_max == 0 && explodes(s)) return WHY_WIDE;
   for (uint32_t i = 0; i < s->nx; i++) {
-    s->culprit = i;
+    s->blamed = i;
     if (!is_good(s, i)) return WHY_WIDE;
   }
   s->t = s->t_next;
@@ -399,7 +399,7 @@ static ambit_status explain(const valencia *s, enum why why) {
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_WIDTH,
         "the enclosure of `%s` grew wider than %.4g in the step from t = %.9g s%s; split the initial set, take the "
         "arithmetic taylor_model with a higher order, or allow more by `width_max`",
-        s->problem.name[s->culprit], s->limit[s->culprit], s->t, kink);
+        s->problem.name[s->blamed], s->limit[s->blamed], s->t, kink);
   default:
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_STEP,
         "at t = %.9g s no error bound of a step of at least %.3g s maps into itself, with an enclosure up to %.3g "

@@ -128,9 +128,9 @@ typedef struct valencia {
   double *scratch;
   double t, t_next, h;
   uint32_t next;
-  int at_instant, cut; /* does the step end at an instant that was asked for? is it shorter than was wished? */
+  int at_instant, cut; /* does the step end at an instant that was asked for? is it shorter than was asked for? */
   double guess, rate_known, *magnitude, *limit;
-  uint32_t culprit;
+  uint32_t blamed;
   int kink, has_faces;       /* the tube reaches one; the box of the faces goes on from the step before */
   int is_smooth;             /* no operation of the right-hand side has a kink */
   int is_cut;                /* and [lo, hi] is that box's intersection with the set's hull */

@@ -396,7 +396,7 @@ int defect_evaluate(zono *z, double length) {
   if (z->program.uses_time) z->r[slot_t(z)] = z->problem.jump_error;
   for (uint32_t i = 0; i < t->ninstr; i++) {
     double r = evaluate(z, i, length);
-    if (!(r < INFINITY)) return z->why = WHY_UNDEFINED, z->culprit = t->dst[i], 0;
+    if (!(r < INFINITY)) return z->why = WHY_UNDEFINED, z->blamed = t->dst[i], 0;
     z->r[t->dst[i]] = r == 0 && is_kinked(t->op[i]) ? 0 : r * ABOVE + LEAST;
   }
   bound_outputs(z, length);

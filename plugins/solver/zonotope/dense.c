@@ -1,5 +1,5 @@
-/* dense.c -- the last step as polynomials in time, on the receiver's wish: a column for each datum and for each eps,
-** the squares of data as half a column about the other half, what is left of each order as a radius, and zeta.
+/* dense.c -- the last step as polynomials in time, where the receiver asks for it: a column for each datum and for each
+** eps, the squares of data as half a column about the other half, what is left of each order as a radius, and zeta.
 */
 #include "proof.h"
 

@@ -97,7 +97,7 @@ static int outside(zono *z, uint32_t i) {
   const ambit_tape *t = z->program.tape;
   uint32_t op = t->op[i];
   int kinked = is_kinked(op);
-  z->why = kinked ? WHY_KINK : WHY_UNDEFINED, z->culprit = t->dst[i];
+  z->why = kinked ? WHY_KINK : WHY_UNDEFINED, z->blamed = t->dst[i];
   z->detail = kinked && t->kink ? t->kink[i] : NULL;
   return 0;
 }

@@ -95,7 +95,7 @@ static int find_column(zono *z, uint32_t stage, uint32_t column) {
   for (uint32_t n = p->of_level[stage + 1]; n < p->of_level[stage + 2]; n++) {
     uint32_t i = p->sorted[n];
     if (p->needed[p->tape->dst[i]] && !change(z, i, stamp)) {
-      z->why = WHY_PIVOT, z->culprit = unknown;
+      z->why = WHY_PIVOT, z->blamed = unknown;
       return 0;
     }
   }
@@ -131,7 +131,7 @@ static int eliminate(zono *z, uint32_t stage, uint32_t q) {
   for (uint32_t c = q; c < n; c++) subtract(z, stage, q, c, q);
   double *pivot = entry(z, stage, q, q), *inverse = inverse_of(z, stage, q);
   if (!(fabs(pivot[0]) > 0 && fabs(pivot[0]) < 1e200 && fabs(1 / pivot[0]) < 1e200)) {
-    z->why = WHY_PIVOT, z->culprit = z->program.pivot[stage_start(z, stage) + q];
+    z->why = WHY_PIVOT, z->blamed = z->program.pivot[stage_start(z, stage) + q];
     return 0;
   }
   row_inverse(s, inverse, pivot);

@@ -34,7 +34,7 @@ static int factor(zono *z, const sweeps *w) {
   for (uint32_t p = 0; p < n; p++) {
     double *inverse = proof_form(w, w->pivot, p), *l = proof_form(w, w->scratch, 0);
     if (!reciprocal(f, inverse, entry(z, w, w->matrix, p, p), proof_form(w, w->scratch, 1)))
-      return z->why = WHY_PIVOT, z->culprit = z->proof->order[p], 0;
+      return z->why = WHY_PIVOT, z->blamed = z->proof->order[p], 0;
     for (uint32_t i = p + 1; i < n; i++) {
       double *left = entry(z, w, w->matrix, i, p);
       if (!form_seen(f, left)) continue;

@@ -19,7 +19,7 @@ size_t jump_columns(const zono *z) {
 static int open_one(const zono *z, zono *j, const ambit_tape *tape) {
   *j = (zono) { .host = z->host, .shape = z->shape };
   memcpy(&j->problem, &z->problem, sizeof j->problem);
-  j->problem.wish = j->problem.njump = 0;
+  j->problem.extras = j->problem.njump = 0;
   j->program = (program) { .tape = tape, .nx = z->nx, .np = z->np, .uses_time = z->problem.uses_time };
   j->nvarying = z->problem.nvarying;
   j->nx = z->nx, j->np = z->np, j->m = z->m, j->K = j->K_max = 0;
@@ -86,7 +86,7 @@ static uint32_t put_lumps(zono *z, const zono *j, uint32_t at) {
 
 static int jump(zono *z, zono *j) {
   if (!evaluate(z, j)) {
-    z->why = j->why == WHY_NOTHING ? WHY_UNDEFINED : j->why, z->culprit = 0, z->detail = j->detail;
+    z->why = j->why == WHY_NOTHING ? WHY_UNDEFINED : j->why, z->blamed = 0, z->detail = j->detail;
     return 0;
   }
   memset(z->proof->boxes, 0, ORIGINS * (size_t)z->nx * sizeof(double));

@@ -120,6 +120,6 @@ int zono_open_proof(zono *z) {
   if (!p || !open_slots(z) || !open_targets(z) || !open_states(z)) return 0;
   if (!quartic_open(z) || !residual_open(z) || !modes_open(z) || !cycle_open(z) || !basis_open(z)) return 0;
   slope_open(p);
-  if ((z->problem.wish & AMBIT_WISH_DENSE) && z->nx && !dense_open(z)) return 0;
-  return !(z->problem.wish & AMBIT_WISH_SET) || !z->nx || set_open(z);
+  if ((z->problem.extras & AMBIT_EXTRA_DENSE) && z->nx && !dense_open(z)) return 0;
+  return !(z->problem.extras & AMBIT_EXTRA_SET) || !z->nx || set_open(z);
 }

@@ -13,7 +13,7 @@
 
 #define GRID 20       /* bits of a step's length that count */
 #define GROW 3.0      /* longest step, in multiples of the last one */
-#define CREEP 1e6     /* steps to the end, at the present pace, that are too many ... */
+#define TOO_FAR 1e6   /* steps to the end, at the present pace, that are too many ... */
 #define SHRUNK 0.0625 /* if steps are so much shorter than they have been, or ... */
 #define NEVER 1.7e10  /* steps, even if they shrink no more */
 #define CREEP_FOR 30  /* steps in a row */
@@ -93,7 +93,7 @@ static int step(zono *z) {
 
 static int32_t emit(zono *z, ambit_record *r) {
   double span = z->problem.time[z->problem.ntime - 1] - z->problem.time[0];
-  if (z->problem.wish & AMBIT_WISH_SET) r->set = zono_describe_set(z);
+  if (z->problem.extras & AMBIT_EXTRA_SET) r->set = zono_describe_set(z);
   int32_t stop = z->sink->emit(z->sink, r);
   if (!stop && z->sink->progress) stop = z->sink->progress(z->sink, (z->t - z->problem.time[0]) / span, NULL);
   return stop;
@@ -104,11 +104,11 @@ static int is_wide(zono *z) {
   for (uint32_t i = 0; i < z->nx; i++) {
     double width = z->hi[i] - z->lo[i], most = z->options.width_max;
     const double *row = z->P + (size_t)i * z->shape.stride;
-    z->culprit = i;
+    z->blamed = i;
     if (most > 0 ? !(width <= z->limit[i]) : !(width < INFINITY)) return 1;
     if (most == 0 && !z->nvarying) ambit_explosion_note(&e, i, width, row_total(&z->shape, row), &z->limit[i]);
   }
-  z->culprit = e.worst;
+  z->blamed = e.worst;
   return z->options.width_max == 0 && !z->nvarying && ambit_explodes(&e);
 }
 
@@ -116,7 +116,7 @@ static int advance(zono *z) {
   ambit_record r = { .size = sizeof r, .kind = AMBIT_REC_STEP, .t_from = z->t, .nx = z->nx, .rigorous = 1 };
   if (!step(z)) return 0;
   zono_tube(z);
-  if (z->problem.wish & AMBIT_WISH_DENSE) zono_describe_dense(z, &r);
+  if (z->problem.extras & AMBIT_EXTRA_DENSE) zono_describe_dense(z, &r);
   pace_budget(z, fabs(z->h));
   parts_choose(z);
   zono_finish(z);
@@ -144,9 +144,9 @@ static void work(zono *z) {
   while (z->next < z->problem.ntime && advance(z)) {
     double left = fabs(z->problem.time[z->problem.ntime - 1] - z->t);
     most = fmax(most, z->guess);
-    slow = left > (z->guess < SHRUNK * most ? CREEP : NEVER) * z->guess ? slow + 1 : 0;
+    slow = left > (z->guess < SHRUNK * most ? TOO_FAR : NEVER) * z->guess ? slow + 1 : 0;
     if (slow > CREEP_FOR) {
-      z->why = WHY_CREEP;
+      z->why = WHY_SHORT_STEPS;
       return;
     }
   }
@@ -177,15 +177,15 @@ static ambit_status explain(const zono *z) {
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_UNDEFINED,
         "at t = %.9g s the equations for the accelerations may be singular somewhere in the enclosure, up to %.3g wide "
         "(unknown %u); narrow the data, or end before it",
-        z->t, width, z->culprit + 1);
+        z->t, width, z->blamed + 1);
   case WHY_WIDE:
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_WIDTH,
         "the enclosure of `%s` grew wider than allowed in the step from t = %.9g s%s; narrow the data, or allow more "
         "by "
         "`width_max`",
-        z->problem.name[z->culprit], z->t, from);
-  case WHY_CREEP:
-    return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_CREEP,
+        z->problem.name[z->blamed], z->t, from);
+  case WHY_SHORT_STEPS:
+    return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_SHORT_STEPS,
         "at t = %.9g s steps over an enclosure up to %.3g wide%s, now of %.3g s, are so short that the end is out of "
         "reach: a solution may escape near here; if not, narrow the data",
         z->t, width, from, z->guess);

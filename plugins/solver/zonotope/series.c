@@ -122,7 +122,7 @@ static void integrate(zono *z, uint32_t k) {
 /* -- stages */
 
 static int undefined(zono *z, uint32_t slot) {
-  z->why = WHY_UNDEFINED, z->culprit = slot;
+  z->why = WHY_UNDEFINED, z->blamed = slot;
   return 0;
 }
 

@@ -1,6 +1,6 @@
-/* set.c -- the set at the end of a step as polynomials in the problem's unknowns, on the receiver's wish. What the run
-** that goes on from it would compute with for next to nothing, coefficients that are small beside the rest or the set,
-** is put into the rest.
+/* set.c -- the set at the end of a step as polynomials in the problem's unknowns, where the receiver asks for it. What
+** the run that goes on from it would compute with for next to nothing, coefficients that are small beside the
+** rest or the set, is put into the rest.
 */
 #include "proof.h"
 

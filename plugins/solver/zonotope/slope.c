@@ -157,6 +157,6 @@ int slope_forms(zono *z, const sweeps *w, double h) {
   const ambit_tape *t = z->program.tape;
   for (uint32_t j = 0; j < z->nslot; j++) slot_form(z, w, j, h, proof_form(w, w->value, j));
   for (uint32_t i = 0; i < t->ninstr; i++)
-    if (!slope_of(z, w, i, w->forms.n > 0)) return z->why = WHY_UNDEFINED, z->culprit = t->dst[i], 0;
+    if (!slope_of(z, w, i, w->forms.n > 0)) return z->why = WHY_UNDEFINED, z->blamed = t->dst[i], 0;
   return 1;
 }

@@ -278,7 +278,7 @@ static int close_rows(zono *z) {
   for (uint32_t i = 0; i < n; i++) {
     double sum = 0;
     for (uint32_t j = 0; j < n; j++) sum += p->rho[(size_t)i * n + j] * unit[j];
-    if (!(sum / unit[i] <= worst)) worst = sum / unit[i], z->culprit = i;
+    if (!(sum / unit[i] <= worst)) worst = sum / unit[i], z->blamed = i;
   }
   if (!(worst * ABOVE < MOST_RHO)) return z->why = WHY_PIVOT, 0;
   if (worst > GOOD_RHO && !is_certain(z) && is_worth_less(z, worst)) return z->why = WHY_GROWTH, 0;

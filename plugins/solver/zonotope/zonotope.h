@@ -45,8 +45,8 @@ enum why {
   WHY_PIVOT,     /* a pivot of the implicit equations may vanish */
   WHY_GROWTH,    /* the bound of the distance could not be closed */
   WHY_WIDE,
-  WHY_STEP,  /* no step that is long enough */
-  WHY_CREEP, /* too many steps to the end */
+  WHY_STEP,        /* no step that is long enough */
+  WHY_SHORT_STEPS, /* too many steps to the end */
   WHY_STOPPED
 };
 
@@ -119,7 +119,7 @@ typedef struct zono {
   double *limit;                       /* [nx] widest that each state may be */
   /* -- failure */
   enum why why;
-  uint32_t culprit;   /* state, slot or unknown */
+  uint32_t blamed;    /* state, slot or unknown */
   const char *detail; /* kink text, or NULL */
   ambit_sink *sink;
 } zono;
@@ -188,7 +188,7 @@ int zono_prove(zono *z);
 void zono_finish(zono *z); /* close.c: P, G, E at the end of the step */
 void zono_hull(zono *z);   /* range.c: lo, hi of P + E */
 void zono_tube(zono *z);   /* range.c: tube_lo, tube_hi of the step; before zono_finish() */
-/* dense.c, set.c: what the receiver wished for */
+/* dense.c, set.c: what the receiver asked for */
 void zono_describe_dense(zono *z, ambit_record *r); /* before zono_finish() */
 const ambit_set *zono_describe_set(zono *z);
 #endif

@@ -40,13 +40,13 @@
 #define AMBIT_SOLVES_REDUCTION 2u
 
 /* What the receiver of the records would like besides: a solver that can't, leaves it out; one that can, does so only
-** on this wish. DENSE: the dense enclosure of each step. SET: the set at the end of each step as a function of the
+** where it is asked for. DENSE: the dense enclosure of each step. SET: the set at the end of each step as a function of the
 ** unknowns. */
-#define AMBIT_WISH_DENSE 1u
-#define AMBIT_WISH_SET 2u
+#define AMBIT_EXTRA_DENSE 1u
+#define AMBIT_EXTRA_SET 2u
 /* ROOTS: the further equations hold at every root of f that they do not exclude as soon as its enclosure is narrow
 ** (redundant ones that single out some of isolated roots): they narrow and exclude, roots are proved by f alone */
-#define AMBIT_WISH_IMPLIED 4u
+#define AMBIT_EXTRA_IMPLIED 4u
 
 /* A system in implicit form: unknowns a (accelerations, dependent speeds, multipliers) with R(x, a, p, t) = 0 and
 ** x' = F(x, a, p, t). They are solved for in stages: the equations of stage s are affine in the unknowns of stage s,
@@ -68,15 +68,15 @@ typedef struct ambit_implicit {
 /* Inputs of rhs, jacobian: x [nx], p [np], then t if uses_time. Inputs of initial: the unknowns [nu];
 ** its outputs: x(t0) [nx], p [np]. An unknown that several data share occurs once: correlation is kept. */
 typedef struct ambit_problem {
-  uint32_t size, nx, np, nu, wish, uses_time; /* wish: AMBIT_WISH_* */
-  const char *const *name;                    /* [nx] state names, [np] parameter names behind them */
-  const ambit_tape *rhs, *jacobian, *initial; /* NULL when not wanted */
-  const ambit_arithmetic *arithmetic;         /* completed: every run[] filled */
-  void *actx;                                 /* its context, lent to this solver until close */
-  const double *x0_lo, *x0_hi;                /* [nx] hull of the initial set */
-  const double *p_lo, *p_hi;                  /* [np] hull of the parameters (only uncertain data are parameters) */
-  const double *u_lo, *u_hi;                  /* [nu] ranges of the unknowns */
-  uint32_t ntime;                             /* >= 2 */
+  uint32_t size, nx, np, nu, extras, uses_time; /* extras: AMBIT_EXTRA_* */
+  const char *const *name;                      /* [nx] state names, [np] parameter names behind them */
+  const ambit_tape *rhs, *jacobian, *initial;   /* NULL when not wanted */
+  const ambit_arithmetic *arithmetic;           /* completed: every run[] filled */
+  void *actx;                                   /* its context, lent to this solver until close */
+  const double *x0_lo, *x0_hi;                  /* [nx] hull of the initial set */
+  const double *p_lo, *p_hi;                    /* [np] hull of the parameters (only uncertain data are parameters) */
+  const double *u_lo, *u_hi;                    /* [nu] ranges of the unknowns */
+  uint32_t ntime;                               /* >= 2 */
   /* [ntime] start, instants that a step must end on, end; ascending or descending, s */
   const double *time;
   uint32_t ninvariant;
@@ -133,13 +133,13 @@ typedef struct ambit_record {
   const double *lo, *hi;           /* [nx] at t_to; valid only during the call */
   const double *tube_lo, *tube_hi; /* [nx] over the whole step, or NULL */
   uint32_t order, ncoef;           /* order used (0 = none) */
-  /* AMBIT_WISH_DENSE: for s from 0 to t_to - t_from (s and the difference as real numbers),
+  /* AMBIT_EXTRA_DENSE: for s from 0 to t_to - t_from (s and the difference as real numbers),
   ** x_i(t_from + s) in sum_{k < ndense} (dense_mid[i * ndense + k] +- dense_rad[i * ndense + k]) s^k
   **   +- sum_{c < ncolumn} |sum_{k < ncoef_column} dense_column[(i * ncolumn + c) * ncoef_column + k] s^k|; or NULL.
   ** Columns (ncoef_column <= ndense; there may be none) keep how what is uncertain grows and shrinks in the step. */
   uint32_t ndense, ncolumn, ncoef_column, pad;
   const double *dense_mid, *dense_rad, *dense_column;
-  const ambit_set *set; /* AMBIT_WISH_SET: the set at t_to, inside [lo, hi]; or NULL */
+  const ambit_set *set; /* AMBIT_EXTRA_SET: the set at t_to, inside [lo, hi]; or NULL */
 } ambit_record;
 
 typedef struct ambit_sink ambit_sink;

@@ -120,11 +120,11 @@ takeHands(drawing);
 
 // #t=0.5&side=xz&boxes=all&model=2: a place in the page that can be linked to.
 function followAddress() {
-  const wish = new URLSearchParams(location.hash.slice(1)), model = Number(wish.get("model"));
+  const asked = new URLSearchParams(location.hash.slice(1)), model = Number(asked.get("model"));
   if (models[model - 1]) show(model - 1);
-  if (wish.has("boxes")) by("boxes").value = drawing.shows = wish.get("boxes");
-  if (sides[wish.get("side")] || wish.get("side") === "3d") drawing.look(wish.get("side"));
-  if (wish.has("t") && Number.isFinite(Number(wish.get("t")))) player.at(player.model.nearest(Number(wish.get("t"))));
+  if (asked.has("boxes")) by("boxes").value = drawing.shows = asked.get("boxes");
+  if (sides[asked.get("side")] || asked.get("side") === "3d") drawing.look(asked.get("side"));
+  if (asked.has("t") && Number.isFinite(Number(asked.get("t")))) player.at(player.model.nearest(Number(asked.get("t"))));
   drawing.moved();
 }
 
