@@ -10,4 +10,6 @@ target_include_directories(kit PUBLIC ${PROJECT_SOURCE_DIR}/tests)
 target_link_libraries(kit PRIVATE ambit_flags PUBLIC ambit_inside PkgConfig::MPFR Threads::Threads m)
 ambit_plugin(service conformance_kit ${PROJECT_SOURCE_DIR}/tests/kit/conformance_plugin.c)
 target_link_libraries(service_conformance_kit PRIVATE kit)
+# What its kernel keeps for the life of the process (folders that are trusted) stays reachable when the plugin is closed.
+target_link_options(service_conformance_kit PRIVATE LINKER:-z,nodelete)
 ambit_from(service_conformance_kit ${CMAKE_INSTALL_LIBDIR}/ambit/service)

@@ -165,7 +165,9 @@ static double value_of(uint32_t op, double x) {
 #define ROW(NAME, arity, symbol) ONE_##arity(symbol),
   static const function f[] = { AMBIT_FUNCTIONS(ROW) };
 #undef ROW
-  double z = f[op - AMBIT_OP_FUNCTIONS](x);
+  size_t k = op - AMBIT_OP_FUNCTIONS;
+  function value = k < sizeof f / sizeof *f ? f[k] : NULL; /* NULL: a function of two */
+  double z = value ? value(x) : NAN;
   return isinf(z) && fabs(x) <= 1 ? NAN : z;
 }
 
@@ -174,7 +176,9 @@ static double value_of_pair(uint32_t op, double x, double y) {
 #define ROW(NAME, arity, symbol) TWO_##arity(symbol),
   static const function_of_pair f[] = { AMBIT_FUNCTIONS(ROW) };
 #undef ROW
-  return isnan(x) || isnan(y) || (op == AMBIT_OP_POW && x <= 0) ? NAN : f[op - AMBIT_OP_FUNCTIONS](x, y);
+  size_t k = op - AMBIT_OP_FUNCTIONS;
+  function_of_pair value = k < sizeof f / sizeof *f ? f[k] : NULL; /* NULL: a function of one */
+  return !value || isnan(x) || isnan(y) || (op == AMBIT_OP_POW && x <= 0) ? NAN : value(x, y);
 }
 
 static uint32_t run_function(const ambit_arithmetic *self, void *ctx, uint32_t op, void *base, size_t pitch,

@@ -41,26 +41,33 @@ static int add_list(scmp_filter_ctx filter, const int *list, size_t n) {
   return error;
 }
 
+/* The call, if its argument is the value, or has all bits of the mask. */
+static int add_if(scmp_filter_ctx filter, int call, unsigned argument, scmp_datum_t value) {
+  const struct scmp_arg_cmp equal = { argument, SCMP_CMP_EQ, value, 0 };
+  return seccomp_rule_add_array(filter, SCMP_ACT_ALLOW, call, 1, &equal);
+}
+
+static int add_if_masked(scmp_filter_ctx filter, int call, unsigned argument, scmp_datum_t mask) {
+  const struct scmp_arg_cmp masked = { argument, SCMP_CMP_MASKED_EQ, mask, mask };
+  return seccomp_rule_add_array(filter, SCMP_ACT_ALLOW, call, 1, &masked);
+}
+
 /* Threads, but processes only with `children`; limits are read or, there, made smaller; terminals are asked for their
 ** size; the process may abort. clone3 hides its flags behind a pointer: without it the C library takes clone. */
 static int add_special(scmp_filter_ctx filter, const ambit_sandbox_request *q) {
-  const unsigned thread = CLONE_VM | CLONE_THREAD;
+  static const scmp_datum_t question[] = { TCGETS, TIOCGWINSZ };
+  static const scmp_datum_t query[] = { F_GETFD, F_SETFD, F_GETFL, F_SETFL, F_DUPFD_CLOEXEC, F_SETLK, F_SETLKW,
+    F_GETLK };
   int error = seccomp_rule_add(filter, SCMP_ACT_ERRNO(ENOSYS), SCMP_SYS(clone3), 0);
   if (!error && q->children) error = seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(clone), 0);
-  if (!error && !q->children)
-    error = seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(clone), 1, SCMP_A0(SCMP_CMP_MASKED_EQ, thread, thread));
+  if (!error && !q->children) error = add_if_masked(filter, SCMP_SYS(clone), 0, CLONE_VM | CLONE_THREAD);
   if (!error && q->children) error = seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(prlimit64), 0);
-  if (!error && !q->children)
-    error = seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(prlimit64), 1, SCMP_A2(SCMP_CMP_EQ, 0));
-  const unsigned long question[] = { TCGETS, TIOCGWINSZ };
+  if (!error && !q->children) error = add_if(filter, SCMP_SYS(prlimit64), 2, 0);
   for (size_t i = 0; i < sizeof question / sizeof *question && !error; i++)
-    error = seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(ioctl), 1, SCMP_A1(SCMP_CMP_EQ, question[i]));
-  const int query[] = { F_GETFD, F_SETFD, F_GETFL, F_SETFL, F_DUPFD_CLOEXEC, F_SETLK, F_SETLKW, F_GETLK };
+    error = add_if(filter, SCMP_SYS(ioctl), 1, question[i]);
   for (size_t i = 0; i < sizeof query / sizeof *query && !error; i++)
-    error = seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(fcntl), 1, SCMP_A1(SCMP_CMP_EQ, (scmp_datum_t)query[i]));
-  if (!error) /* abort() */
-    error = seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(tgkill), 1, SCMP_A0(SCMP_CMP_EQ, (scmp_datum_t)getpid()));
-  return error;
+    error = add_if(filter, SCMP_SYS(fcntl), 1, query[i]);
+  return error ? error : add_if(filter, SCMP_SYS(tgkill), 0, (scmp_datum_t)getpid()); /* abort() */
 }
 
 int sandbox_keep_calls(const ambit_sandbox_request *q, char *text, size_t room) {
