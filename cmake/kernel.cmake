@@ -31,7 +31,11 @@ target_link_libraries(libambit PRIVATE $<BUILD_INTERFACE:ambit_flags> PkgConfig:
 add_library(ambit_inside STATIC $<TARGET_OBJECTS:ambit_objects>)
 target_include_directories(ambit_inside PUBLIC ${framework}/api ${framework}/kernel/abi ${framework}/kernel ${framework})
 target_link_libraries(ambit_inside PUBLIC PkgConfig::YAJL ${CMAKE_DL_LIBS} m)
-target_link_options(ambit_inside INTERFACE LINKER:--exclude-libs,ALL) # whoever has it keeps it to himself
+set(keeper LINKER:--exclude-libs,ALL) # whoever has it keeps it to himself ...
+if(AMBIT_COUNT_ALLOCATIONS) # ... but a program's own malloc must be that of its plugins
+  set(keeper "$<$<NOT:$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>>:${keeper}>")
+endif()
+target_link_options(ambit_inside INTERFACE ${keeper})
 
 # Programs of the build tree in a folder beside lib: tests, benchmarks.
 add_library(ambit_place_beside OBJECT)
