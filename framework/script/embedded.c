@@ -1,12 +1,12 @@
 /* embedded.c -- the Lua half of Ambit becomes loadable as ambit.*, in an environment of its own.
 **
 ** A scene may redefine globals and what libraries hold (`type = 3`, `table.concat = nil`). Ambit's own modules see a
-** copy from when Ambit was loaded; _G in it is the true one. Methods of strings (`("x"):rep(2)`) Lua finds in one place
-** for all: what stands there looks who asks. A scene that replaces the metatable's `__index` itself is not held off.
-** Modules are made once and get each other, whatever a scene makes of package.loaded.
+** copy from when Ambit was loaded; _G in it is the true one. So do methods of strings (strings.c). Modules are made once
+** and get each other, whatever a scene makes of package.loaded.
 */
 #include "script/embedded.h"
 #include "script/core.h"
+#include "script/strings.h"
 #include "num/environment.h"
 #include <stdbool.h>
 #include <string.h>
@@ -22,48 +22,6 @@ static void push_copy(lua_State *L, int idx) {
     lua_insert(L, -2);
     lua_rawset(L, -4);
   }
-}
-
-/* -- methods of strings */
-
-/* Is the function that asked for a method one of Ambit's modules? */
-static bool is_own_caller(lua_State *L) {
-  lua_Debug ar;
-  if (!lua_getstack(L, 1, &ar) || !lua_getinfo(L, "S", &ar)) return false;
-  return strncmp(ar.source, AMBIT_CHUNK_PREFIX, sizeof AMBIT_CHUNK_PREFIX - 1) == 0;
-}
-
-/* __index of strings; upvalues: Ambit's copy of `string`, and what was there before. */
-static int find_method(lua_State *L) {
-  lua_settop(L, 2);
-  if (is_own_caller(L)) {
-    lua_rawget(L, lua_upvalueindex(1));
-    return 1;
-  }
-  if (lua_isfunction(L, lua_upvalueindex(2))) {
-    lua_pushvalue(L, lua_upvalueindex(2));
-    lua_insert(L, 1);
-    lua_call(L, 2, 1);
-  } else {
-    lua_gettable(L, lua_upvalueindex(2));
-  }
-  return 1;
-}
-
-/* The environment is on top of the stack. */
-static void keep_methods(lua_State *L) {
-  lua_pushliteral(L, "");
-  if (lua_getmetatable(L, -1)) {
-    lua_getfield(L, -3, "string");
-    if (lua_getfield(L, -2, "__index") != LUA_TNIL) {
-      lua_pushcclosure(L, find_method, 2);
-      lua_setfield(L, -2, "__index");
-    } else {
-      lua_pop(L, 2);
-    }
-    lua_pop(L, 1);
-  }
-  lua_pop(L, 1);
 }
 
 /* -- numbers as text */
@@ -111,8 +69,8 @@ static void push_environment(lua_State *L) {
   write_plainly(L, "tostring");
   lua_getfield(L, -1, "string");
   write_plainly(L, "format");
+  ambit_strings_keep(L);
   lua_pop(L, 1);
-  keep_methods(L);
   lua_pushvalue(L, -1);
   lua_rawsetp(L, LUA_REGISTRYINDEX, &environment_key);
 }

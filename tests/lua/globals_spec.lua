@@ -24,6 +24,7 @@ end
 local spoil = [[
 local ambit, print, pairs = require "ambit", print, pairs
 local stay = { _G = true }
+getmetatable("").__index = function() return function() return "x" end end
 for _, name in pairs { "string", "table", "math", "os", "io", "debug", "coroutine", "utf8" } do
   for key in pairs(_G[name]) do _G[name][key] = 3 end
 end
@@ -142,12 +143,27 @@ print(require "ambit" == ambit)]]
     assert.equal(0, code)
   end)
 
-  it("does not turn an error into exit code 0", function()
-    local _, code = run [[
+  it("holds of the metatable of strings in the scene, and changes no answer", function()
+    local expected = run("local ambit = require 'ambit'\n" .. body)
+    local output, code = run([[
 local ambit = require "ambit"
-getmetatable("").__index = function() return function() return "x" end end
-print(ambit.evaluate { ambit.number "0.1" * 3 })]]
-    assert.equal(1, code)
+local meta = getmetatable ""
+assert(meta.__index == string and meta == getmetatable "other" and meta.__metatable == nil)
+meta.__index = function(s, k) if type(k) == "number" then return string.sub(s, k, k) end return string[k] end
+assert(("abc")[2] == "b" and ("abc"):rep(2) == "abcabc")
+meta.__call = function(s, n) return s .. n end
+assert(("abc")(1) == "abc1" and meta.__call)
+local found = {}
+for key, value in pairs(meta) do found[key] = value end
+assert(found.__index == meta.__index and found.__call == meta.__call and found.__add and not found.__metatable)
+meta.__index = { rep = function() return "mine" end }
+assert(("abc"):rep(2) == "mine" and ("abc").sub == nil)
+meta.__index = nil
+local good, message = pcall(function() return ("abc"):rep(2) end)
+assert(not good and string.find(message, "attempt to index a string value", 1, true))
+]] .. body)
+    assert.equal(expected, output)
+    assert.equal(0, code)
   end)
 
   it("is not what Ambit makes of them", function()
