@@ -688,6 +688,7 @@ function counterexample:value(e) end
 ---@field at_end? ambit.condition|table<string|integer, ambit.condition> not positive at the end
 ---@field reach? ambit.condition|table<string|integer, ambit.condition> not positive at some time
 ---@field budget? integer|string runs after the first, 200 unless given; "10 s" of CPU time
+---@field expect? "proved"|"refuted"|"undecided" the verdict with which the scene is to end with 0
 
 ---Proves or refutes conditions for every behaviour that the tolerances allow.
 ---@param t ambit.verify.request

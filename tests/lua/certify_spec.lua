@@ -179,6 +179,8 @@ describe("certify", function()
     end
     local question = { model(1), model(0), t = { 0, 4 }, initial = { x = 0, w = 1 }, outputs = { "x" },
       error = { x = 2.4 } }
+    assert.equal("proved", ambit.certify(question).status) -- another solver is asked
+    question.solver = "lohner"
     local truth, coarse = 4 * (1 - 3 * exp(-2)), ambit.certify(question)
     assert_bound(coarse.error.x, truth, 1.3)
     assert.equal("exceeded", coarse.status)
@@ -325,6 +327,26 @@ describe("certify", function()
       error = { y = "0.1" } }
     assert.equal("exceeded", both.status)
     assert_bound(both.error.y, 6.789625 + 6.8711, 1.01)
+  end)
+
+  it("ends with the verdict that is expected", function()
+    local exit = require "ambit.code".exit
+    local decay = ambit.ode { states = { "x" }, equations = function(s) return { -s.x } end }
+    local still = ambit.ode { states = { "x" }, equations = function(s) return { 0 * s.x } end }
+    local question = { decay, still, t = { 0, 1 }, initial = { x = 1 }, outputs = { "x" }, error = { x = 1 },
+      expect = "exceeded" }
+    local proof = ambit.certify(question) -- off by 1 - 1/e
+    assert.same({ "proved", "unable.unexpected", 3 }, { proof.status, proof.code, exit(proof.code) })
+    assert.is_truthy(proof.reason:find("the verdict is `proved`, where `exceeded` was expected", 1, true))
+    question.error.x = "0.1"
+    assert.same({ "exceeded", "ok.expected" }, { ambit.certify(question).status, ambit.certify(question).code })
+    question.expect = "exceded"
+    local good, problem = pcall(ambit.certify, question)
+    assert.is_true(not good and problem:find("certify: expect: expected one of proved, exceeded, unable", 1, true) ~= nil)
+    local run = ambit.verify { decay, initial = { 1 }, t = 1, safe = function(s) return s.x - 2 end, expect = "refuted" }
+    assert.same({ "proved", "unable.unexpected" }, { run.status, run.code })
+    run = ambit.verify { decay, initial = { 1 }, t = 1, safe = function(s) return s.x - 2 end, expect = "proved" }
+    assert.same({ "proved", "ok" }, { run.status, run.code })
   end)
 
   it("finds that all right-hand sides vanish in a steady state that is a function of the steering angle", function()

@@ -4,6 +4,7 @@
 local check = require "ambit.check"
 local conditions = require "ambit.verify.condition"
 local core = require "ambit.core"
+local expect = require "ambit.run.expect"
 local instant = require "ambit.run.instant"
 local option = require "ambit.option"
 local report = require "ambit.verify.report"
@@ -59,8 +60,8 @@ local function tolerance_of(q)
 end
 
 function verb.verify(t)
-  local own = { "budget" }
-  table.move(conditions.keys, 1, #conditions.keys, 2, own)
+  local own, expected = { "budget", "expect" }, expect.read(t, "verify", { "proved", "refuted", "undecided" })
+  table.move(conditions.keys, 1, #conditions.keys, #own + 1, own)
   local q = simulate.request(t, "verify", nil, own)
   if not option.declaration("solver", q.solver).rigorous then
     check.fail("verify: solver `%s` proves nothing", q.solver)
@@ -72,6 +73,7 @@ function verb.verify(t)
     sound_points = uncertain.are_points_starts(q), budget = read_budget(t.budget), tolerance_of = tolerance_of }
   search.run(job)
   local result = report.of(job)
+  expect.judge(result, expected)
   session.finish("verify", result, result.report,
     { "solver", job.request.solver, "options", job.request.settings, "t_start", instant.first(q.times), "t_end",
       instant.final(q.times), "refinements",

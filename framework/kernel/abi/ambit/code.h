@@ -14,6 +14,7 @@
 /* X(NAME, "code", what it means, what to do) */
 #define AMBIT_CODES(X)                                                                                                 \
   X(OK, "ok", "Done, and proved wherever the method proves at all.", "")                                               \
+  X(OK_EXPECTED, "ok.expected", "Not proved, or above its bound, as the scene expected (`expect`).", "")               \
   X(OK_NONE, "ok.none", "The question was whether something exists, and it is proved that nothing does.", "")          \
   X(OK_PARTIAL, "ok.partial",                                                                                          \
       "For a part of the data there is no answer, and the scene said `partial = true`: it knows.", "")                 \
@@ -57,6 +58,8 @@
   X(UNABLE_PARTIAL, "unable.partial",                                                                                  \
       "For a part of the data there is no answer; what is returned holds for the rest.",                               \
       "Narrow the data, or say `partial = true` if that is what you want.")                                            \
+  X(UNABLE_UNEXPECTED, "unable.unexpected", "The verdict is another one than the scene expected (`expect`).",          \
+      "Look at the reason; mend the scene or what it expects.")                                                        \
   X(UNABLE_RATES, "unable.rates", "The rates are too large for the length of the step.", "Lower `step_max`.")          \
   X(UNABLE_ROOTS_MAX, "unable.roots-max", "There are more roots than may be kept.",                                    \
       "Raise `roots_max`, or search a smaller box.")                                                                   \

@@ -4,19 +4,27 @@ local certificate = require "ambit.reduce.report_certificate"
 local certify_bound = require "ambit.reduce.certify.bound"
 local check = require "ambit.check"
 local code = require "ambit.code"
+local core = require "ambit.core"
+local expect = require "ambit.run.expect"
 local model = require "ambit.reduce.certify.model"
 local number = require "ambit.report.number"
 local proof = require "ambit.reduce.certify.proof"
 local scenario = require "ambit.reduce.certify.scenario"
 local session = require "ambit.session"
 local settings = require "ambit.reduce.certify.settings"
+local within = require "ambit.simulate.choice".within
 
 local verb = {}
 
 -- Where bounds shrink as the data are cut, they are cut without being asked for it.
 local REFINE, GAIN = 8, 0.8
 
-local keys = { "t", "initial", "parameters", "inputs", "scenarios", "outputs", "reduced_outputs", "error" }
+local keys = { "t", "initial", "parameters", "inputs", "scenarios", "outputs", "reduced_outputs", "error", "expect" }
+local VERDICTS = { "proved", "exceeded", "unable" }
+
+-- CPU time of the solvers that are asked after the first: so many times its own, and at least so many s
+local MORE, LEAST = 4, 8
+local PART = 0.5 -- of what is left of it, for one of them
 
 -- -- the result
 
@@ -104,26 +112,73 @@ local function prove(detailed, reduced, scenarios, how)
   return proof.prove(detailed, reduced, scenarios, how)
 end
 
+-- One solver's certificate: solver nil: the one that suits.
+local function attempt(t, asked, solver)
+  local how = settings.read(t, keys, "certify", 2)
+  how.solver = how.solver or solver
+  settings.choose(how, t, asked.detailed, asked.scenarios)
+  how.report = {} -- of all runs together
+  how.all, how.goal = true, asked.bounds
+  if t.refine == nil then how.refine, how.gain = REFINE, GAIN end
+  local ended, result = code.until_given_up(prove, asked.detailed, asked.reduced, asked.scenarios, how)
+  result = result or proof.none(ended)
+  result.error_status, result.settings = result.status, how
+  result.status, result.code, result.reason = verdict(result, asked.names, asked.bounds)
+  return result
+end
+
+-- The largest part of its bound that an output may be off by.
+local function excess(result, asked)
+  local most = 0
+  for _, name in ipairs(asked.names) do
+    local bound = asked.bounds[name]
+    if bound then most = math.max(most, (result.error[name] or math.huge) / bound) end
+  end
+  return most
+end
+
+local RANK = { proved = 2, exceeded = 1 }
+
+local function is_better(result, best, asked)
+  local a, b = RANK[result.status] or 0, RANK[best.status] or 0
+  return a > b or a == b and a == 1 and excess(result, asked) < excess(best, asked)
+end
+
+-- Where nobody named a solver and a bound was not proved, the next best ones are asked. Each may take half of the time
+-- that is left, the last one all of it.
+local function best_of(t, asked)
+  local began = core.cpu()
+  local best = attempt(t, asked, nil)
+  local others = best.settings.others
+  local ends = core.cpu() + math.max(LEAST, MORE * (core.cpu() - began))
+  for i, solver in ipairs(others) do
+    local may_go_on, left = best.status == "exceeded" or best.status == "unable", ends - core.cpu()
+    if not may_go_on or left <= 0 then break end
+    local result
+    local was_limit = within(i < #others and PART * left or left, function() result = attempt(t, asked, solver) end)
+    if result.status == "stopped" and not was_limit then return result end
+    if is_better(result, best, asked) then best = result end
+  end
+  return best
+end
+
 function verb.certify(t)
   check.table(t, "certify")
   if t[1] == nil or t[2] == nil then
     check.fail "certify: expected { detailed, reduced, ... }: two ambit.ode or m:dynamics()"
   end
-  local how = settings.read(t, keys, "certify", 2)
+  local expected = expect.read(t, "certify", VERDICTS)
+  settings.read(t, keys, "certify", 2)
   local symbols = scenario.symbols(t, "certify")
   local detailed = model.of(t[1], t.outputs, "certify", symbols)
   local reduced = reduced_model(t, detailed, symbols)
   local names, bounds = certify_bound.read(t.error, detailed.outputs, "certify", true)
   local scenarios = scenario.list(t, detailed, "certify", reduced)
-  settings.choose(how, t, detailed, scenarios)
-  how.report = {} -- of all runs together
-  how.all, how.goal = true, bounds
-  if t.refine == nil then how.refine, how.gain = REFINE, GAIN end
-  local ended, result = code.until_given_up(prove, detailed, reduced, scenarios, how)
-  result = result or proof.none(ended)
-  result.error_status = result.status
-  result.status, result.code, result.reason = verdict(result, names, bounds)
-  result.outputs, result.bounds, result.criterion, result.settings = names, bounds, how.criterion, how
+  local result = best_of(t, { detailed = detailed, reduced = reduced, names = names, bounds = bounds,
+    scenarios = scenarios })
+  local how = result.settings
+  expect.judge(result, expected)
+  result.outputs, result.bounds, result.criterion = names, bounds, how.criterion
   result.detailed, result.reduced, result.given = detailed, reduced, scenarios
   session.finish("certify", { status = result.status, code = result.code, reason = result.reason,
     t_reached = result.t_reached, cpu_seconds = result.cpu_seconds }, how.report, { "criterion", how.criterion,

@@ -39,9 +39,18 @@ function settings.read(t, own, what, positional)
   return how
 end
 
+-- The solver that suits, and the others that prove their results, the next best ones first.
 local function suggested(detailed, s)
-  local q = couple.alone(detailed, s)
-  return suggest.proving(suggest.solver(q, suggest.candidates({}, {}, nil, "certify"), "certify")).solver
+  local fitting = suggest.candidates({}, {}, nil, "certify")
+  local best = suggest.proving(suggest.solver(couple.alone(detailed, s), fitting, "certify"))
+  local others, known = {}, { [best.solver] = true }
+  local function add(solver)
+    if not known[solver] and option.declaration("solver", solver).rigorous then others[#others + 1] = solver end
+    known[solver] = true
+  end
+  for _, other in ipairs(best.others) do add(other.solver) end
+  for _, solver in ipairs(fitting) do add(solver) end -- where ordinary runs told nothing
+  return best.solver, others
 end
 
 local function check_options(t, how)
@@ -57,6 +66,7 @@ local function check_options(t, how)
     for _, key in ipairs(own) do others[key] = nil end
   end
   how.options, how.shown = option.collect(others, declaration)
+  how.given = #how.options
   for _, name in ipairs(option.names(declaration)) do
     if name == "width_max" and t.width_max == nil then
       how.options[#how.options + 1], how.options[#how.options + 2] = name, WIDEST
@@ -78,8 +88,11 @@ end
 
 -- The solver (if none is named) and its options; how the data of each scenario are cut.
 function settings.choose(how, t, detailed, scenarios)
-  how.solver = how.solver or suggested(detailed, scenarios[1])
+  local others
+  if not how.solver then how.solver, others = suggested(detailed, scenarios[1]) end
   check_options(t, how)
+  local is_plain = not how.arithmetic and (how.given or 0) == 0 -- others may not know its options
+  how.others = is_plain and others or {}
   for _, s in ipairs(scenarios) do s.split = read_split(t, detailed, s, how.what) end
   return how
 end
