@@ -450,4 +450,16 @@ end } }
       assert.is_true(coarse.x[name].lo <= run:at(1)[name].hi and coarse.x[name].hi >= run:at(1)[name].lo, name)
     end
   end)
+
+  it("takes no short steps where states rest until a kink is passed", function()
+    local k, low, high = ambit.around(2e5, "5%"), ambit.around(900, "5%"), ambit.around(2200, "5%")
+    local car = ambit.ode { states = { z = "m", v = "m/s" }, equations = function(x, _, t)
+      local road = "0.03" * (1 - ambit.cos(2 * ambit.pi * ambit.min(ambit.max((t - "0.1") / "0.15", 0), 1)))
+      return { z = x.v, v = (-k * (x.z - road) - high * ambit.max(x.v, 0) - low * ambit.min(x.v, 0)) / 45 }
+    end, check_units = false }
+    local run = ambit.simulate { car, initial = { z = 0, v = 0 }, t = { 0, "0.1", "0.25" }, solver = "zonotope" }
+    assert.equal("complete", run.status)
+    assert.is_true(run.step_count < 500)
+    assert.is_true(run.overestimate < 1.5)
+  end)
 end)

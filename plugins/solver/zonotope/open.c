@@ -121,8 +121,8 @@ static int open_set(zono *z) {
   z->ngen_max += z->vary_room;
   z->P = doubles(h, nx * z->shape.stride), z->E = doubles(h, nx), z->G = doubles(h, nx * (z->ngen_max + nx));
   z->lo = doubles(h, nx), z->hi = doubles(h, nx), z->tube_lo = doubles(h, nx), z->tube_hi = doubles(h, nx);
-  z->limit = doubles(h, nx);
-  return z->P && z->E && z->G && z->lo && z->hi && z->tube_lo && z->tube_hi && z->limit;
+  z->limit = doubles(h, nx), z->expected = doubles(h, nx);
+  return z->expected && z->P && z->E && z->G && z->lo && z->hi && z->tube_lo && z->tube_hi && z->limit;
 }
 
 /* -- the solver */
@@ -153,12 +153,21 @@ static ambit_status no_memory(const ambit_host *h) {
   return h->fail(h, AMBIT_NOMEM, "zonotope: out of memory; make fewer data uncertain, or lower `time_order`");
 }
 
-/* the data once more, in the order of how much they matter */
-static ambit_status sort_data(zono *z) {
+/* may states stay at rest until a kink is passed? */
+static int may_wait(const zono *z) {
+  const ambit_tape *t = z->program.tape;
+  for (uint32_t i = 0; i < t->ninstr; i++)
+    if (is_kinked(t->op[i])) return z->m > 0 && !z->nvarying && z->problem.njump == 0;
+  return 0;
+}
+
+/* an unproved run; then many data once more, in the order of how much they matter */
+static ambit_status look_ahead(zono *z) {
+  if (z->m <= SORTED && !may_wait(z)) return AMBIT_OK;
   double *weight = doubles(z->host, z->problem.nu);
   if (!weight) return AMBIT_NOMEM;
   zono_pilot(z, weight);
-  return zono_start_open(z, weight);
+  return z->m > SORTED ? zono_start_open(z, weight) : AMBIT_OK;
 }
 
 static ambit_status open_all(zono *z) {
@@ -174,7 +183,7 @@ static ambit_status open_all(zono *z) {
   if (status != AMBIT_OK) return status;
   z->K_max = highest_order(z), z->K = z->K_max;
   if (!zono_open_rows(z) || (z->na && !zono_open_implicit(z)) || !open_set(z) || !jump_open(z)) return no_memory(h);
-  if (z->m > SORTED && sort_data(z) != AMBIT_OK) return no_memory(h);
+  if (look_ahead(z) != AMBIT_OK) return no_memory(h);
   return zono_open_proof(z) && jump_open_proofs(z) ? AMBIT_OK : no_memory(h);
 }
 

@@ -158,7 +158,7 @@ double zono_choose_step(zono *z, double h_most) {
     double size, set;
     find_sizes(z, i, 0, &size, &set);
     p->spread[i] = set > 0 ? set : size;
-    p->largest[i] = fmax(p->largest[i], set);
+    p->largest[i] = fmax(fmax(p->largest[i], z->expected[i]), set);
     find_sizes(z, i, most, &size, &set);
     if (!(p->spread[i] > 0)) p->spread[i] = size > 0 ? size : 1;
   }

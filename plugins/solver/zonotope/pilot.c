@@ -1,11 +1,13 @@
-/* pilot.c -- how much each datum matters, before the first step: by its linear terms in the states along an unproved
-** run of low degree. Data that matter most are numbered first, since parts of the rows and terms of degree 4 are held
-** for the first data only. No proof depends on anything here.
+/* pilot.c -- before the first step, by an unproved run of low degree: how much each datum matters, by its linear terms
+** in the states, and how wide states get. Data that matter most are numbered first, since parts of the rows and terms of
+** degree 4 are held for the first data only. What states get to tells what is next to nothing beside it, for states that
+** start at rest or stay there for a while. No proof depends on anything here.
 */
 #include "zonotope.h"
 
 #define STEPS 200
 #define ORDER 8
+#define PARTS 100      /* of the whole time, that a step is at most: it looks for kinks at the starts of steps only */
 #define LAST_TERM 1e-3 /* of a state, that the last order in time may make in a step */
 
 /* x_i at s = h, constant and linear terms; the rest := 0 */
@@ -27,6 +29,13 @@ static int fits(const zono *z, double h) {
   return 1;
 }
 
+static void note_widths(const zono *z) {
+  for (uint32_t i = 0; i < z->nx; i++) {
+    double width = row_moving(&z->shape, z->P + (size_t)i * z->shape.stride);
+    if (width < INFINITY) z->expected[i] = fmax(z->expected[i], width);
+  }
+}
+
 /* weight of each unknown += length of the step times the shares of the states' linear terms */
 static void weigh(const zono *z, double h, double *weight) {
   for (uint32_t i = 0; i < z->nx; i++) {
@@ -38,16 +47,16 @@ static void weigh(const zono *z, double h, double *weight) {
 
 void zono_pilot(zono *z, double *weight) {
   const shape whole = z->shape;
-  double end = z->problem.time[z->problem.ntime - 1];
+  double end = z->problem.time[z->problem.ntime - 1], part = (end - z->problem.time[0]) / PARTS;
   zono_start(z);
   memset(z->E, 0, z->nx * sizeof *z->E);
   z->K = ORDER < z->K_max ? ORDER : z->K_max;
   z->shape.paired = 1, z->shape.mixing = z->shape.cubed = 0;
   for (uint32_t n = 0; n < STEPS && z->t != end && zono_series(z); n++) {
-    double h = end - z->t;
+    double h = fabs(end - z->t) > fabs(part) ? part : end - z->t;
     for (int halved = 0; halved < 60 && !fits(z, h); halved++) h *= 0.5;
     for (uint32_t i = 0; i < z->nx; i++) move(z, i, h, z->P + (size_t)i * z->shape.stride);
-    weigh(z, h, weight);
+    weigh(z, h, weight), note_widths(z);
     z->t = h == end - z->t ? end : z->t + h;
   }
   z->shape = whole;

@@ -116,7 +116,8 @@ typedef struct zono {
   struct proof *proof;       /* sweep.c, error.c, close.c: allocated by zono_open_proof() */
   /* -- records */
   double *lo, *hi, *tube_lo, *tube_hi; /* [nx] */
-  double *limit;                       /* [nx] widest that each state may be */
+  double *limit;                       /* [nx] widest that each state may be, */
+  double *expected;                    /* [nx] and is expected to get, 0: not known (pilot.c) */
   /* -- failure */
   enum why why;
   uint32_t blamed;    /* state, slot or unknown */
