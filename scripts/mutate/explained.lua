@@ -147,8 +147,28 @@ return {
     "which boxes get a column of their own: either way all of the box is in the set",
   ["plugins/solver/zonotope/distance.c | guard 1 | if (size.most == 0) continue;"] =
     "adds 0: a run slower",
-  ["plugins/solver/zonotope/kink.c | bound 4 | k->missed = miss(k, k->lo, k->hi), k->width = 0.5 * (k->hi - k->lo);"] =
-    "only says when a step ends: steps shorter",
+  ["plugins/solver/zonotope/kink.c | logic 1 | if (!is_line(z, i) || has_twin(z, i)) continue;"] =
+    "more is noted, which is asked only where lines are",
+  ["plugins/solver/zonotope/jump.c | guard 1 | if (!p->njump) return 1;"] =
+    "no programs are opened then: an array of none",
+  ["plugins/solver/zonotope/tanh.c | unit 1 | k->slope = hi - lo > 0x1p-10 ? (last - first) / (hi - lo) : slope_at(middle);"] =
+    "which line is taken is free: what it misses is computed from the line",
+  ["plugins/solver/zonotope/tanh.c | bound 4 | double first = value(z, lo), last = value(z, hi), middle = value(z, 0.5 * (lo + hi));"] =
+    "which line is taken is free: what it misses is computed from the line",
+  ["framework/functions/cbrt.c | sign 4 | double rest = (((u - cube.h) - cube.l) - more.h) - more.l;"] =
+    "2^-106 of the cube, of which the error bound 2^-90 has room",
+  ["framework/functions/hypot.c | guard 1 | if (ambit_interval_is_empty(s)) return false;"] =
+    "cuts with the empty set are empty, which the end of the function says",
+  ["framework/functions/pow.c | bound 1 | return (ambit_interval) { r.lo > 0 ? function_op(AMBIT_OP_LOG, r).lo : -INFINITY, hi };"] =
+    "the logarithm over a set that reaches 0 begins at minus infinity, too",
+  ["framework/functions/pow.c | guard 1 | if (ambit_interval_is_empty(quotient)) return false;"] =
+    "a cut with the empty set is empty, which the end of the function says",
+  ["framework/functions/pow.c | logic 1 | if (!free || !ambit_interval_contains(*b, 0)) {"] =
+    "less is cut away",
+  ["framework/functions/pow.c | logic 1 | if (ambit_interval_is_empty(r) || ambit_interval_is_empty(*a)) return false;"] =
+    "less is found to be impossible",
+  ["framework/verbs/simulate/problem.c | guard 1 | if (!range || !slot || !x) return no_memory(b);"] =
+    "memory that ran out for one array ran out for the next: an allocation that fails is tried where it is made",
   ["plugins/solver/zonotope/quartic.c | extremum 1 | all.most = fmin(bound, all.rest + add_known(z, j, whole)) * ABOVE;"] =
     "the larger of two bounds of the same: a set wider",
   ["plugins/solver/zonotope/quartic.c | extremum 1 | sum += fmin(single, together + mixed_size(z, row)) + rounding;"] =

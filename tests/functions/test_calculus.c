@@ -165,6 +165,26 @@ static void written_out_they_are_the_same(void **state) {
   mpfr_clear(want);
 }
 
+/* over a set that reaches to the end of the domain, or to infinity, the limit there belongs to the range */
+static void limits_are_in_the_range(void **state) {
+  (void)state;
+  static const double other[] = { 0.5, -0.5, 3, -2.5, 1 };
+  EACH_FUNCTION(op) {
+    model m = open_model(op);
+    const ambit_function_facts *f = &ambit_function_of(op)->facts;
+    double inner = fmax(fmin(1.5, f->most / 2), f->least + 0.5);
+    for (size_t i = 0; i < sizeof other / sizeof *other; i++)
+      for (int upper = 0; upper < 2; upper++) {
+        double end = upper ? f->most : f->least, want = judge_rounded(op, end, other[i], MPFR_RNDN);
+        ambit_interval in[2] = { { upper ? inner : end, upper ? end : inner }, { other[i], other[i] } }, r;
+        over_box(&m, m.e, 0, in, &r);
+        bool above = fabs(want) > DBL_MAX ? (want > 0 ? r.hi == want : r.lo == want) : r.lo <= want && r.hi >= want;
+        if (!above) fail_msg("%s: %g (%g) is not in [%g, %g]", name_of(op), end, other[i], r.lo, r.hi);
+      }
+    close_model(&m);
+  }
+}
+
 static double somewhere(ambit_interval x, uint64_t *state) {
   return fmin(fmax(oracle_uniform(state, x.lo, x.hi), x.lo), x.hi);
 }
@@ -183,9 +203,11 @@ static void inverses_keep_every_solution(void **state) {
       ambit_interval r = { lo - w, hi + w }, a = { x - somewhere((ambit_interval) { 0, 3 }, &seed), x + w },
                      b = { y - w, y + 1 };
       if (r.lo == INFINITY || r.hi == -INFINITY) continue;
+      ambit_interval old_a = a, old_b = b;
       if (!ambit_inverse(op, r, &a, &b) || !ambit_interval_contains(a, x) ||
           (ambit_op_arity(op) == 2 && !ambit_interval_contains(b, y)))
         fail_msg("%s: the inverse loses %a, %a", name_of(op), x, y);
+      assert_true(a.lo >= old_a.lo && a.hi <= old_a.hi && b.lo >= old_b.lo && b.hi <= old_b.hi);
       a = AMBIT_ENTIRE, b = (ambit_interval) { y, y };
       if (i % 4 == 0 || fabs(x) < 0.1 || fabs(x) > 2) continue;
       r = (ambit_interval) { lo, hi };
@@ -203,6 +225,6 @@ static void inverses_keep_every_solution(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = { cmocka_unit_test(coefficients_hold_derivatives),
     cmocka_unit_test(derivatives_are_those), cmocka_unit_test(written_out_they_are_the_same),
-    cmocka_unit_test(inverses_keep_every_solution) };
+    cmocka_unit_test(limits_are_in_the_range), cmocka_unit_test(inverses_keep_every_solution) };
   return cmocka_run_group_tests_name("functions: calculus", tests, NULL, NULL);
 }

@@ -135,6 +135,10 @@ describe("a lookup table", function()
     end
     assert.has_error(function() ambit.lookup { x = { 0, 0 }, y = { 1, 2 } } end,
       "lookup: x: expected rising numbers, but entry 2 is not above the one before")
+    for _, t in ipairs { { x = { 0, ambit.around(1, "1%") }, y = { 1, 2 } },
+      { x = { 0, 1 }, y = { 1, ambit.around(1, "1%") } } } do
+      assert.has_error(function() ambit.lookup(t) end, "lookup: point 2: expected known numbers")
+    end
     assert.has_error(function() ambit.lookup { x = { 0, 1 }, y = { 1 } } end,
       "lookup: expected as many numbers in x as in y, two at least, got 2 and 1")
   end)

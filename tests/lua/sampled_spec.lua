@@ -87,6 +87,18 @@ describe("a sampled controller", function()
     assert.is_true(run.x.x:contains(0.1 * 0.1 * 41 * 42 / 2 + 4.2 * 4.2 / 2) and run.x.x:width() < 1e-11)
   end)
 
+  it("looks at the instant that was said, not at the double next to it", function()
+    local on = ambit.sampled { "on", period = 1024, outputs = { "u" }, memory = { n = 0 },
+      law = function(_, m) return { u = m.n }, { n = 1 } end }
+    local look = ambit.sampled { "look", period = 4096, start = "1024.1", outputs = { "w" },
+      law = function(s) return s.x end }
+    local plant = ambit.ode { states = { "x" }, sampled = { on, look },
+      equations = function(s) return { x = s.u } end }
+    local seen = complete { plant, initial = { x = 0 }, t = { 0, 1025 } }.x.w
+    assert.is_true(math.abs(0.1 - (1024.1 - 1024)) > 9e-14) -- by so much x would be off at the double
+    assert.is_true(seen:contains "0.1" and seen:width() < 1e-11, tostring(seen))
+  end)
+
   it("acts through torques of mechanisms", function()
     local arm = ambit.mechanism { "arm", gravity = { 0, "-9.81", 0 } }
     local frame, joint = arm:revolute { from = arm.world, axis = "z", name = "q" }
