@@ -3,7 +3,7 @@
 ** Writing stops when the room is used up; the full length is found by a pass over the nodes, since a graph with much
 ** sharing can stand for a text of astronomical length.
 */
-#include "graph/source_style.h"
+#include "graph/writer.h"
 #include "graph/walk.h"
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* source_lua.c -- equations as source text of other languages. */
-#include "graph/source.h"
+#include "algebra/source.h"
 #include "script/core.h"
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* partial.c -- flags, operation by operation, carried on to the results. */
 #include "verbs/evaluate/partial.h"
 #include "graph/kink.h"
-#include "graph/source_style.h"
+#include "graph/writer.h"
 #include "graph/walk.h"
 #include <stdio.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* term_tree_lua.c -- the equations of a system as nested sums of terms, as a Lua value. */
-#include "graph/source.h"
+#include "graph/writer.h"
 #include "algebra/term_tree.h"
 #include "script/core.h"
 #include <string.h>
@@ -54,7 +54,7 @@ static int term_tree(lua_State *L) {
 
 static void push_text(lua_State *L, const ambit_graph *g, ambit_expr e) {
   char text[TEXT_MAX + 2];
-  bool whole = ambit_source_begin(g, e, sizeof text, text);
+  bool whole = ambit_writer_begin(g, e, sizeof text, text);
   size_t length = strlen(text), shown = length < TEXT_MAX ? length : TEXT_MAX;
   while (!whole && shown > 0 && ((unsigned char)text[shown - 1] & 0xc0) == 0x80) shown--; /* UTF-8 as a whole */
   if (!whole && shown > 0 && (unsigned char)text[shown - 1] >= 0xc0) shown--;

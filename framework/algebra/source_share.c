@@ -3,8 +3,7 @@
 ** Lengths are estimates, by what an operation adds at least. A part that is named counts as a name in whatever holds
 ** it, so no text is longer than about twice LONG, and the work is linear in the nodes.
 */
-#include "graph/source.h"
-#include "graph/source_style.h"
+#include "algebra/source.h"
 #include "graph/walk.h"
 #include <stdlib.h>
 #include <string.h>

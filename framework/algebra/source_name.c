@@ -4,7 +4,7 @@
 ** what is one letter, or a Greek one, stands by itself, digits at the end become an index, primes stay; the rest is
 ** upright.
 */
-#include "graph/source.h"
+#include "algebra/source.h"
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>

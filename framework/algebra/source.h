@@ -9,7 +9,7 @@
 */
 #ifndef AMBIT_SOURCE_H
 #define AMBIT_SOURCE_H
-#include <ambit/graph.h>
+#include "graph/writer.h"
 
 typedef enum ambit_language {
   AMBIT_LANGUAGE_TEXT,
@@ -19,32 +19,14 @@ typedef enum ambit_language {
   AMBIT_LANGUAGE_COUNT
 } ambit_language;
 
+extern const ambit_style ambit_style_lua, ambit_style_latex, ambit_style_modelica;
 extern const char *const ambit_language_name[AMBIT_LANGUAGE_COUNT]; /* "text", "lua", "latex", "modelica" */
-
-/* What a node is called, in the language; it must bind like a name. */
-typedef struct ambit_source_name {
-  ambit_expr node;
-  const char *name;
-} ambit_source_name;
-
-typedef struct ambit_source_names {
-  size_t n;
-  const ambit_source_name *list; /* [n] by ascending node, see ambit_source_names_sort */
-} ambit_source_names;
-
-void ambit_source_names_sort(size_t n, ambit_source_name *list);
-
-#define AMBIT_SOURCE_MAX 1000000u /* characters of one text */
 
 /* The source text of e, in memory that the caller frees. A node that has a name is written as that name, but for e
 ** itself unless it is a leaf; other leaves by ambit_source_identifier. INVALID: longer than AMBIT_SOURCE_MAX, or an
 ** exponent beyond 1e9, which Lua would not take for an integer. */
 ambit_status ambit_source_write(const ambit_graph *g, ambit_expr e, ambit_language language,
     const ambit_source_names *names, char **out, ambit_failure *f);
-
-/* out [room >= 1] := the text of e as far as it fits, at the cost of what is written; true: there is room for one more
-** character, so that it is the whole text. */
-bool ambit_source_begin(const ambit_graph *g, ambit_expr e, size_t room, char *out);
 
 /* The nodes below e[0..ne) that want a name so that no text gets long: none if all are short, otherwise what is used
 ** more than once, and what is long or deep. Operands first. Returns how many there are, writes at most room;

@@ -1,8 +1,8 @@
 /* Sources of expressions: random ones by their brackets, deep and shared ones by their size, numbers and names by
 ** reading them. What Lua, Modelica and LaTeX make of them: tests/lua/source_spec.lua. */
-#include "graph/source.h"
+#include "algebra/source.h"
 #include "graph/store.h"
-#include "sampler.h"
+#include "graph/sampler.h"
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -41,7 +41,7 @@ static void assert_begins(const ambit_graph *graph, ambit_expr e, const char *wa
   char *out = malloc(n + 2);
   for (size_t k = 0; k < sizeof rooms / sizeof *rooms; k++) {
     size_t room = rooms[k] ? rooms[k] : 1, shown = n < room ? n : room - 1;
-    assert_int_equal(ambit_source_begin(graph, e, room, out), n + 2 <= room);
+    assert_int_equal(ambit_writer_begin(graph, e, room, out), n + 2 <= room);
     assert_true(strlen(out) == shown && memcmp(out, want, shown) == 0);
   }
   free(out);

@@ -1,5 +1,5 @@
 /* source_latex.c -- LaTeX in math mode: fractions, roots, \sin^{2}\left(x\right), 1.5 \cdot 10^{-3}. */
-#include "graph/source_style.h"
+#include "algebra/source.h"
 #include <stdio.h>
 #include <string.h>
 

@@ -1,10 +1,25 @@
-/* source_style.h -- how a language writes the nodes of the graph, and the writer that all languages share. */
-#ifndef AMBIT_SOURCE_STYLE_H
-#define AMBIT_SOURCE_STYLE_H
-#include "graph/source.h"
+/* writer.h -- expressions as text: the writer that all languages share, and the language of messages. */
+#ifndef AMBIT_WRITER_H
+#define AMBIT_WRITER_H
+#include <ambit/graph.h>
 #include "graph/store.h"
 #include "num/decimal.h"
 #include "num/function.h"
+
+/* What a node is called, in the language; it must bind like a name. */
+typedef struct ambit_source_name {
+  ambit_expr node;
+  const char *name;
+} ambit_source_name;
+
+typedef struct ambit_source_names {
+  size_t n;
+  const ambit_source_name *list; /* [n] by ascending node, see ambit_source_names_sort */
+} ambit_source_names;
+
+void ambit_source_names_sort(size_t n, ambit_source_name *list);
+
+#define AMBIT_SOURCE_MAX 1000000u /* characters of one text */
 
 /* Binding strength of an expression, and what an operand's place demands. */
 enum {
@@ -14,7 +29,8 @@ enum {
   AMBIT_BINDS_POWER = 4,
   AMBIT_BINDS_ATOM = 5
 };
-#define AMBIT_BINDS_ADDEND 0 /* right of a plus: anything but a sign */
+#define AMBIT_BINDS_ADDEND 0          /* right of a plus: anything but a sign */
+#define AMBIT_EXPONENT_MAX 1000000000 /* what Lua's ambit.pow takes for an integer */
 #define AMBIT_LEAF_MAX (3 * AMBIT_DECIMAL_MAX)
 
 /* A node is written as head, a, middle, b, tail; b only if there are two operands. */
@@ -35,7 +51,7 @@ typedef struct ambit_style {
   bool (*leaf)(ambit_writer *w, ambit_expr e, bool wrap); /* writes a leaf that has no name; false: out of memory */
 } ambit_style;
 
-extern const ambit_style ambit_style_text, ambit_style_lua, ambit_style_latex, ambit_style_modelica;
+extern const ambit_style ambit_style_text; /* as ambit_graph_text writes */
 
 struct ambit_writer {
   const ambit_graph *g;
@@ -64,4 +80,7 @@ const char *ambit_op_symbol(uint32_t op);
 ambit_layout ambit_layout_infix(const ambit_writer *w, ambit_expr e);
 /* The layout of a function as its description says, its operands in such places. */
 ambit_layout ambit_layout_form(const ambit_function_form *form, const ambit_node *x, int place);
+/* out [room >= 1] := the text of e as far as it fits, at the cost of what is written; true: there is room for one more
+** character, so that it is the whole text. */
+bool ambit_writer_begin(const ambit_graph *g, ambit_expr e, size_t room, char *out);
 #endif

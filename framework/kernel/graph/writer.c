@@ -1,15 +1,8 @@
-/* source.c -- the writer: a stack of pieces still to be written, no recursion. */
-#include "graph/source.h"
+/* writer.c -- the writer: a stack of pieces still to be written, no recursion. */
+#include "graph/writer.h"
 #include "base/vector.h"
-#include "graph/source_style.h"
 #include <stdlib.h>
 #include <string.h>
-
-const char *const ambit_language_name[AMBIT_LANGUAGE_COUNT] = { "text", "lua", "latex", "modelica" };
-static const ambit_style *const style_of[AMBIT_LANGUAGE_COUNT] = { &ambit_style_text, &ambit_style_lua,
-  &ambit_style_latex, &ambit_style_modelica };
-
-#define EXPONENT_MAX 1000000000 /* what Lua's ambit.pow takes for an integer */
 
 static int by_node(const void *p, const void *q) {
   const ambit_source_name *a = p, *b = q;
@@ -70,7 +63,7 @@ static bool later(ambit_writer *w, ambit_expr e, int place, stage at) {
 static bool put_node(ambit_writer *w, ambit_expr e) {
   const ambit_node *x = ambit_at(w->g, e);
   int32_t n = (int32_t)x->b;
-  if (x->op == AMBIT_OP_POWN && (n > EXPONENT_MAX || n < -EXPONENT_MAX)) w->too_high = true;
+  if (x->op == AMBIT_OP_POWN && (n > AMBIT_EXPONENT_MAX || n < -AMBIT_EXPONENT_MAX)) w->too_high = true;
   ambit_layout l = w->style->layout(w, e);
   return ambit_writer_put(w, l.head) && later(w, e, 0, l.two ? MIDDLE : TAIL) &&
          later(w, l.a, l.place_a, l.wrap ? WRAPPED : OPERAND);
@@ -104,23 +97,7 @@ bool ambit_writer_run(ambit_writer *w, ambit_expr e) {
   return done;
 }
 
-bool ambit_source_begin(const ambit_graph *g, ambit_expr e, size_t room, char *out) {
+bool ambit_writer_begin(const ambit_graph *g, ambit_expr e, size_t room, char *out) {
   ambit_writer w = { .g = g, .style = &ambit_style_text, .out = out, .room = room };
   return ambit_writer_run(&w, e) && w.used + 1 < room;
-}
-
-ambit_status ambit_source_write(const ambit_graph *g, ambit_expr e, ambit_language language,
-    const ambit_source_names *names, char **out, ambit_failure *f) {
-  *out = NULL;
-  ambit_writer w = { .g = g, .style = style_of[language], .names = names, .grows = true };
-  w.out = ambit_vector_reserve(NULL, &w.room, 64, 1);
-  bool done = w.out && ambit_writer_run(&w, e);
-  *out = w.out;
-  if (!done) return ambit_fail(f, AMBIT_NOMEM, "out of memory for the text of an expression");
-  if (w.used > AMBIT_SOURCE_MAX)
-    return ambit_fail(f, AMBIT_INVALID,
-        "the text of an expression is longer than %u characters: give names to its parts", AMBIT_SOURCE_MAX);
-  if (w.too_high)
-    return ambit_fail(f, AMBIT_INVALID, "an exponent beyond %d cannot be written as source", EXPONENT_MAX);
-  return AMBIT_OK;
 }
