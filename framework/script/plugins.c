@@ -68,6 +68,44 @@ static void push_plugin(lua_State *L, const char *kind, const char *name) {
   set_text(L, "doc", plugin->doc);
 }
 
+static void set_flag(lua_State *L, const char *key, bool value) {
+  lua_pushboolean(L, value);
+  lua_setfield(L, -2, key);
+}
+
+/* What the three interfaces of solvers declare alike. */
+#define PUSH_METHOD(L, s, for_verb)                                                                                    \
+  (push_params(L, (s)->param), lua_setfield(L, -2, "parameters"), set_text(L, "arithmetics", (s)->arithmetics),        \
+      set_text(L, "verb", for_verb), set_flag(L, "rigorous", (s)->needs_rigorous != 0))
+
+/* Of a plugin that offers several, the first of flow, roots, strategy. */
+static ambit_status push_solver(lua_State *L, ambit_registry *r, const char *name, ambit_failure *f) {
+  const ambit_plugin *plugin;
+  const ambit_solver *solver;
+  const ambit_root_finder *finder;
+  const ambit_strategy *strategy;
+  ambit_status status = ambit_registry_plugin(r, "solver", name, &plugin, f);
+  if (status != AMBIT_OK) return status;
+  if (!plugin->get(AMBIT_SOLVER) && plugin->get(AMBIT_ROOT_FINDER)) {
+    status = ambit_registry_root_finder(r, name, &finder, f);
+    if (status == AMBIT_OK) PUSH_METHOD(L, finder, "roots");
+    return status;
+  }
+  if (!plugin->get(AMBIT_SOLVER) && plugin->get(AMBIT_STRATEGY)) {
+    status = ambit_registry_strategy(r, name, &strategy, f);
+    if (status == AMBIT_OK) PUSH_METHOD(L, strategy, "reduce");
+    return status;
+  }
+  status = ambit_registry_solver(r, name, &solver, f);
+  if (status != AMBIT_OK) return status;
+  PUSH_METHOD(L, solver, "simulate");
+  set_text(L, "compared", solver->compared);
+  set_text(L, "cheap", solver->cheap);
+  set_flag(L, "varying", solver->want & AMBIT_WANT_VARYING);
+  set_flag(L, "sampled", solver->want & AMBIT_WANT_JUMP);
+  return AMBIT_OK;
+}
+
 /* plugin(kind, name) -> {kind, name, id, version, doc, and what the kind declares}; loads it */
 static int plugin(lua_State *L) {
   const char *kind = luaL_checkstring(L, 1), *name = luaL_checkstring(L, 2);
@@ -84,24 +122,7 @@ static int plugin(lua_State *L) {
       lua_setfield(L, -2, "parameters");
     }
   } else if (strcmp(kind, "solver") == 0) {
-    const ambit_solver *solver;
-    if ((status = ambit_registry_solver(r, name, &solver, &f)) == AMBIT_OK) {
-      push_params(L, solver->param);
-      lua_setfield(L, -2, "parameters");
-      set_text(L, "arithmetics", solver->arithmetics);
-      set_text(L, "compared", solver->compared);
-      set_text(L, "cheap", solver->cheap);
-      set_text(L, "verb",
-          solver->solves == AMBIT_SOLVES_ROOTS       ? "roots"
-          : solver->solves == AMBIT_SOLVES_REDUCTION ? "reduce"
-                                                     : "simulate");
-      lua_pushboolean(L, solver->needs_rigorous != 0);
-      lua_setfield(L, -2, "rigorous");
-      lua_pushboolean(L, (solver->want & AMBIT_WANT_VARYING) != 0);
-      lua_setfield(L, -2, "varying");
-      lua_pushboolean(L, (solver->want & AMBIT_WANT_JUMP) != 0);
-      lua_setfield(L, -2, "sampled");
-    }
+    status = push_solver(L, r, name, &f);
   } else if (strcmp(kind, "arithmetic") == 0) {
     const ambit_arithmetic *arithmetic;
     if ((status = ambit_registry_arithmetic(r, name, &arithmetic, &f)) == AMBIT_OK) {

@@ -32,6 +32,9 @@ static void assert_refused(ambit_registry *r, const char *kind, const char *name
   if (strcmp(kind, "arithmetic") == 0) status = ambit_registry_arithmetic(r, name, (const ambit_arithmetic **)&got, &f);
   if (strcmp(kind, "element") == 0) status = ambit_registry_element(r, name, (const ambit_element **)&got, &f);
   if (strcmp(kind, "solver") == 0) status = ambit_registry_solver(r, name, (const ambit_solver **)&got, &f);
+  if (strcmp(kind, "root finder") == 0)
+    status = ambit_registry_root_finder(r, name, (const ambit_root_finder **)&got, &f);
+  if (strcmp(kind, "strategy") == 0) status = ambit_registry_strategy(r, name, (const ambit_strategy **)&got, &f);
   assert_int_equal(status, AMBIT_INVALID);
   assert_null(got);
   assert_says(&f, name);
@@ -86,6 +89,8 @@ static void refuses_incomplete_interfaces(void **state) {
   assert_refused(*state, "element", "inexpressive", "lacks `express`");
   assert_refused(*state, "element", "portless", "lacks `port`");
   assert_refused(*state, "solver", "idle", "lacks `run`");
+  assert_refused(*state, "root finder", "mock", "does not offer the interface `" AMBIT_ROOT_FINDER "`");
+  assert_refused(*state, "strategy", "mock", "does not offer the interface `" AMBIT_STRATEGY "`");
 }
 
 static void lists_what_was_tried(void **state) {

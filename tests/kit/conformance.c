@@ -173,7 +173,7 @@ static int check_reduction(const conformance *c, ambit_registry *r, const char *
   return broken ? BROKEN : CONFORMS;
 }
 
-static int check_solver(const conformance *c, ambit_registry *r, const char *name) {
+static int check_in_time(const conformance *c, ambit_registry *r, const char *name) {
   ambit_failure f = { 0 };
   solver_kit kit = { .name = name,
     .tolerance = 1e-3,
@@ -186,12 +186,8 @@ static int check_solver(const conformance *c, ambit_registry *r, const char *nam
   ambit_scope *scope;
   double option[ARITHMETIC_OPTIONS];
   if (ambit_scope_open(&scope, NULL, NULL) != AMBIT_OK) ambit_fail(&f, AMBIT_NOMEM, "out of memory");
-  bool found = !f.message[0] && ambit_registry_solver(r, name, &kit.plugin, &f) == AMBIT_OK;
-  if (found && kit.plugin->solves != AMBIT_SOLVES_FLOW) {
-    ambit_scope_close(scope);
-    return kit.plugin->solves == AMBIT_SOLVES_ROOTS ? check_roots(c, r, name) : check_reduction(c, r, name);
-  }
-  bool ready = found && open_arithmetic(r, scope, option, &kit, &f);
+  bool ready = !f.message[0] && ambit_registry_solver(r, name, &kit.plugin, &f) == AMBIT_OK &&
+               open_arithmetic(r, scope, option, &kit, &f);
   size_t broken = ready ? check_flow(c, &kit) : 0;
   if (ready && kit.actx && kit.arithmetic->close) kit.arithmetic->close(kit.actx);
   ambit_scope_close(scope);
@@ -200,6 +196,16 @@ static int check_solver(const conformance *c, ambit_registry *r, const char *nam
     return refuse(c, &f);
   }
   return broken ? BROKEN : CONFORMS;
+}
+
+/* every interface that it offers; one without any is refused by the first */
+static int check_solver(const conformance *c, ambit_registry *r, const ambit_plugin *p, const char *name) {
+  int worst = CONFORMS;
+  bool roots = p->get(AMBIT_ROOT_FINDER) != NULL, strategy = p->get(AMBIT_STRATEGY) != NULL;
+  if (p->get(AMBIT_SOLVER) || !(roots || strategy)) worst = check_in_time(c, r, name);
+  if (worst == CONFORMS && roots) worst = check_roots(c, r, name);
+  if (worst == CONFORMS && strategy) worst = check_reduction(c, r, name);
+  return worst;
 }
 
 /* -- services: functions for Lua, or interfaces that only their users know */
@@ -253,7 +259,7 @@ static int check_kind(const conformance *c, ambit_registry *r, const ambit_plugi
   note_file_name(c, name);
   if (kind == 10 && strncmp(p->id, "arithmetic", kind) == 0) return check_arithmetic(c, r, p, name);
   if (kind == 7 && strncmp(p->id, "element", kind) == 0) return check_element(c, r, name);
-  if (kind == 6 && strncmp(p->id, "solver", kind) == 0) return check_solver(c, r, name);
+  if (kind == 6 && strncmp(p->id, "solver", kind) == 0) return check_solver(c, r, p, name);
   if (kind == 7 && strncmp(p->id, "service", kind) == 0) return check_service(c, r, p);
   ambit_failure f = { 0 };
   ambit_fail(&f, AMBIT_INVALID,

@@ -1,4 +1,4 @@
-/* reduction_kit.h -- the conformance kit of strategies of model reduction (AMBIT_SOLVES_REDUCTION).
+/* reduction_kit.h -- the conformance kit of strategies of model reduction (AMBIT_STRATEGY).
 **
 ** Random models with candidates, references and a proof that the kit plays: errors of candidates add up with their
 ** signs, some candidates cost nothing, some cannot be proved.

@@ -1,4 +1,4 @@
-/* roots_kit.h -- the conformance kit of solvers that find roots (AMBIT_SOLVES_ROOTS).
+/* roots_kit.h -- the conformance kit of root finders (AMBIT_ROOT_FINDER).
 **
 ** Random equations of 1 to 6 unknowns whose roots are planted: products of linear factors in y, x = y + phi(x) with a
 ** triangular phi, some roots outside of the searched box, some dependent on data. All of them are known for every value

@@ -208,7 +208,7 @@ describe("roots", function()
       { ambit.ode { states = { "v", "w" }, equations = function(s) return { s.w, s.v + s.w } end }:rate "w" },
       box = { w = unit },
     })
-    refused("finds roots and does not advance", {
+    refused("finds roots; it does not advance in time", {
       ambit.ode { states = { "x" }, equations = function(s) return { -s.x } end }, initial = { x = 1 }, t = 1,
       solver = "krawczyk",
     }, ambit.simulate)

@@ -1,5 +1,5 @@
 /* reduction_liar.c -- a solver of reductions that claims what was not proved, in the way of its option; for tests. */
-#include <ambit/solver.h>
+#include <ambit/reduction.h>
 #include <string.h>
 
 enum { NONE, UNPROVED, OVER, MORE, OTHER, LOWERED, TWICE, BEYOND, NOTHING, REPEATED };
@@ -14,10 +14,10 @@ typedef struct liar {
   int lie;
 } liar;
 
-static ambit_status open(const ambit_host *h, const ambit_problem *p, const double *option, void **self) {
+static ambit_status open(const ambit_host *h, const ambit_reduction *r, const double *option, void **self) {
   liar *s = h->alloc(h, sizeof *s);
   if (!s) return AMBIT_NOMEM;
-  *s = (liar) { p->reduction, (int)option[0] };
+  *s = (liar) { r, (int)option[0] };
   *self = s;
   return AMBIT_OK;
 }
@@ -56,15 +56,13 @@ static ambit_status run(void *self, ambit_sink *sink) {
   return AMBIT_OK;
 }
 
-static const ambit_solver interface = { .size = sizeof interface,
-  .arithmetics = "real",
-  .param = param,
-  .open = open,
-  .run = run,
-  .close = close,
-  .solves = AMBIT_SOLVES_REDUCTION };
+static const ambit_strategy interface = {
+  .size = sizeof interface, .arithmetics = "real", .param = param, .open = open, .run = run, .close = close
+};
 
-static const void *get(const char *interface_id) { return strcmp(interface_id, AMBIT_SOLVER) == 0 ? &interface : NULL; }
+static const void *get(const char *interface_id) {
+  return strcmp(interface_id, AMBIT_STRATEGY) == 0 ? &interface : NULL;
+}
 
 const ambit_plugin ambit_entry = { sizeof ambit_entry, AMBIT_ABI, "solver.liar", "1.0",
   "Claims reductions that were not proved; for tests.", get };

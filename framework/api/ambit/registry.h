@@ -5,6 +5,8 @@
 #include <ambit/arithmetic.h>
 #include <ambit/element.h>
 #include <ambit/export.h>
+#include <ambit/reduction.h>
+#include <ambit/root_finder.h>
 #include <ambit/solver.h>
 
 #ifdef __cplusplus
@@ -22,13 +24,17 @@ AMBIT_EXPORT void ambit_registry_close(ambit_registry *r);
 ** reason, and the nearest known name (from a directory listing, without loading). Checks id, ABI version, sizes. */
 AMBIT_EXPORT ambit_status ambit_registry_plugin(
     ambit_registry *r, const char *kind, const char *name, const ambit_plugin **p, ambit_failure *f);
-/* completed; valid until close */
+/* completed; valid until close; the three of kind "solver" are what it offers, one or several */
 AMBIT_EXPORT ambit_status ambit_registry_arithmetic(
     ambit_registry *r, const char *name, const ambit_arithmetic **a, ambit_failure *f);
 AMBIT_EXPORT ambit_status ambit_registry_element(
     ambit_registry *r, const char *name, const ambit_element **e, ambit_failure *f);
 AMBIT_EXPORT ambit_status ambit_registry_solver(
     ambit_registry *r, const char *name, const ambit_solver **s, ambit_failure *f);
+AMBIT_EXPORT ambit_status ambit_registry_root_finder(
+    ambit_registry *r, const char *name, const ambit_root_finder **s, ambit_failure *f);
+AMBIT_EXPORT ambit_status ambit_registry_strategy(
+    ambit_registry *r, const char *name, const ambit_strategy **s, ambit_failure *f);
 /* any .so, for `ambit check`; from then on the kind and name in its id mean this file */
 AMBIT_EXPORT ambit_status ambit_registry_load_file(
     ambit_registry *r, const char *file, const ambit_plugin **p, ambit_failure *f);

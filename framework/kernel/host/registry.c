@@ -19,6 +19,8 @@ typedef struct entry {
   const ambit_arithmetic *arithmetic;
   ambit_element *element;
   ambit_solver *solver;
+  ambit_root_finder *root_finder;
+  ambit_strategy *strategy;
   ambit_exports *exports;
 } entry;
 
@@ -210,15 +212,20 @@ static ambit_status make_element(ambit_registry *r, entry *e, ambit_failure *f) 
   return AMBIT_OK;
 }
 
-static ambit_status make_solver(ambit_registry *r, entry *e, ambit_failure *f) {
-  void *copy = NULL;
-  ambit_status status = copy_interface(r, e, AMBIT_SOLVER, sizeof(ambit_solver), UPTO(ambit_solver, close), &copy, f);
-  if (status != AMBIT_OK) return status;
-  ambit_solver *s = copy;
-  if (!s->open || !s->run || !s->close) return lacks(e, AMBIT_SOLVER, !s->open ? "open" : !s->run ? "run" : "close", f);
-  e->solver = s;
-  return AMBIT_OK;
-}
+/* The three interfaces of solvers have these members in common, and begin alike. */
+#define MAKE(type, id, member)                                                                                         \
+  static ambit_status make_##member(ambit_registry *r, entry *e, ambit_failure *f) {                                   \
+    void *copy = NULL;                                                                                                 \
+    ambit_status status = copy_interface(r, e, id, sizeof(type), UPTO(type, close), &copy, f);                         \
+    if (status != AMBIT_OK) return status;                                                                             \
+    type *s = copy;                                                                                                    \
+    if (!s->open || !s->run || !s->close) return lacks(e, id, !s->open ? "open" : !s->run ? "run" : "close", f);       \
+    e->member = s;                                                                                                     \
+    return AMBIT_OK;                                                                                                   \
+  }
+MAKE(ambit_solver, AMBIT_SOLVER, solver)
+MAKE(ambit_root_finder, AMBIT_ROOT_FINDER, root_finder)
+MAKE(ambit_strategy, AMBIT_STRATEGY, strategy)
 
 ambit_status ambit_registry_arithmetic(
     ambit_registry *r, const char *name, const ambit_arithmetic **a, ambit_failure *f) {
@@ -240,13 +247,25 @@ ambit_status ambit_registry_element(
   return status;
 }
 
+#define LEND(r, name, member, s, f)                                                                                    \
+  entry *e;                                                                                                            \
+  *(s) = NULL;                                                                                                         \
+  ambit_status status = load(r, "solver", name, &e, f);                                                                \
+  if (status == AMBIT_OK && !e->member) status = make_##member(r, e, f);                                               \
+  if (status == AMBIT_OK) *(s) = e->member;                                                                            \
+  return status
+
 ambit_status ambit_registry_solver(ambit_registry *r, const char *name, const ambit_solver **s, ambit_failure *f) {
-  entry *e;
-  *s = NULL;
-  ambit_status status = load(r, "solver", name, &e, f);
-  if (status == AMBIT_OK && !e->solver) status = make_solver(r, e, f);
-  if (status == AMBIT_OK) *s = e->solver;
-  return status;
+  LEND(r, name, solver, s, f);
+}
+
+ambit_status ambit_registry_root_finder(
+    ambit_registry *r, const char *name, const ambit_root_finder **s, ambit_failure *f) {
+  LEND(r, name, root_finder, s, f);
+}
+
+ambit_status ambit_registry_strategy(ambit_registry *r, const char *name, const ambit_strategy **s, ambit_failure *f) {
+  LEND(r, name, strategy, s, f);
 }
 
 ambit_status ambit_registry_exports(

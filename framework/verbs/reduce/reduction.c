@@ -1,4 +1,4 @@
-/* reduction.c -- runs a solver of reductions, and believes no cut that was not proved. */
+/* reduction.c -- runs a strategy, and believes no cut that was not proved. */
 #include "verbs/reduce/reduction.h"
 #include "verbs/run/context.h"
 #include "verbs/run/guard.h"
@@ -18,13 +18,12 @@ typedef struct job {
   const ambit_reduction_request *q;
   ambit_reduction_result *result;
   ambit_arena *arena;
-  const ambit_solver *solver;
+  const ambit_strategy *solver;
   char arithmetic[AMBIT_NAME_MAX];
   ambit_context context;
   ambit_scope *scope;
   double *option;
   ambit_reduction reduction;
-  ambit_problem problem;
   uint8_t *cut;          /* [ncandidate] accepted */
   uint8_t *tried;        /* [ncandidate] of the last full proof: 0, 1 or CLAIMED */
   double *error, *spare; /* [noutput] of the last full proof; of others */
@@ -46,33 +45,12 @@ const char *ambit_reduction_ranking_name(uint32_t ranking) {
 
 /* -- the solver */
 
-/* Names of the installed solvers that choose reductions; only for a message. */
-static ambit_status refuse_solver(const ambit_reduction_request *q, const ambit_solver *given, ambit_failure *f) {
-  char fitting[256] = "";
-  size_t n = ambit_registry_list(q->registry, 0, NULL), used = 0;
-  ambit_listing *list = calloc(n + 1, sizeof *list);
-  if (!list) return ambit_no_memory(f);
-  size_t found = ambit_registry_list(q->registry, n, list);
-  for (size_t i = 0; i < found && i < n && used < sizeof fitting; i++) {
-    const ambit_solver *s;
-    ambit_failure ignored = { 0 };
-    if (strcmp(list[i].kind, "solver") != 0) continue;
-    if (ambit_registry_solver(q->registry, list[i].name, &s, &ignored) != AMBIT_OK) continue;
-    if (s->solves != AMBIT_SOLVES_REDUCTION) continue;
-    used += (size_t)snprintf(fitting + used, sizeof fitting - used, "%s`%s`", used ? ", " : "", list[i].name);
-  }
-  free(list);
-  return ambit_fail(f, AMBIT_INVALID, "solver `%s` %s; it does not choose what a model may leave out; what does: %s",
-      q->solver, given->solves == AMBIT_SOLVES_ROOTS ? "finds roots" : "advances in time",
-      fitting[0] ? fitting : "none that is installed");
-}
-
 static ambit_status find_solver(job *j, ambit_failure *f) {
   const ambit_reduction_request *q = j->q;
-  ambit_status status = ambit_registry_solver(q->registry, q->solver, &j->solver, f);
-  if (status == AMBIT_OK && j->solver->solves != AMBIT_SOLVES_REDUCTION) status = refuse_solver(q, j->solver, f);
-  if (status == AMBIT_OK)
-    status = ambit_pair_choose(q->registry, q->solver, j->solver, AMBIT_DEFAULT_POINTS, j->arithmetic, f);
+  ambit_status status = ambit_pair_offers(q->registry, q->solver, AMBIT_STRATEGY, f);
+  if (status == AMBIT_OK) status = ambit_registry_strategy(q->registry, q->solver, &j->solver, f);
+  if (status != AMBIT_OK) return status;
+  status = ambit_pair_choose(q->registry, AMBIT_METHOD(q->solver, j->solver), AMBIT_DEFAULT_POINTS, j->arithmetic, f);
   if (status == AMBIT_OK) status = ambit_context_scope(q->registry, &j->scope, f);
   if (status != AMBIT_OK) return status;
   ambit_failure own = { 0 };
@@ -169,41 +147,21 @@ static int32_t progress(ambit_sink *s, double done, const char *message) {
 
 /* -- the run */
 
-/* of the states, and of the data behind them */
-static const char *const *names(const job *j) {
-  const ambit_reduction_request *q = j->q;
-  const char **name = ambit_arena_alloc(j->arena, (q->nx + q->ndata) * sizeof *name);
-  for (size_t i = 0; name && i < q->nx + q->ndata; i++) {
-    const char *text = i < q->nx ? q->state[i] : ambit_graph_node(q->graph, q->data[i - q->nx])->text;
-    name[i] = ambit_arena_text(j->arena, text ? text : "a datum without a name");
-    if (!name[i]) return NULL;
-  }
-  return name;
-}
-
 static ambit_status prepare(job *j, ambit_failure *f) {
   const ambit_reduction_request *q = j->q;
   ambit_status status = find_solver(j, f);
   if (status == AMBIT_OK)
-    status = ambit_reduction_build(q, ambit_pair_want(j->solver, j->option), j->arena, &j->reduction, f);
+    status = ambit_reduction_build(
+        q, ambit_pair_want(AMBIT_METHOD(q->solver, j->solver), j->option), j->arena, &j->reduction, f);
   if (status != AMBIT_OK) return status;
   j->tried = ambit_arena_alloc(j->arena, q->ncandidate + 1);
   j->error = ambit_arena_alloc(j->arena, 2 * q->noutput * sizeof *j->error);
-  const char *const *name = names(j);
-  if (!j->tried || !j->error || !name) return ambit_no_memory(f);
+  if (!j->tried || !j->error) return ambit_no_memory(f);
   j->spare = j->error + q->noutput;
   ambit_reduction *r = &j->reduction;
   r->prove = prove, r->rank = rank, r->tried = tried, r->user = j;
-  j->problem = (ambit_problem) { .size = sizeof j->problem,
-    .nx = (uint32_t)q->nx,
-    .np = (uint32_t)q->ndata,
-    .uses_time = 1,
-    .name = name,
-    .nworker = 1,
-    .reduction = r };
   status = ambit_context_open(q->registry, j->arithmetic, 0, NULL, 0, &j->context, f);
-  j->problem.arithmetic = j->context.arithmetic;
-  j->problem.actx = j->context.ctx;
+  r->nx = (uint32_t)q->nx, r->arithmetic = j->context.arithmetic, r->actx = j->context.ctx;
   return status;
 }
 
@@ -231,7 +189,7 @@ static ambit_status run(job *j, ambit_failure *f) {
   ambit_sink silent = { sizeof silent, emit, progress };
   double begun = ambit_context_seconds();
   ambit_stage_enter("open", AMBIT_FRAME_SOLVER, j->q->solver);
-  ambit_status status = j->solver->open(&j->scope->host, &j->problem, j->option, &self);
+  ambit_status status = j->solver->open(&j->scope->host, &j->reduction, j->option, &self);
   ambit_stage_leave();
   j->tally.open = ambit_context_seconds() - begun;
   if (status != AMBIT_OK) {

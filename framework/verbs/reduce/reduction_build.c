@@ -143,7 +143,7 @@ static ambit_status seal_all(build *b, uint32_t want, ambit_failure *f) {
   const ambit_reduction_request *q = b->q;
   ambit_reduction *r = b->r;
   ambit_status status = q->neffect ? seal(b, q->neffect, b->effect, &r->effect, f) : AMBIT_OK;
-  if (status != AMBIT_OK || !(want & AMBIT_WANT_JACOBIAN)) return status;
+  if (status != AMBIT_OK || !(want & AMBIT_STRATEGY_WANT_SLOPES)) return status;
   status = seal(b, q->nx, b->rate, &r->rates, f);
   if (status == AMBIT_OK) status = seal(b, q->noutput, b->output, &r->output_value, f);
   if (status == AMBIT_OK) status = differentiate(b, q->nx, b->rate, &r->jacobian, f);

@@ -24,10 +24,10 @@ typedef struct job {
   const ambit_roots_request *q;
   ambit_arena *arena;
   ambit_ready ready;
-  const ambit_solver *solver;
+  const ambit_root_finder *solver;
   char arithmetic[AMBIT_NAME_MAX];
   uint32_t seal;
-  ambit_problem problem;
+  ambit_root_problem problem;
   ambit_context context;
   ambit_scope *scope;
   double *option;
@@ -67,12 +67,6 @@ static ambit_status check_count(const job *j, ambit_failure *f) {
   return ambit_fail(f, AMBIT_INVALID,
       "%zu equation%s cannot fix %zu unknowns (%s): take %zu of them out of `box` and give values in `at`", ne,
       ne == 1 ? "" : "s", nx, list, nx - ne);
-}
-
-/* Names of the installed solvers that find roots; only for a message. */
-static ambit_status refuse_solver(const ambit_roots_request *q, const ambit_solver *solver, ambit_failure *f) {
-  return ambit_fail(f, AMBIT_INVALID, "solver `%s` %s; it does not find roots (" AMBIT_DEFAULT_ROOTS " does)",
-      q->solver, solver->solves == AMBIT_SOLVES_REDUCTION ? "chooses what ambit.reduce leaves out" : "integrates");
 }
 
 /* -- which equations */
@@ -121,7 +115,7 @@ static ambit_status choose_rows(job *j, ambit_failure *f) {
 /* -- the problem */
 
 static ambit_status copy_ranges(job *j, ambit_failure *f) {
-  ambit_problem *p = &j->problem;
+  ambit_root_problem *p = &j->problem;
   double *lo = ambit_arena_alloc(j->arena, (p->nx + p->np + 1u) * sizeof *lo);
   double *hi = ambit_arena_alloc(j->arena, (p->nx + p->np + 1u) * sizeof *hi);
   if (!lo || !hi) return ambit_no_memory(f);
@@ -129,41 +123,40 @@ static ambit_status copy_ranges(job *j, ambit_failure *f) {
     ambit_interval x = i < p->nx ? j->q->box[i] : j->ready.p[i - p->nx];
     lo[i] = x.lo, hi[i] = x.hi;
   }
-  p->x0_lo = lo, p->x0_hi = hi;
-  p->p_lo = p->u_lo = lo + p->nx, p->p_hi = p->u_hi = hi + p->nx;
+  p->x_lo = lo, p->x_hi = hi;
+  p->p_lo = lo + p->nx, p->p_hi = hi + p->nx;
   return AMBIT_OK;
 }
 
 static ambit_status build_problem(job *j, uint32_t want, ambit_failure *f) {
   const ambit_ready *r = &j->ready;
-  ambit_problem *p = &j->problem;
-  *p = (ambit_problem) {
-    .size = sizeof *p, .nx = (uint32_t)r->nx, .np = (uint32_t)r->np, .nu = (uint32_t)r->np, .name = r->name
+  ambit_root_problem *p = &j->problem;
+  *p = (ambit_root_problem) {
+    .size = sizeof *p, .nx = (uint32_t)r->nx, .np = (uint32_t)r->np, .implied = is_implied(j), .name = r->name
   };
   size_t further = r->ne - r->nx;
-  if (is_implied(j)) p->extras = AMBIT_EXTRA_IMPLIED;
   ambit_status status = copy_ranges(j, f);
-  if (status == AMBIT_OK) status = ambit_equations_seal(r, r->nx, r->equation, j->seal, &p->rhs, f);
-  if (status == AMBIT_OK && (want & AMBIT_WANT_JACOBIAN))
+  if (status == AMBIT_OK) status = ambit_equations_seal(r, r->nx, r->equation, j->seal, &p->f, f);
+  if (status == AMBIT_OK && (want & AMBIT_ROOT_WANT_JACOBIAN))
     status = ambit_equations_differentiate(r, r->nx, r->equation, 0, r->nx, j->seal, &p->jacobian, f);
   ambit_failure kink = { 0 }; /* of |p|: then there is none */
-  if (status == AMBIT_OK && (want & AMBIT_WANT_SLOPE) && r->np)
+  if (status == AMBIT_OK && (want & AMBIT_ROOT_WANT_SLOPE) && r->np)
     ambit_equations_differentiate(r, r->nx, r->equation, r->nx, r->np, j->seal, &p->slope, &kink);
-  if (status == AMBIT_OK && (want & AMBIT_WANT_INVARIANT) && further) {
-    p->ninvariant = (uint32_t)further;
-    status = ambit_equations_seal(r, further, r->equation + r->nx, j->seal, &p->invariant, f);
+  if (status == AMBIT_OK && (want & AMBIT_ROOT_WANT_FURTHER) && further) {
+    p->nfurther = (uint32_t)further;
+    status = ambit_equations_seal(r, further, r->equation + r->nx, j->seal, &p->further, f);
   }
-  ambit_share_note(p->rhs, "equations", p->nx, NULL);
+  ambit_share_note(p->f, "equations", p->nx, NULL);
   ambit_share_note(p->jacobian, "Jacobian", p->nx, NULL);
   return status;
 }
 
 static ambit_status find_solver(job *j, ambit_failure *f) {
   const ambit_roots_request *q = j->q;
-  ambit_status status = ambit_registry_solver(q->registry, q->solver, &j->solver, f);
-  if (status == AMBIT_OK && j->solver->solves != AMBIT_SOLVES_ROOTS) status = refuse_solver(q, j->solver, f);
-  if (status == AMBIT_OK)
-    status = ambit_pair_choose(q->registry, q->solver, j->solver, q->arithmetic, j->arithmetic, f);
+  ambit_status status = ambit_pair_offers(q->registry, q->solver, AMBIT_ROOT_FINDER, f);
+  if (status == AMBIT_OK) status = ambit_registry_root_finder(q->registry, q->solver, &j->solver, f);
+  if (status != AMBIT_OK) return status;
+  status = ambit_pair_choose(q->registry, AMBIT_METHOD(q->solver, j->solver), q->arithmetic, j->arithmetic, f);
   if (status == AMBIT_OK) status = ambit_context_scope(q->registry, &j->scope, f);
   if (status != AMBIT_OK) return status;
   ambit_failure own = { 0 };
@@ -183,7 +176,7 @@ static ambit_status prepare(job *j, ambit_failure *f) {
   if (status == AMBIT_OK) status = check_count(j, f);
   if (status == AMBIT_OK) status = find_solver(j, f);
   if (status == AMBIT_OK) status = choose_rows(j, f);
-  if (status == AMBIT_OK) status = build_problem(j, ambit_pair_want(j->solver, j->option), f);
+  if (status == AMBIT_OK) status = build_problem(j, ambit_pair_want(AMBIT_METHOD(q->solver, j->solver), j->option), f);
   if (status != AMBIT_OK) return status;
   return ambit_context_open(q->registry, j->arithmetic, q->narithmetic_option, q->arithmetic_option,
       j->problem.nx + j->problem.np, &j->context, f);
@@ -275,7 +268,7 @@ static ambit_status run(job *j, ambit_roots_result *result, ambit_failure *f) {
   j->problem.arithmetic = j->context.arithmetic;
   j->problem.actx = j->context.ctx;
   result->rigorous = j->solver->needs_rigorous && j->context.arithmetic->rigorous;
-  result->further = is_implied(j) ? 0 : j->problem.ninvariant;
+  result->further = is_implied(j) ? 0 : j->problem.nfurther;
   double begun = ambit_context_seconds();
   ambit_stage_enter("open", AMBIT_FRAME_SOLVER, j->q->solver);
   ambit_status status = j->solver->open(&j->scope->host, &j->problem, j->option, &self);
@@ -302,15 +295,15 @@ static ambit_status run(job *j, ambit_roots_result *result, ambit_failure *f) {
 }
 
 static void fill_report(const job *j, const ambit_roots_result *result, ambit_report *report) {
-  const ambit_problem *p = &j->problem;
+  const ambit_root_problem *p = &j->problem;
   *report = (ambit_report) { .expressions = (uint32_t)j->q->equations->ne };
   snprintf(report->arithmetic, sizeof report->arithmetic, "%.31s", j->arithmetic);
   snprintf(report->solver, sizeof report->solver, "%.31s", j->q->solver);
   report->graph_nodes = ambit_graph_made(j->q->equations->graph);
-  ambit_report_count(report, p->rhs);
+  ambit_report_count(report, p->f);
   ambit_report_count(report, p->jacobian);
   ambit_report_count(report, p->slope);
-  ambit_report_count(report, p->invariant);
+  ambit_report_count(report, p->further);
   report->states = p->nx;
   report->parameters = report->unknowns = p->np;
   report->steps = result->boxes;

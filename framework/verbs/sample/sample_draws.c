@@ -115,15 +115,14 @@ static ambit_status build(ambit_draws *d, uint32_t want, ambit_failure *f) {
 
 static ambit_status prepare(ambit_draws *d, const ambit_draws_request *request, ambit_failure *f) {
   const ambit_simulate_request *q = d->q;
-  ambit_status status = ambit_registry_solver(q->registry, d->solver_name, &d->solver, f);
-  if (status == AMBIT_OK && d->solver->solves != AMBIT_SOLVES_FLOW)
-    return ambit_fail(f, AMBIT_INVALID, "solver `%s` %s and does not advance in time; `sample` needs one that does",
-        d->solver_name, d->solver->solves == AMBIT_SOLVES_ROOTS ? "finds roots" : "is for ambit.reduce");
-  if (status == AMBIT_OK)
-    status = ambit_pair_choose(q->registry, d->solver_name, d->solver, q->arithmetic, d->arithmetic, f);
+  ambit_status status = ambit_pair_offers(q->registry, d->solver_name, AMBIT_SOLVER, f);
+  if (status == AMBIT_OK) status = ambit_registry_solver(q->registry, d->solver_name, &d->solver, f);
+  if (status != AMBIT_OK) return status;
+  ambit_method method = AMBIT_METHOD(d->solver_name, d->solver);
+  status = ambit_pair_choose(q->registry, method, q->arithmetic, d->arithmetic, f);
   if (status == AMBIT_OK) status = read_options(d, request, f);
   if (status != AMBIT_OK) return status;
-  uint32_t want = ambit_pair_want(d->solver, d->option);
+  uint32_t want = ambit_pair_want(method, d->option);
   status = build(d, want, f);
   return status == AMBIT_OK ? open_drawers(d, request->threads, want, f) : status;
 }

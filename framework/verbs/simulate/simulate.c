@@ -100,14 +100,13 @@ static ambit_status build(job *j, uint32_t want, uint32_t seal, ambit_failure *f
 
 static ambit_status prepare(job *j, ambit_failure *f) {
   const ambit_simulate_request *q = j->q;
-  ambit_status status = ambit_registry_solver(q->registry, q->solver, &j->solver, f);
-  if (status == AMBIT_OK)
-    status = ambit_pair_choose(q->registry, q->solver, j->solver, q->arithmetic, j->arithmetic, f);
+  ambit_status status = ambit_pair_offers(q->registry, q->solver, AMBIT_SOLVER, f);
+  if (status == AMBIT_OK) status = ambit_registry_solver(q->registry, q->solver, &j->solver, f);
+  if (status != AMBIT_OK) return status;
+  ambit_method method = AMBIT_METHOD(q->solver, j->solver);
+  status = ambit_pair_choose(q->registry, method, q->arithmetic, j->arithmetic, f);
   if (status == AMBIT_OK) status = ambit_context_scope(q->registry, &j->scope, f);
   if (status != AMBIT_OK) return status;
-  if (j->solver->solves != AMBIT_SOLVES_FLOW)
-    return ambit_fail(f, AMBIT_INVALID, "solver `%s` %s and does not advance in time; `simulate` needs one that does",
-        q->solver, j->solver->solves == AMBIT_SOLVES_ROOTS ? "finds roots" : "is for ambit.reduce");
   ambit_failure own = { 0 };
   j->option =
       ambit_context_options(j->scope, j->solver->param, "solver", q->solver, q->nsolver_option, q->solver_option, &own);
@@ -115,7 +114,7 @@ static ambit_status prepare(job *j, ambit_failure *f) {
   const ambit_arithmetic *arithmetic;
   status = ambit_registry_arithmetic(q->registry, j->arithmetic, &arithmetic, f);
   if (status != AMBIT_OK) return status;
-  uint32_t want = ambit_pair_want(j->solver, j->option);
+  uint32_t want = ambit_pair_want(method, j->option);
   j->splits = is_split(q);
   uint32_t written = want & AMBIT_WANT_SERIES ? AMBIT_SEAL_WRITE_FUNCTIONS | AMBIT_SEAL_WRITE_PAIRS : 0;
   status = build(j, want, ambit_arithmetic_seal(arithmetic) | written, f);

@@ -100,7 +100,7 @@ static int passes(krawczyk *k, span *x) {
   return krawczyk_contract(k, k->left);
 }
 
-static int is_implied(const krawczyk *k) { return (k->problem.extras & AMBIT_EXTRA_IMPLIED) != 0; }
+static int is_implied(const krawczyk *k) { return k->problem.implied != 0; }
 
 static void add_piece(krawczyk *k, const span *x, const span *around) {
   uint32_t piece = k->proved.count;

@@ -22,7 +22,7 @@ int krawczyk_matrix(const krawczyk *k, ambit_lane *lane, const span *x, matrix M
   return evaluate(k, lane, x, M.lo, M.hi, 1);
 }
 
-int krawczyk_vector(krawczyk *k, const span *x, span *f) { return evaluate(k, &k->rhs, x, &f->lo, &f->hi, 2); }
+int krawczyk_vector(krawczyk *k, const span *x, span *f) { return evaluate(k, &k->equations, x, &f->lo, &f->hi, 2); }
 
 uint32_t krawczyk_inspect(const krawczyk *k, const span *x) {
   for (uint32_t i = 0; i < k->m; i++) k->in_lo[i] = x[i].lo, k->in_hi[i] = x[i].hi;

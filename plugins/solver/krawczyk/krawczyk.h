@@ -11,7 +11,7 @@
 #include <ambit/block.h>
 #include <ambit/contract.h>
 #include <ambit/num.h>
-#include <ambit/solver.h>
+#include <ambit/root_finder.h>
 
 typedef struct span {
   double lo, hi;
@@ -55,16 +55,16 @@ typedef struct gap {
 
 typedef struct krawczyk {
   const ambit_host *host;
-  ambit_problem problem;
+  ambit_root_problem problem;
   const ambit_num_service *num;
   const ambit_contract_service *contract;
   ambit_work *counted;
   options options;
-  uint32_t n, np, m;               /* m = n + np */
-  ambit_lane rhs, jacobian, slope; /* f, df/dx, df/dp */
-  ambit_contractor *shape;         /* of f */
-  ambit_contractor *further;       /* of the further equations, or NULL */
-  span *searched;                  /* [m] */
+  uint32_t n, np, m;                     /* m = n + np */
+  ambit_lane equations, jacobian, slope; /* f, df/dx, df/dp */
+  ambit_contractor *shape;               /* of f */
+  ambit_contractor *further;             /* of the further equations, or NULL */
+  span *searched;                        /* [m] */
 
   /* -- the Newton operator */
   span *mid, *f, *f_mid, *b, *shift, *z, *row; /* [n]; mid [m] */
@@ -100,7 +100,7 @@ typedef struct krawczyk {
 } krawczyk;
 
 /* memory.c */
-ambit_status krawczyk_open(const ambit_host *h, const ambit_problem *p, const double *option, void **self);
+ambit_status krawczyk_open(const ambit_host *h, const ambit_root_problem *p, const double *option, void **self);
 void krawczyk_close(void *self);
 
 /* inverse.c: C := roughly the inverse of M [n x n], which is destroyed; 0: M seems singular. */

@@ -100,11 +100,10 @@ static int is_box(const double *lo, const double *hi, uint32_t n) {
   return 1;
 }
 
-static ambit_status check_problem(const ambit_host *h, const ambit_problem *p) {
+static ambit_status check_problem(const ambit_host *h, const ambit_root_problem *p) {
   if (!p->nx) return h->fail(h, AMBIT_INVALID, "there are no unknowns");
-  if (!p->rhs || !p->jacobian || p->uses_time || p->rhs->nout != p->nx)
-    return h->fail(h, AMBIT_INVALID, "the problem is not one of roots");
-  if (!is_box(p->x0_lo, p->x0_hi, p->nx) || !is_box(p->p_lo, p->p_hi, p->np))
+  if (!p->f || !p->jacobian || p->f->nout != p->nx) return h->fail(h, AMBIT_INVALID, "the problem is not one of roots");
+  if (!is_box(p->x_lo, p->x_hi, p->nx) || !is_box(p->p_lo, p->p_hi, p->np))
     return h->fail(h, AMBIT_INVALID, "the box is empty");
   for (uint32_t i = 0; i < p->np; i++)
     if (!isfinite(p->p_lo[i]) || !isfinite(p->p_hi[i]))
@@ -113,30 +112,30 @@ static ambit_status check_problem(const ambit_host *h, const ambit_problem *p) {
 }
 
 static void copy_boxes(krawczyk *k) {
-  const ambit_problem *p = &k->problem;
-  for (uint32_t i = 0; i < k->n; i++) k->searched[i] = (span) { p->x0_lo[i], p->x0_hi[i] };
+  const ambit_root_problem *p = &k->problem;
+  for (uint32_t i = 0; i < k->n; i++) k->searched[i] = (span) { p->x_lo[i], p->x_hi[i] };
   for (uint32_t i = 0; i < k->np; i++) k->searched[k->n + i] = (span) { p->p_lo[i], p->p_hi[i] };
 }
 
 static ambit_status open_tapes(krawczyk *k) {
-  const ambit_problem *p = &k->problem;
+  const ambit_root_problem *p = &k->problem;
   const ambit_host *h = k->host;
-  ambit_status status = ambit_lane_open(&k->rhs, h, p->rhs, p->arithmetic, p->actx);
+  ambit_status status = ambit_lane_open(&k->equations, h, p->f, p->arithmetic, p->actx);
   if (status == AMBIT_OK) status = ambit_lane_open(&k->jacobian, h, p->jacobian, p->arithmetic, p->actx);
   if (status == AMBIT_OK && p->slope) status = ambit_lane_open(&k->slope, h, p->slope, p->arithmetic, p->actx);
-  if (status == AMBIT_OK) status = k->contract->open(h, p->rhs, &k->shape);
-  if (status == AMBIT_OK && p->ninvariant) status = k->contract->open(h, p->invariant, &k->further);
+  if (status == AMBIT_OK) status = k->contract->open(h, p->f, &k->shape);
+  if (status == AMBIT_OK && p->nfurther) status = k->contract->open(h, p->further, &k->further);
   return status;
 }
 
 void krawczyk_close(void *self) {
   krawczyk *k = self;
-  ambit_lane_close(&k->rhs);
+  ambit_lane_close(&k->equations);
   ambit_lane_close(&k->jacobian);
   ambit_lane_close(&k->slope);
 }
 
-ambit_status krawczyk_open(const ambit_host *h, const ambit_problem *p, const double *option, void **self) {
+ambit_status krawczyk_open(const ambit_host *h, const ambit_root_problem *p, const double *option, void **self) {
   krawczyk *k = h->alloc(h, sizeof *k);
   if (!k) return h->fail(h, AMBIT_NOMEM, "out of memory");
   memcpy(&k->problem, p, p->size < sizeof k->problem ? p->size : sizeof k->problem);

@@ -16,18 +16,19 @@ static const ambit_param param[] = {
   { NULL, NULL, NULL, NULL, NULL },
 };
 
-static const ambit_solver solver = {
-  .size = sizeof solver,
-  .want = AMBIT_WANT_RHS | AMBIT_WANT_JACOBIAN | AMBIT_WANT_SLOPE | AMBIT_WANT_INVARIANT,
+static const ambit_root_finder root_finder = {
+  .size = sizeof root_finder,
+  .want = AMBIT_ROOT_WANT_JACOBIAN | AMBIT_ROOT_WANT_SLOPE | AMBIT_ROOT_WANT_FURTHER,
   .needs_rigorous = 1,
   .param = param,
   .open = krawczyk_open,
   .run = krawczyk_run,
   .close = krawczyk_close,
-  .solves = AMBIT_SOLVES_ROOTS,
 };
 
-static const void *get(const char *interface_id) { return strcmp(interface_id, AMBIT_SOLVER) == 0 ? &solver : NULL; }
+static const void *get(const char *interface_id) {
+  return strcmp(interface_id, AMBIT_ROOT_FINDER) == 0 ? &root_finder : NULL;
+}
 
 const ambit_plugin ambit_entry = { sizeof ambit_entry, AMBIT_ABI, "solver.krawczyk", "1.0",
   "Finds and proves all roots of n equations in n unknowns in a box, for every value of uncertain data: interval "

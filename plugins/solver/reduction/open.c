@@ -93,13 +93,11 @@ void reduce_close(void *self) {
   for (size_t i = 0; i < sizeof all / sizeof *all; i++) table_close(all[i]);
 }
 
-ambit_status reduce_open(const ambit_host *h, const ambit_problem *p, const double *option, void **self) {
+ambit_status reduce_open(const ambit_host *h, const ambit_reduction *r, const double *option, void **self) {
   reducer *s = h->alloc(h, sizeof *s);
   if (!s) return h->fail(h, AMBIT_NOMEM, "out of memory");
-  memcpy(&s->problem, p, p->size < sizeof s->problem ? p->size : sizeof s->problem);
-  const ambit_reduction *r = s->problem.reduction;
-  if (r) memcpy(&s->r, r, r->size < sizeof s->r ? r->size : sizeof s->r);
-  s->host = h, s->nx = p->nx;
+  memcpy(&s->r, r, r->size < sizeof s->r ? r->size : sizeof s->r);
+  s->host = h, s->nx = r->nx;
   for (uint32_t k = 0; k < s->r.nreference; k++)
     if (s->r.reference[k].ntime > s->longest) s->longest = s->r.reference[k].ntime;
   ambit_status status = reduce_options(h, option, &s->options);

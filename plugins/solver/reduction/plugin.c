@@ -80,12 +80,12 @@ static ambit_status run(void *self, ambit_sink *sink) {
 static uint32_t want_for(const double *option) {
   options o;
   read_options(option, &o);
-  return reduce_wants(&o, AMBIT_RANK_ONE_STEP) || reduce_wants(&o, AMBIT_RANK_ADJOINT) ? AMBIT_WANT_JACOBIAN : 0;
+  return reduce_wants(&o, AMBIT_RANK_ONE_STEP) || reduce_wants(&o, AMBIT_RANK_ADJOINT) ? AMBIT_STRATEGY_WANT_SLOPES : 0;
 }
 
-static const ambit_solver interface = {
+static const ambit_strategy interface = {
   .size = sizeof interface,
-  .want = AMBIT_WANT_JACOBIAN,
+  .want = AMBIT_STRATEGY_WANT_SLOPES,
   .needs_rigorous = 0,
   .arithmetics = "real",
   .param = param,
@@ -93,10 +93,11 @@ static const ambit_solver interface = {
   .run = run,
   .close = reduce_close,
   .want_for = want_for,
-  .solves = AMBIT_SOLVES_REDUCTION,
 };
 
-static const void *get(const char *interface_id) { return strcmp(interface_id, AMBIT_SOLVER) == 0 ? &interface : NULL; }
+static const void *get(const char *interface_id) {
+  return strcmp(interface_id, AMBIT_STRATEGY) == 0 ? &interface : NULL;
+}
 
 const ambit_plugin ambit_entry = { sizeof ambit_entry, AMBIT_ABI, "solver.reduction", "1.0",
   "Chooses which terms a model may leave out: ranks them by their effect (residual, one implicit step, adjoint, each "

@@ -6,7 +6,7 @@
 #ifndef REDUCE_H
 #define REDUCE_H
 #include <ambit/block.h>
-#include <ambit/solver.h>
+#include <ambit/reduction.h>
 
 enum norm { NORM_RMS, NORM_MAX };
 enum strategy { STRATEGY_CLUSTERS, STRATEGY_PREDICTED };
@@ -52,7 +52,6 @@ typedef struct cluster {
 
 typedef struct reducer {
   const ambit_host *host;
-  ambit_problem problem;
   ambit_reduction r;
   options options;
   ambit_sink *sink;
@@ -84,7 +83,7 @@ typedef struct reducer {
 ambit_status reduce_options(const ambit_host *h, const double *option, options *o);
 
 /* open.c */
-ambit_status reduce_open(const ambit_host *h, const ambit_problem *p, const double *option, void **self);
+ambit_status reduce_open(const ambit_host *h, const ambit_reduction *r, const double *option, void **self);
 void reduce_close(void *self);
 void *reduce_room(reducer *s, size_t n, size_t size); /* NULL: out of memory */
 int reduce_wants(const options *o, uint32_t ranking);

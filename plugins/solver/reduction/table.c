@@ -11,9 +11,9 @@ static void set_constants(table *t) {
 }
 
 ambit_status table_open(table *t, reducer *s, const ambit_tape *tape, uint32_t width) {
-  const ambit_arithmetic *a = s->problem.arithmetic;
+  const ambit_arithmetic *a = s->r.arithmetic;
   if (!tape) return AMBIT_OK;
-  *t = (table) { .arithmetic = a, .ctx = s->problem.actx, .elem = a->elem(s->problem.actx), .width = width };
+  *t = (table) { .arithmetic = a, .ctx = s->r.actx, .elem = a->elem(s->r.actx), .width = width };
   size_t n = (size_t)tape->nslot * width;
   t->base = reduce_room(s, n, t->elem);
   t->lo = reduce_room(s, width, sizeof *t->lo);

@@ -491,8 +491,9 @@ static void choose(void) {
   for (size_t i = 0; i < FAULTS; i++)
     if (strcmp(faults[i].name, wanted) == 0) chosen->f = faults[i];
   chosen->conduct = conduct_of(wanted);
-  mutant_wrap(chosen->f.base ? chosen->f.base : "lohner", &chosen->base,
-      &(ambit_solver) { .open = open_liar, .run = run, .close = close_liar });
+  ambit_solver *own =
+      mutant_wrap(AMBIT_SOLVER, chosen->f.base ? chosen->f.base : "lohner", &chosen->base, sizeof chosen->base);
+  own->open = open_liar, own->run = run, own->close = close_liar;
 }
 
 AMBIT_EXPORT const ambit_plugin ambit_entry = { sizeof ambit_entry, AMBIT_ABI, "solver.flow_mutant", "1.0",

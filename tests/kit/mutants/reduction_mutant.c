@@ -2,6 +2,7 @@
 ** how they stop, or in their conduct. */
 #include "kit/mutants/mutant_conduct.h"
 #include "kit/mutants/solver_mutant.h"
+#include <ambit/reduction.h>
 #include <math.h>
 
 enum { CANDIDATES = 512 };
@@ -10,7 +11,6 @@ typedef struct liar {
   ambit_sink sink; /* first */
   ambit_sink *outer;
   const ambit_host *host;
-  ambit_problem problem;
   ambit_reduction own;
   const ambit_reduction *theirs;
   uint32_t tries, proofs, accepted, list[CANDIDATES];
@@ -23,7 +23,7 @@ typedef struct liar {
 typedef struct selection {
   const char *name;
   void (*conduct)(void);
-  ambit_solver base;
+  ambit_strategy base;
   uint64_t runs;
 } selection;
 
@@ -129,20 +129,19 @@ static int32_t progress(ambit_sink *s, double done, const char *message) {
 
 /* -- the plugin */
 
-static ambit_status open_liar(const ambit_host *h, const ambit_problem *p, const double *option, void **self) {
+static ambit_status open_liar(const ambit_host *h, const ambit_reduction *r, const double *option, void **self) {
   liar *l = h->alloc(h, sizeof *l);
   mutant_host *own = mutant_lend(h);
   if (!l || !own) return AMBIT_NOMEM;
   *self = l;
   chosen->runs++;
-  l->host = h, l->problem = *p, l->theirs = p->reduction, l->own = *p->reduction;
+  l->host = h, l->theirs = r, l->own = *r;
   if (l->own.ncandidate > CANDIDATES) return AMBIT_NOMEM;
   l->own.prove = prove, l->own.tried = tried, l->own.rank = rank, l->own.user = l;
   if (is("another answer the second time") && chosen->runs % 2 == 0) l->own.ncandidate -= l->own.ncandidate > 1;
   if (is("the last candidate is never tried") && l->own.ncandidate > 1) l->own.ncandidate--;
   if (is("from 20 candidates on the others are forgotten") && l->own.ncandidate > 20) l->own.ncandidate = 20;
-  l->problem.reduction = &l->own;
-  return chosen->base.open(&own->host, &l->problem, option, &l->inner);
+  return chosen->base.open(&own->host, &l->own, option, &l->inner);
 }
 
 static ambit_status run(void *self, ambit_sink *sink) {
@@ -189,7 +188,8 @@ static void choose(void) {
   chosen = calloc(1, sizeof *chosen);
   chosen->name = strdup(mutant_wanted());
   chosen->conduct = conduct_of(chosen->name);
-  mutant_wrap("reduction", &chosen->base, &(ambit_solver) { .open = open_liar, .run = run, .close = close_liar });
+  ambit_strategy *own = mutant_wrap(AMBIT_STRATEGY, "reduction", &chosen->base, sizeof chosen->base);
+  own->open = open_liar, own->run = run, own->close = close_liar;
 }
 
 AMBIT_EXPORT const ambit_plugin ambit_entry = { sizeof ambit_entry, AMBIT_ABI, "solver.reduction_mutant", "1.0",

@@ -2,6 +2,7 @@
 ** in how it ends, or in its conduct. */
 #include "kit/mutants/mutant_conduct.h"
 #include "kit/mutants/solver_mutant.h"
+#include <ambit/root_finder.h>
 #include <math.h>
 
 enum { ROOM = 4096, UNKNOWNS = 16 };
@@ -10,7 +11,7 @@ typedef struct liar {
   ambit_sink sink; /* first */
   ambit_sink *outer;
   const ambit_host *host;
-  ambit_problem problem;
+  ambit_root_problem problem;
   ambit_tape tape;
   uint32_t roots, out[ROOM];
   double constant_lo[ROOM], constant_hi[ROOM];
@@ -23,7 +24,7 @@ typedef struct liar {
 typedef struct selection {
   const char *name;
   void (*conduct)(void);
-  ambit_solver base;
+  ambit_root_finder base;
   uint64_t searches;
 } selection;
 
@@ -63,7 +64,7 @@ static void spoil_box(liar *l, ambit_record *r) {
   }
   if (is("a bound that is NaN") && l->roots == 1) l->hi[last] = NAN;
   if (is("an infinite bound") && l->roots == 1) l->hi[0] = INFINITY;
-  if (is("boxes beyond the searched one")) l->hi[0] = l->problem.x0_hi[0] + 1;
+  if (is("boxes beyond the searched one")) l->hi[0] = l->problem.x_hi[0] + 1;
   if (is("undecided boxes say unique")) r->event = AMBIT_ROOT_UNIQUE;
   if (is("unique boxes say undecided")) r->event = AMBIT_ROOT_UNDECIDED;
   if (is("boxes of an unknown kind")) r->event = 7;
@@ -119,13 +120,13 @@ static int32_t progress(ambit_sink *s, double done, const char *message) {
 
 /* -- equations */
 
-static void spoil_problem(liar *l, ambit_problem *p) {
-  l->tape = *p->rhs;
-  memcpy(l->out, p->rhs->out, p->rhs->nout * sizeof *l->out);
-  memcpy(l->constant_lo, p->rhs->lo, p->rhs->nconst * sizeof(double));
-  memcpy(l->constant_hi, p->rhs->hi, p->rhs->nconst * sizeof(double));
+static void spoil_problem(liar *l, ambit_root_problem *p) {
+  l->tape = *p->f;
+  memcpy(l->out, p->f->out, p->f->nout * sizeof *l->out);
+  memcpy(l->constant_lo, p->f->lo, p->f->nconst * sizeof(double));
+  memcpy(l->constant_hi, p->f->hi, p->f->nconst * sizeof(double));
   l->tape.out = l->out, l->tape.lo = l->constant_lo, l->tape.hi = l->constant_hi;
-  p->rhs = &l->tape;
+  p->f = &l->tape;
   uint32_t last = p->nx - 1;
   if (is("last equation taken twice from 3 unknowns on") && p->nx >= 3) l->out[0] = l->out[last];
   if (is("a constant off by 1e-7") && l->tape.nconst > 1) {
@@ -137,24 +138,24 @@ static void spoil_problem(liar *l, ambit_problem *p) {
   if (is("parameters of half their width"))
     for (uint32_t i = 0; i < p->np; i++) l->p_lo[i] = p->p_lo[i], l->p_hi[i] = 0.5 * p->p_lo[i] + 0.5 * p->p_hi[i];
   if (strstr(chosen->name, "parameters") && p->np) p->p_lo = l->p_lo, p->p_hi = l->p_hi;
-  memcpy(l->box_lo, p->x0_lo, p->nx * sizeof(double)), memcpy(l->box_hi, p->x0_hi, p->nx * sizeof(double));
+  memcpy(l->box_lo, p->x_lo, p->nx * sizeof(double)), memcpy(l->box_hi, p->x_hi, p->nx * sizeof(double));
   if (is("searches the upper half only")) l->box_lo[0] = 0.5 * (l->box_lo[0] + l->box_hi[0]);
   if (is("searches 90 % of the last unknown's range")) scale(&l->box_lo[last], &l->box_hi[last], 0.7);
   if (is("searches the middle only from 4 unknowns on") && p->nx >= 4)
     for (uint32_t i = 0; i < p->nx; i++) scale(&l->box_lo[i], &l->box_hi[i], 0.2);
-  p->x0_lo = l->box_lo, p->x0_hi = l->box_hi;
+  p->x_lo = l->box_lo, p->x_hi = l->box_hi;
 }
 
 /* -- the plugin */
 
-static ambit_status open_liar(const ambit_host *h, const ambit_problem *p, const double *option, void **self) {
+static ambit_status open_liar(const ambit_host *h, const ambit_root_problem *p, const double *option, void **self) {
   liar *l = h->alloc(h, sizeof *l);
   mutant_host *own = mutant_lend(h);
   if (!l || !own) return AMBIT_NOMEM;
   *self = l;
   chosen->searches++;
   l->host = h, l->problem = *p;
-  if (p->nx <= UNKNOWNS && p->np <= UNKNOWNS && p->rhs->nconst <= ROOM && p->rhs->nout <= ROOM)
+  if (p->nx <= UNKNOWNS && p->np <= UNKNOWNS && p->f->nconst <= ROOM && p->f->nout <= ROOM)
     spoil_problem(l, &l->problem);
   if (is("always gives up, with a reason"))
     return h->fail(h, AMBIT_UNABLE, "these equations are too hard for this method");
@@ -201,7 +202,8 @@ static void choose(void) {
   chosen = calloc(1, sizeof *chosen);
   chosen->name = strdup(mutant_wanted());
   chosen->conduct = conduct_of(chosen->name);
-  mutant_wrap("krawczyk", &chosen->base, &(ambit_solver) { .open = open_liar, .run = run, .close = close_liar });
+  ambit_root_finder *own = mutant_wrap(AMBIT_ROOT_FINDER, "krawczyk", &chosen->base, sizeof chosen->base);
+  own->open = open_liar, own->run = run, own->close = close_liar;
 }
 
 AMBIT_EXPORT const ambit_plugin ambit_entry = { sizeof ambit_entry, AMBIT_ABI, "solver.roots_mutant", "1.0",

@@ -63,19 +63,24 @@ static inline mutant_host *mutant_lend(const ambit_host *h) {
   return own;
 }
 
-/* -- the solver */
+/* -- the interface */
 
-static ambit_solver *mutant_solver; /* set once, when the object is loaded */
+static const char *mutant_interface;
+static void *mutant_offered; /* set once, when the object is loaded */
 
-static inline const void *mutant_get(const char *id) { return strcmp(id, AMBIT_SOLVER) == 0 ? mutant_solver : NULL; }
+static inline const void *mutant_get(const char *id) {
+  return strcmp(id, mutant_interface) == 0 ? mutant_offered : NULL;
+}
 
-/* Wraps the shipped solver of that name, which is copied to *base; ends the process if there is none. */
-static inline void mutant_wrap(const char *name, ambit_solver *base, const ambit_solver *own) {
-  const ambit_solver *honest = mutant_base(name, AMBIT_SOLVER);
-  mutant_solver = calloc(1, sizeof *mutant_solver);
-  if (!honest || !mutant_solver) exit(1);
-  memcpy(base, honest, honest->size < sizeof *base ? honest->size : sizeof *base);
-  *mutant_solver = *base;
-  mutant_solver->open = own->open, mutant_solver->run = own->run, mutant_solver->close = own->close;
+/* The interface `id` of the shipped solver of that name, copied to base [size]; another copy is what the mutant offers:
+** it is returned, for the faults. Ends the process if there is none. */
+static inline void *mutant_wrap(const char *id, const char *name, void *base, size_t size) {
+  const void *honest = mutant_base(name, id);
+  uint32_t own = 0;
+  mutant_interface = id, mutant_offered = calloc(1, size);
+  if (!honest || !mutant_offered) exit(1);
+  memcpy(&own, honest, sizeof own);
+  memcpy(base, honest, own < size ? own : size);
+  return memcpy(mutant_offered, base, size);
 }
 #endif

@@ -1,12 +1,15 @@
-/* reduction.h -- what a solver with AMBIT_SOLVES_REDUCTION works on: candidates for leaving something out of a model,
-** reference solutions to rank them by, and a way to prove what a choice of them costs.
+/* reduction.h -- "ambit.strategy/1": chooses what a model may leave out. It gets candidates, reference solutions to rank
+** them by, and a way to prove what a choice of them costs.
 **
-** The kernel owns formulas and proofs, the solver the strategy: in which order candidates are tried, how many at once,
+** The kernel owns formulas and proofs, the plugin the strategy: in which order candidates are tried, how many at once,
 ** which are undone. A candidate is a replacement of one term (or variable) of the equations; any subset of them makes a
 ** reduced model. */
 #ifndef AMBIT_REDUCTION_H
 #define AMBIT_REDUCTION_H
-#include "tape.h"
+#include "arithmetic.h"
+#include "record.h"
+
+#define AMBIT_STRATEGY "ambit.strategy/1"
 
 /* A solution of the detailed model at one value of its data, in ordinary doubles: for rankings, it proves nothing. */
 typedef struct ambit_reference {
@@ -27,7 +30,7 @@ typedef struct ambit_reference {
 #define AMBIT_PROVE_FULL 0u    /* as the user wants it proved: only this may accept */
 #define AMBIT_PROVE_LOWERED 1u /* cheaper: lowered order and coarser tolerance */
 
-/* What the solver did, in order: the undo log. */
+/* What the strategy did, in order: the undo log. */
 #define AMBIT_TRY_ACCEPTED 0u /* these stay cut; the kernel believes it only of what the last full proof was about */
 #define AMBIT_TRY_UNDONE 1u   /* error over a bound, or not proved; not tried again */
 #define AMBIT_TRY_HALVED 2u   /* undone as well, but several: they are divided, the two halves follow */
@@ -50,7 +53,7 @@ typedef struct ambit_reduction {
   ** rate of state effect_state[m]; rates without an entry are not changed. NULL: there are none */
   const ambit_tape *effect;
   const uint32_t *effect_candidate, *effect_state;
-  /* these four, if AMBIT_WANT_JACOBIAN is wanted */
+  /* these four, if AMBIT_STRATEGY_WANT_SLOPES is wanted */
   const ambit_tape *jacobian;        /* [nx x nx] df/dx by rows, or NULL where f has no derivative */
   const ambit_tape *output_jacobian; /* [noutput x nx] dy/dx, or NULL */
   const ambit_tape *rates;           /* [nx] f */
@@ -63,5 +66,23 @@ typedef struct ambit_reduction {
   void (*rank)(void *user, uint32_t ranking, const double *value); /* [ncandidate]; may be called for several */
   void (*tried)(void *user, const ambit_try *t);                   /* each decision, as it is made */
   void *user;
+  uint32_t nx, pad;
+  const ambit_arithmetic *arithmetic; /* completed: every run[] filled */
+  void *actx;                         /* its context, lent to this strategy until close */
 } ambit_reduction;
+
+#define AMBIT_STRATEGY_WANT_SLOPES 1u /* derivatives of rates and outputs: see ambit_reduction */
+
+typedef struct ambit_strategy {
+  uint32_t size, want; /* AMBIT_STRATEGY_WANT_* */
+  uint32_t needs_rigorous;
+  const char *arithmetics; /* as in ambit_solver */
+  const ambit_param *param;
+  /* [ctx] allocates everything here; `option` in declaration order, shapes flattened */
+  ambit_status (*open)(const ambit_host *h, const ambit_reduction *r, const double *option, void **self);
+  /* [ctx] decides about every candidate; no allocation inside; sink: progress only */
+  ambit_status (*run)(void *self, ambit_sink *s);
+  void (*close)(void *self);
+  uint32_t (*want_for)(const double *option); /* NULL: `want`; else what these options need */
+} ambit_strategy;
 #endif

@@ -1,8 +1,9 @@
-/* solver.h -- "ambit.solver/1": advances a problem in time, or finds the roots of one, and emits records. */
+/* solver.h -- "ambit.solver/1": advances a problem in time and emits records. Roots are found by <ambit/root_finder.h>,
+** what a model may leave out is chosen by <ambit/reduction.h>; one plugin may offer several. */
 #ifndef AMBIT_SOLVER_H
 #define AMBIT_SOLVER_H
 #include "arithmetic.h"
-#include "reduction.h"
+#include "record.h"
 
 #define AMBIT_SOLVER "ambit.solver/1"
 
@@ -30,23 +31,11 @@
 /* States may jump at instants that are known (ambit_problem.njump): a solver that does not say so is never given any. */
 #define AMBIT_WANT_JUMP 1024u
 
-/* What a solver solves. FLOW: x' = f from a start. ROOTS: f(x, p) = 0 with as many equations as unknowns x; rhs and
-** jacobian are those of f, x0 is the box to be searched, there is no time; invariant: further equations that a root
-** satisfies too, or absent. */
-#define AMBIT_SOLVES_FLOW 0u
-#define AMBIT_SOLVES_ROOTS 1u
-/* which parts of a model may be left out: everything is in `reduction`, in the problem's arithmetic (real); of the
-** rest only nx, np, name, uses_time are set; ends with what was accepted last; sink: progress only */
-#define AMBIT_SOLVES_REDUCTION 2u
-
 /* What the receiver of the records would like besides: a solver that can't, leaves it out; one that can, does so only
 ** where it is asked for. DENSE: the dense enclosure of each step. SET: the set at the end of each step as a function of the
 ** unknowns. */
 #define AMBIT_EXTRA_DENSE 1u
 #define AMBIT_EXTRA_SET 2u
-/* ROOTS: the further equations hold at every root of f that they do not exclude as soon as its enclosure is narrow
-** (redundant ones that single out some of isolated roots): they narrow and exclude, roots are proved by f alone */
-#define AMBIT_EXTRA_IMPLIED 4u
 
 /* A system in implicit form: unknowns a (accelerations, dependent speeds, multipliers) with R(x, a, p, t) = 0 and
 ** x' = F(x, a, p, t). They are solved for in stages: the equations of stage s are affine in the unknowns of stage s,
@@ -86,9 +75,8 @@ typedef struct ambit_problem {
   uint32_t nworker;                                 /* threads that "ambit.pool/1" lends, at least 1 */
   /* [nworker] contexts like actx, one for each thread; worker[0] is actx; NULL unless wanted */
   void *const *worker;
-  const ambit_reduction *reduction; /* AMBIT_SOLVES_REDUCTION; else NULL */
-  const ambit_implicit *implicit;   /* AMBIT_WANT_IMPLICIT; else NULL */
-  const char *const *unknown_name;  /* [nu] names of the data, for messages */
+  const ambit_implicit *implicit;  /* AMBIT_WANT_IMPLICIT; else NULL */
+  const char *const *unknown_name; /* [nu] names of the data, for messages */
   /* The last nvarying of the np parameters are functions of time: measurable, within [p_lo, p_hi] at almost all times,
   ** each the same wherever it occurs, nothing else is known of them. `initial` gives their ranges. */
   uint32_t nvarying;
@@ -104,52 +92,6 @@ typedef struct ambit_problem {
   double jump_error;
 } ambit_problem;
 
-/* A set of states that still knows what it depends on: for every u in the box of the unknowns, with
-** v_j = (u_j - about_j) / scale_j, |x_i(u) - sum_t coefficient[i * nterm + t] prod_j v_j^exponent[t * nu + j]| <=
-** rest_i. A run can be continued from it without losing what the states have in common. */
-typedef struct ambit_set {
-  uint32_t size, nu, nterm, pad;
-  const double *about, *scale; /* [nu]; scale > 0 */
-  const uint32_t *exponent;    /* [nterm x nu] */
-  const double *coefficient;   /* [nx x nterm] */
-  const double *rest;          /* [nx] */
-} ambit_set;
-
-/* Result record: header first, so that readers skip kinds they do not know. Enclosures hold for every solution on which
-** the invariants (if any) vanish. */
-#define AMBIT_REC_STEP 1u  /* a step from t_from to t_to */
-#define AMBIT_REC_EVENT 2u /* event number `event` happens within [t_from, t_to], ordered in time */
-/* a box [lo, hi] of the searched one; boxes without a root are not reported. `event`: AMBIT_ROOT_* */
-#define AMBIT_REC_ROOT 3u
-#define AMBIT_REC_SEARCHED 4u /* the search is over: `ncoef` boxes were looked at; nothing else is set */
-#define AMBIT_ROOT_UNDECIDED 0u
-/* for each value of the parameters one root in it, and no other but those of reported boxes that meet this one */
-#define AMBIT_ROOT_UNIQUE 1u
-#define AMBIT_ROOT_PARTLY 2u /* the same, but for a part of the values of the parameters only */
-typedef struct ambit_record {
-  uint32_t size, kind;
-  double t_from, t_to; /* s; t_to < t_from when integrating backwards */
-  uint32_t nx, flags, event, rigorous;
-  const double *lo, *hi;           /* [nx] at t_to; valid only during the call */
-  const double *tube_lo, *tube_hi; /* [nx] over the whole step, or NULL */
-  uint32_t order, ncoef;           /* order used (0 = none) */
-  /* AMBIT_EXTRA_DENSE: for s from 0 to t_to - t_from (s and the difference as real numbers),
-  ** x_i(t_from + s) in sum_{k < ndense} (dense_mid[i * ndense + k] +- dense_rad[i * ndense + k]) s^k
-  **   +- sum_{c < ncolumn} |sum_{k < ncoef_column} dense_column[(i * ncolumn + c) * ncoef_column + k] s^k|; or NULL.
-  ** Columns (ncoef_column <= ndense; there may be none) keep how what is uncertain grows and shrinks in the step. */
-  uint32_t ndense, ncolumn, ncoef_column, pad;
-  const double *dense_mid, *dense_rad, *dense_column;
-  const ambit_set *set; /* AMBIT_EXTRA_SET: the set at t_to, inside [lo, hi]; or NULL */
-} ambit_record;
-
-typedef struct ambit_sink ambit_sink;
-struct ambit_sink {
-  uint32_t size;
-  int32_t (*emit)(ambit_sink *s, const ambit_record *r); /* nonzero: stop, return AMBIT_STOPPED */
-  /* 0..1; nonzero: stop; call at least every step */
-  int32_t (*progress)(ambit_sink *s, double done, const char *message);
-};
-
 typedef struct ambit_solver {
   uint32_t size, want;     /* AMBIT_WANT_* */
   uint32_t needs_rigorous; /* 1: refuse an arithmetic that is not; 0: results prove nothing */
@@ -164,7 +106,6 @@ typedef struct ambit_solver {
   ambit_status (*run)(void *self, ambit_sink *s);
   void (*close)(void *self);
   uint32_t (*want_for)(const double *option); /* NULL: `want`; else what these options need */
-  uint32_t solves;                            /* AMBIT_SOLVES_* */
   /* Which options `ambit compare` tries: lists, separated by ';', of options, separated by blanks, with their values,
   ** separated by commas: "order=6,10,15; tolerance=1e-6,1e-10". NULL: about the defaults of `order` and `tolerance`. */
   const char *compared;
