@@ -510,6 +510,14 @@ function ambit.evaluate(t) end
 ---@field certain boolean every solution of the set crosses, exactly once
 ---@field reason string? why it is not certain
 
+---@class ambit.width_from
+---@field state string the state that is widest beside sampled motions
+---@field t number when: shortly before the run's end
+---@field factor number its width by that of sampled motions
+---@field shares { datum: string, share: number }[] what of the width goes with the datum at its middle, largest first
+---@field datum string? the datum with the largest share, if the run completes with it narrower,
+---@field tolerance string? and how narrow
+
 ---@class ambit.run
 ---@field status "complete"|"partial"|"impossible"|"unable"|"stopped"|"broken" partial: an event is not certain
 ---@field partial boolean may an event happen for a part of the data only?
@@ -524,6 +532,7 @@ function ambit.evaluate(t) end
 ---@field step_count integer
 ---@field solver string
 ---@field solver_reason string why this one was taken
+---@field width_from ambit.width_from? where the width of a run that ended early came from, by experiment
 ---@field overestimate number? estimate, not proved: widest enclosure by the hull of samples; nil: no uncertain data
 ---@field parts { solver: string, t_from: number, t: number }[] which solver made which part
 ---@field tried { solver: string, pieces: integer?, outcome: string }[]? who was asked, if the first choice was not good enough

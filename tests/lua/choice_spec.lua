@@ -140,6 +140,27 @@ describe("a run of the solver that suits", function()
     assert.equal("complete", narrow.status) -- the advice is true
   end)
 
+  it("that nobody completes says which datum the width came from, and with how much of it the run completes", function()
+    local function question(tolerance)
+      local system, initial = chain(2, "1e-7%")
+      initial.q1 = ambit.around(1, tolerance, "tilt")
+      return { system, initial = initial, t = { 0, 2.4 } }
+    end
+    local run = with_lohner_first(question "4%", "valencia")
+    assert.equal("unable", run.status)
+    local from = run.width_from
+    assert.equal("tilt", from and from.shares[1].datum, run.reason)
+    assert.is_true(from.shares[1].share > 0.9 and from.shares[2].share < 0.1)
+    assert.is_true(from.factor > 1)
+    assert.matches("`tilt` %(%+%-4 %%%) makes %d+ %% of that width", run.reason)
+    local percent = run.reason:match "with `tilt` %+%-([%d.e-]+) %%, `lohner` completes"
+    assert.is_truthy(percent, run.reason)
+    assert.is_true(tonumber(percent) < 4)
+    local narrow = question(percent .. "%")
+    narrow.solver = "lohner"
+    assert.equal("complete", ambit.simulate(narrow).status) -- the advice is true
+  end)
+
   it("leaves no records of tries that were not taken", function()
     local function lines(scene)
       local path, out = os.tmpname(), os.tmpname()

@@ -1,43 +1,24 @@
--- simulate/choice_reason.lua -- what is said where no solver came to the end: who was asked besides, and how much
--- narrower the data would have to be. Nothing is advised that was not tried.
+-- simulate/choice_reason.lua -- what is said where no solver came to the end: who was asked besides, where the width
+-- came from, and how much narrower the data would have to be. Nothing is advised that was not tried.
 local core = require "ambit.core"
-local flow = require "ambit.run.flow"
-local uncertain = require "ambit.run.uncertain"
+local experiment = require "ambit.simulate.experiment"
 
 local reason = {}
 
-local PARTS = { { 0.5, "half" }, { 0.25, "a quarter" }, { 0.1, "a tenth" }, { 0.01, "a hundredth" } } -- of the width
-local LEAST = 1 -- s of CPU time for all that is tried, if the tries of other solvers left less
+local PARTS = { { 0.01, "a hundredth" }, { 0.1, "a tenth" }, { 0.25, "a quarter" }, { 0.5, "half" } } -- of the width
+local LEAST, MORE = 2, 4 -- s of CPU time for all that is tried, and so many times what the run took
 
-local function uncertain_data(q)
-  local all = table.move(q.initial, 1, #q.initial, 1, {})
-  table.move(q.system.rates or {}, 1, #(q.system.rates or {}), #all + 1, all)
-  return uncertain.data(all)
-end
-
--- Does the solver come to the end with each datum cut to this part of its width, about its middle?
-local function completes(q, solver, part, data)
-  local own, lo, hi = q.by(solver), {}, {}
-  for j, a in ipairs(data.lo) do
-    local b = data.hi[j]
-    local mid, half = 0.5 * a + 0.5 * b, 0.5 * part * (b - a)
-    lo[j], hi[j] = math.max(a, mid - half), math.min(b, mid + half)
-  end
-  local _, outcome = core.watch(flow(own), { unknowns = data.unknowns, lo = lo, hi = hi })
-  return outcome.status == "complete"
-end
-
--- The widest of a few narrower data with which `solver` completes, as a sentence; nil: none was found in time.
-local function narrower(q, run, ends, within)
-  local data, found = {}, nil
-  data.unknowns, data.lo, data.hi = uncertain_data(q)
-  within(math.max(LEAST, ends - core.cpu()), function()
+-- The widest of a few narrower data with which `solver` completes, as a sentence; nil: none was found in time. Narrow
+-- ones first, which take least.
+local function narrower(q, run, seconds, within)
+  local data, found = experiment.data(q), nil
+  local function completes(part) return experiment.completes(q, run.solver, data, part) end
+  within(seconds, function()
     for _, part in ipairs(PARTS) do
-      if completes(q, run.solver, part[1], data) then
-        found = ("with data %s as wide, `%s` completes"):format(part[2], run.solver)
-        return
-      end
+      if not completes(part[1]) then break end
+      found = ("with data %s as wide, `%s` completes"):format(part[2], run.solver)
     end
+    found = found or completes(0) and ("with all data at their middles `%s` completes"):format(run.solver)
   end)
   return found
 end
@@ -62,13 +43,31 @@ local function not_asked(untried)
   return #list > 0 and "not tried, since the CPU time for this was spent: " .. table.concat(list, ", ") or nil
 end
 
+-- The run that got furthest with the data whole: cut data say little about each datum.
+local function furthest(state, run)
+  local best
+  for _, try in ipairs(state.tried) do
+    local from = run.times[1]
+    if not try.pieces and (not best or math.abs(try.run.t_reached - from) > math.abs(best.t_reached - from)) then
+      best = try.run
+    end
+  end
+  return best
+end
+
 -- Adds to the reason of a run that ended early. state: tried and untried ways, and when the CPU time for them ends;
 -- within(seconds, f): calls f with its CPU time limited.
 function reason.add(q, run, state, within)
   local function add(sentence) run.reason = sentence and run.reason .. "; " .. sentence or run.reason end
   add(besides(state.tried, run))
   add(not_asked(state.untried))
-  if run.report.unknowns > 0 then add(narrower(q, run, state.ends, within)) end
+  if run.report.unknowns == 0 then return end
+  local whole = furthest(state, run)
+  local ends = math.max(core.cpu() + LEAST + MORE * whole.cpu_seconds, state.ends)
+  local found, sentences = experiment.explain(q, whole, ends, within)
+  run.width_from = found
+  for _, sentence in ipairs(sentences) do add(sentence) end
+  if not (found and found.tolerance) then add(narrower(q, whole, math.max(0.5 * LEAST, ends - core.cpu()), within)) end
 end
 
 return reason
