@@ -99,6 +99,39 @@ describe("a sampled controller", function()
     assert.is_true(seen:contains "0.1" and seen:width() < 1e-11, tostring(seen))
   end)
 
+  it("has not leapt yet at the instant of a sample, listed or not, text or number", function()
+    for _, period in ipairs { { 1, 10 }, { 3, 10 }, { 1, 3 }, { 7, 100 } } do
+      local function at(k) return ("%d/%d"):format(k * period[1], period[2]) end
+      local count = ambit.sampled { period = at(1), outputs = { "u" }, memory = { n = 0 },
+        law = function(_, m) return m.n + 1, { n = m.n + 1 } end }
+      local plant = ambit.ode { states = { "x" }, sampled = count, equations = function(s) return { x = s.u } end }
+      local function holds(states, k)
+        local x = period[1] / period[2] * k * (k + 1) / 2
+        assert.is_true(states.u:contains(k) and states.u:width() < 1e-9, ("u at %s: %s"):format(at(k), tostring(states.u)))
+        assert.is_true(contains(states.x, x, 1e-14 * x) and states.x:width() < 1e-9, tostring(states.x))
+      end
+      local all = { 0 }
+      for k = 1, 30 do all[2 * k], all[2 * k + 1] = at(k), (k + 0.5) * period[1] / period[2] end
+      local last = period[1] / period[2] * 31
+      for _, t in ipairs { { 0, last }, { 0, at(4), at(30), last }, all } do
+        local run = complete { plant, initial = { x = 0 }, t = t, dense = true }
+        for k = 1, 30 do holds(run:at(at(k)), k) end
+        local both = run:at(ambit.interval(last / 31 * 7.5, last / 31 * 9.5)).u
+        assert.is_true(both.lo <= 8 and both.hi >= 10)
+      end
+      for _, k in ipairs { 1, 3, 6, 7 } do
+        holds(complete { plant, initial = { x = 0 }, t = { 0, at(k) } }.x, k)
+        holds(complete { plant, initial = { x = 0 }, t = { 0, k * period[1] / period[2] } }.x, k)
+        local function verdict(limit)
+          local g = function(s) return s.u - limit end
+          return ambit.verify { plant, initial = { x = 0, u = 1 }, t = at(k), safe = g, at_end = g }.status
+        end
+        assert.equal("proved", verdict(k + 0.5))
+        assert.equal("refuted", verdict(k - 0.5))
+      end
+    end
+  end)
+
   it("acts through torques of mechanisms", function()
     local arm = ambit.mechanism { "arm", gravity = { 0, "-9.81", 0 } }
     local frame, joint = arm:revolute { from = arm.world, axis = "z", name = "q" }

@@ -107,6 +107,17 @@ local function first_step(run, from)
   return i and number_of_step(run.track, is_end and i + 1 or i)
 end
 
+-- The same where states may leap: at an instant that cannot be told from a sample's they are those before it, which the
+-- steps that follow m know nothing of; at all times of a bracket, those on both sides.
+local function across_samples(run, start, from, to, m, t)
+  local way = t and start and moved(run, start, nil, from, to, m, t)
+  local first = not way and first_step(run, from)
+  local list, before = first and hull(run, first, from, to), known_at(run, from)
+  for k, x in ipairs(way and start or {}) do start[k] = x + way[k] end
+  for k, x in ipairs(list and before or {}) do list[k] = list[k]:hull(x) end
+  return way and start or list
+end
+
 -- { enclosure of each state }, or nil; from, to: on the clock, within the run, in its direction; m: in between, where
 -- the solver was asked to end a step; t: the instant whose bracket that is, nil: all times of it are meant.
 function bracket.values(run, from, to, m, t)
@@ -117,6 +128,7 @@ function bracket.values(run, from, to, m, t)
     if start then break end
   end
   if not run.rigorous and start then return start end
+  if run.system.sampled then return across_samples(run, start, from, to, m, t) end
   local first = first_step(run, from)
   local list = first and hull(run, first, from, to)
   local way = start and moved(run, start, list, from, to, m, t)

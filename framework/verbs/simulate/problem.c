@@ -419,11 +419,14 @@ static ambit_interval instant_of(const build *b, const ambit_jump *j, double k) 
 
 static bool meet(ambit_interval a, ambit_interval b) { return a.lo <= b.hi && b.lo <= a.hi; }
 
-/* a double in t, a listed instant if there is one */
+/* A double for a sample in t: the last listed instant if there is one, for which the states are those before it, as for
+** all earlier ones; else the last of all. */
 static double choose_double(const build *b, ambit_interval t, size_t *listed) {
   const double *time = b->q->time;
-  while (*listed < b->q->ntime && time[*listed] < t.lo) ++*listed;
-  return *listed < b->q->ntime && time[*listed] <= t.hi ? time[*listed] : ambit_interval_mid(t);
+  double last = t.hi;
+  for (; *listed < b->q->ntime && time[*listed] <= t.hi; ++*listed)
+    if (time[*listed] >= t.lo) last = time[*listed];
+  return last;
 }
 
 /* The next sample of each jump is at k[i]: puts the first of all in the schedule, of one instant if they are not told
