@@ -6,20 +6,30 @@
 #include <math.h>
 #include <stdio.h>
 
-#define FASTER 3    /* times what was covered in half as long before: not judged yet, as a run from rest gets faster */
 #define HOPELESS 20 /* times what a run has taken until now, that the rest of it would take */
 #define STEADY 0.5  /* of what was covered in the time before: a run that covers less is getting stuck */
+
+/* How long the rest will take, in parts of the time that `covered` took, for a run that is `faster` times as fast as in
+** the interval before: it gets faster by as much in each further one, as a run from rest does, whose first steps are
+** as short as its set is small. One that gets slower is taken to keep its pace. */
+static double rest_of(double left, double covered, double faster) {
+  if (!(faster > 1) || !(covered > 0)) return left / covered;
+  return log1p(left * (1 - 1 / faster) / covered) / log(faster);
+}
 
 static bool is_hopeless(ambit_pace *p) {
   if (!(p->patience > 0) || !p->has_moved) return false; /* pieces write nothing until all have passed an instant */
   double spent = ambit_context_seconds() - p->began;
-  if (!p->has_half && spent >= 0.5 * p->look) p->t_half = p->t, p->has_half = true;
+  if (!p->has_half && spent >= 0.5 * p->look) {
+    p->t_half = p->t, p->has_half = true;
+    if (spent >= p->look) p->look = 2 * spent; /* it has only just begun to move */
+  }
   if (spent < p->look) return p->is_hopeless;
   double covered = fabs(p->t - p->t_half), left = fabs(p->last - p->t), before = fabs(p->t_half - p->t_quarter);
-  bool is_faster = covered > 0 && covered >= FASTER * before;
-  p->is_hopeless = !is_faster && left * 0.5 * p->look > HOPELESS * spent * covered;
+  double as_long = p->has_quarter ? 2 : 1; /* times as long as `before` */
+  p->is_hopeless = rest_of(left, covered, covered / (as_long * before)) * 0.5 * p->look > HOPELESS * spent;
   p->look *= 2;
-  p->t_quarter = p->t_half;
+  p->t_quarter = p->t_half, p->has_quarter = true;
   p->t_half = p->t;
   return p->is_hopeless;
 }

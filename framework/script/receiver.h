@@ -8,7 +8,7 @@
 #include "script/track.h"
 
 /* Is a run so slow that its end is out of reach? Looked at when it has taken `patience`, twice that, and so on: the
-** time that it covered since half of that says how long the rest will take, but for a run that gets much faster.
+** time that it covered since half of that says how long the rest will take, and that before how much faster it gets.
 ** `due` is the CPU time that it may take without question: then it has twice that if it goes on steadily, as fast as
 ** before, and if the rest takes at most `reach` times what it has taken, and so on. */
 typedef struct ambit_pace {
@@ -18,7 +18,7 @@ typedef struct ambit_pace {
   double t_half;               /* the time that was reached at half of that, */
   double t_quarter;            /* and at a quarter */
   double due, reach, t_middle; /* s of CPU time, 0: never; the time that was reached at half of that */
-  bool has_moved, has_half, has_middle, is_hopeless, is_overdue;
+  bool has_moved, has_half, has_quarter, has_middle, is_hopeless, is_overdue;
 } ambit_pace;
 
 typedef struct ambit_receiver {

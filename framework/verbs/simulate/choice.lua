@@ -4,6 +4,7 @@
 --
 -- Every piece is a proof of its own; nothing here decides what is true, only who is asked next.
 local core = require "ambit.core"
+local ode = require "ambit.ode"
 local option = require "ambit.option"
 
 local choice = {}
@@ -20,6 +21,8 @@ local TOO_FAR = "unable.short_steps"
 local PIECES = { 8, 64 } -- into which the data are cut where every solver fails
 local DRAWS, MOST = 8, 128 -- draws of the hull for each datum, and at most
 local VISIBLE = 1e-6    -- width of a hull, in parts of its state, below which it is mostly rounding
+local NEGLIGIBLE = 1e-9 -- the same in parts of the largest state with the same unit: nobody sees a link move 1e-10 rad
+                        -- where others turn by 1
 local FURTHER = 1e-6    -- of the whole time, by which one run gets further than another
 local SHARE = 0.01      -- of a state's widest hull, below which its width at a time does not matter
 
@@ -52,16 +55,30 @@ local function widest_of(run, i)
   return widest
 end
 
+-- Of each state the width from which on it counts beside others that are measured in the same unit; size(i): how large
+-- state i is. Of states whose unit nobody said each counts for itself.
+local function least_widths(run, size)
+  local largest, least = {}, {}
+  for i in ipairs(run.states) do
+    local unit = ode.unit(run.system, i)
+    if unit then largest[unit] = math.max(largest[unit] or 0, size(i)) end
+  end
+  for i in ipairs(run.states) do least[i] = NEGLIGIBLE * (largest[ode.unit(run.system, i) or ""] or 0) end
+  return least
+end
+
 -- Are all sets at the end hardly wider than they are to first order in the data? Then they are tight, and nothing need
 -- be drawn to see it. A state that has come to rest, whose set was far wider before, does not count. A solver whose set
 -- is not a function of the data says nothing about it.
 local function is_plainly_tight(run)
   local linear = core.track_linear(run.track)
   if not linear then return false end
+  local least = least_widths(run, function(i) return run.x[run.states[i]]:mag() end)
   for i, name in ipairs(run.states) do
     local x = run.x[name]
     local width = x:width()
-    if width > VISIBLE * x:mag() and width > LOOSE * linear[i] and width >= SHARE * widest_of(run, i) then
+    local counts = width > VISIBLE * x:mag() and width > least[i]
+    if counts and width > LOOSE * linear[i] and width >= SHARE * widest_of(run, i) then
       return false
     end
   end
@@ -79,16 +96,21 @@ end
 -- The largest factor of width by sampled width, of which state, and when; nil: not known.
 local function worst(run, hull)
   local most, which, when
-  for i, name in ipairs(run.states) do
-    local widest, size = 0, 0
+  local widths, sizes = {}, {}
+  for i in ipairs(run.states) do
+    widths[i], sizes[i] = 0, 0
     for k = 2, #hull.t do
       local lo, hi = hull.lo[i][k], hull.hi[i][k]
-      widest, size = math.max(widest, hi - lo), math.max(size, math.abs(lo), math.abs(hi))
+      widths[i], sizes[i] = math.max(widths[i], hi - lo), math.max(sizes[i], math.abs(lo), math.abs(hi))
     end
+  end
+  local least = least_widths(run, function(i) return sizes[i] end)
+  for i, name in ipairs(run.states) do
+    local widest, size = widths[i], sizes[i]
     for k = 2, #hull.t do
       local step = tight_at(run, hull.t[k])
       local width = hull.hi[i][k] - hull.lo[i][k]
-      local factor = step and widest > VISIBLE * size and width >= SHARE * widest
+      local factor = step and widest > VISIBLE * size and widest > least[i] and width >= SHARE * widest
         and core.track_value(run.track, step, i):width() / width
       if factor and (not most or factor > most) then most, which, when = factor, name, hull.t[k] end
     end
