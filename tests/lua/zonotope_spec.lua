@@ -1,6 +1,7 @@
 -- Everything that stands on a flow, with the solver `zonotope`: each answer is compared with a formula, not with
 -- another solver of Ambit.
 local ambit = require "ambit"
+local core = require "ambit.core"
 local multibody = require "multibody"
 local between = ambit.between
 
@@ -416,6 +417,55 @@ end } }
       end
     end
     assert.is_true(run.x.x:width() < 0.01) -- in generators alone: 0.024
+  end)
+
+  -- Nothing moves: what the run ends with is how its start was read. Sets are held against the polynomials themselves
+  -- at drawn data, small rests included.
+  local function still(random, n, terms)
+    local data, rest, initial = {}, {}, {}
+    for k = 1, n do data[k] = ambit.between(-1 - k / 8, 1 + k / 7, "u" .. k) end
+    for i, name in ipairs { "a", "b" } do
+      rest[i] = ambit.between(-0.01, 0.02, "rest " .. name)
+      local sum = rest[i]
+      for _ = 1, terms do
+        local term = ambit.number(random(-100, 100) / 8)
+        for _ = 1, random(0, 3 + i // 2) do term = term * data[random(n)] end -- b: also of degree 4, which no row holds
+        sum = random(2) == 1 and sum + term or term - sum
+      end
+      initial[name] = sum
+    end
+    local product = data[1] * data[2] / 3
+    initial.b = initial.b - initial.b * "0.125" + product * product
+    local system = ambit.ode { states = { "a", "b" }, equations = function() return { a = 0, b = 0 } end }
+    return { system, initial = initial, t = { 0, 1 }, solver = "zonotope" }, data, rest
+  end
+
+  it("reads starts with thousands of terms, and with data that are little more than errors", function()
+    math.randomseed(5)
+    for _, size in ipairs { { 4, 20 }, { 29, 60 }, { 8, 1500 }, { 31, 900 } } do
+      local question, data, rest = still(math.random, size[1], size[2])
+      local run = ambit.simulate(question)
+      assert.equal("complete", run.status)
+      local set = run:set()
+      for draw = 1, 30 do
+        local leaves, values = table.move(data, 1, #data, 1, {}), {}
+        for k = 1, #data do
+          local lo, hi, share = -1 - k / 8, 1 + k / 7, math.random()
+          if draw % 2 == 0 then share = share < 0.5 and 0 or 1 end
+          values[k] = core.expression(share == 1 and hi or lo + (hi - lo) * share)
+        end
+        for i in ipairs(rest) do
+          leaves[#leaves + 1], values[#values + 1] = rest[i], core.expression(math.random(2) == 1 and -0.01 or 0.02)
+        end
+        local found = core.evaluate { expressions = { set.a, set.b }, leaves = leaves, values = values }
+        local truth = core.evaluate { expressions = { question.initial.a, question.initial.b }, leaves = leaves,
+          values = values }
+        for i in ipairs(found) do
+          assert.is_true(found[i].lo <= truth[i].hi and truth[i].lo <= found[i].hi, #data .. " data")
+        end
+        assert.is_true(found[1]:width() <= 0.0301) -- at most the rest and rounding
+      end
+    end
   end)
 
   it("has nearly all digits of long damped chains without data", function()

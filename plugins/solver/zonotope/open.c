@@ -10,7 +10,6 @@
 #define ORDER_MOST 40 /* that may be asked for */
 #define ORDER_HIGH 30 /* that is chosen */
 #define ORDER_LEAST 8
-#define SORTED 27   /* data: fewer are held all alike */
 #define HISTORY 60  /* generators kept for each state, */
 #define BOXES 40    /* without data: boxes of so many steps, */
 #define FEW 1200    /* and at least so many where something varies: what joining its columns leaves comes each step */
@@ -157,17 +156,17 @@ static ambit_status no_memory(const ambit_host *h) {
 static int may_wait(const zono *z) {
   const ambit_tape *t = z->program.tape;
   for (uint32_t i = 0; i < t->ninstr; i++)
-    if (is_kinked(t->op[i])) return z->m > 0 && !z->nvarying && z->problem.njump == 0;
+    if (is_kinked(t->op[i])) return 1;
   return 0;
 }
 
 /* an unproved run; then many data once more, in the order of how much they matter */
 static ambit_status look_ahead(zono *z) {
-  if (z->m <= SORTED && !may_wait(z)) return AMBIT_OK;
-  double *weight = doubles(z->host, z->problem.nu);
-  if (!weight) return AMBIT_NOMEM;
-  zono_pilot(z, weight);
-  return z->m > SORTED ? zono_start_open(z, weight) : AMBIT_OK;
+  int is_followed = z->m > 0 && !z->nvarying && z->problem.njump == 0;
+  double *weight = z->m > FOLLOWED ? doubles(z->host, z->problem.nu) : NULL;
+  if (z->m > FOLLOWED && !weight) return AMBIT_NOMEM;
+  if (weight || is_followed) zono_pilot(z, weight, is_followed && may_wait(z));
+  return weight ? zono_start_open(z, weight) : AMBIT_OK;
 }
 
 static ambit_status open_all(zono *z) {

@@ -37,6 +37,10 @@
 #include <ambit/ends.h>
 #include <math.h>
 
+#define FOLLOWED                                                                                                       \
+  27 /* data: where there are more, they are numbered by how much they matter, and those that hardly do
+                    ** are not followed */
+
 /* Why a step could not be made. */
 enum why {
   WHY_NOTHING,
@@ -92,6 +96,7 @@ typedef struct zono {
   struct basis *basis;   /* basis.c */
   /* -- the set */
   uint32_t *unknown;             /* [m] which of the problem's unknowns datum j is; AMBIT_NO_SLOT: the solver's own */
+  uint8_t *minor, *has_minor;    /* [nu] unknowns that are no data, but errors of their state; [nx] these; or NULL */
   double *about, *scale;         /* [m] datum j is about_j + scale_j xi_j; 0 and 1 of the solver's own */
   double *start;                 /* [nx x stride] P at time[0] */
   double *start_rad;             /* [nx] what is left of the initial value besides */
@@ -163,8 +168,10 @@ void zono_close(void *self);
 int zono_open_rows(zono *z);
 /* m, start, p_row from the initial tape; data in the order of the weights [nu] of their unknowns, or as they are */
 ambit_status zono_start_open(zono *z, const double *weight);
-void zono_start(zono *z);                 /* P, G, t as at time[0] */
-void zono_pilot(zono *z, double *weight); /* pilot.c: weight [nu] += how much each datum matters in the whole run */
+void zono_start(zono *z); /* P, G, t as at time[0] */
+/* pilot.c: weight [nu] += how much each datum matters in the whole run, or NULL; z->expected, of the whole run if states
+** may wait at rest */
+void zono_pilot(zono *z, double *weight, int may_wait);
 /* rows of all slots from P, E, p_row, t; z->K orders. 0: see z->why */
 int zono_series(zono *z);
 /* functions.c: row 0, row k > 0 of a quotient, root or elementary function; 0: undefined */
