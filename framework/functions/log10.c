@@ -20,28 +20,9 @@ static ambit_interval at(double x) {
 }
 
 static const ambit_interval factor = { 0x1.bcb7b1526e50ep-2, 0x1.bcb7b1526e50fp-2 };
-
-static void taylor(uint32_t n, ambit_interval x, ambit_interval *c) {
-  for (uint32_t k = 1; k <= n; k++) c[k] = ambit_interval_mul(factor, function_log_coefficient(x, k));
-}
-
-static double touch(double s) { return 0.43429448190325182 / s; }
-
-static ambit_interval inverse(ambit_interval r) {
-  return function_op(AMBIT_OP_EXP, ambit_interval_mul(r, function_op(AMBIT_OP_LOG, value_point(10))));
-}
-
-static ambit_expr slope(ambit_graph *g, ambit_expr e, ambit_expr a) {
-  (void)e;
-  ambit_expr ln10 = function_fold_one(g, AMBIT_OP_LOG, function_number(g, 10));
-  return function_fold(g, AMBIT_OP_DIV, AMBIT_ONE, function_fold(g, AMBIT_OP_MUL, a, ln10));
-}
-
-static ambit_expr written(ambit_graph *g, ambit_expr a, ambit_expr b) {
-  (void)b;
-  ambit_expr ln10 = function_make_one(g, AMBIT_OP_LOG, function_number(g, 10));
-  return function_make(g, AMBIT_OP_DIV, function_make_one(g, AMBIT_OP_LOG, a), ln10);
-}
+static const double touching = 0.43429448190325182;
+#define BASE 10
+#include "functions/log_base.h"
 
 const ambit_described ambit_function_log10 = { .facts = FACTS(AMBIT_CONCAVE, 0, INFINITY, 1, 0, touch),
   .latex = { .head = "\\log_{10}\\left(", .tail = "\\right)" },

@@ -12,28 +12,9 @@ static ambit_interval at(double x) {
 }
 
 static const ambit_interval factor = { 0x1.71547652b82fep+0, 0x1.71547652b82ffp+0 };
-
-static void taylor(uint32_t n, ambit_interval x, ambit_interval *c) {
-  for (uint32_t k = 1; k <= n; k++) c[k] = ambit_interval_mul(factor, function_log_coefficient(x, k));
-}
-
-static double touch(double s) { return 1.4426950408889634 / s; }
-
-static ambit_interval inverse(ambit_interval r) {
-  return function_op(AMBIT_OP_EXP, ambit_interval_mul(r, function_op(AMBIT_OP_LOG, value_point(2))));
-}
-
-static ambit_expr slope(ambit_graph *g, ambit_expr e, ambit_expr a) {
-  (void)e;
-  ambit_expr ln2 = function_fold_one(g, AMBIT_OP_LOG, function_number(g, 2));
-  return function_fold(g, AMBIT_OP_DIV, AMBIT_ONE, function_fold(g, AMBIT_OP_MUL, a, ln2));
-}
-
-static ambit_expr written(ambit_graph *g, ambit_expr a, ambit_expr b) {
-  (void)b;
-  ambit_expr ln2 = function_make_one(g, AMBIT_OP_LOG, function_number(g, 2));
-  return function_make(g, AMBIT_OP_DIV, function_make_one(g, AMBIT_OP_LOG, a), ln2);
-}
+static const double touching = 1.4426950408889634;
+#define BASE 2
+#include "functions/log_base.h"
 
 const ambit_described ambit_function_log2 = { .facts = FACTS(AMBIT_CONCAVE, 0, INFINITY, 1, 0, touch),
   .latex = { .head = "\\log_{2}\\left(", .tail = "\\right)" },
