@@ -119,7 +119,8 @@ local function certify_rank(self, t)
   local names, lo, hi = check.sorted(t.box), {}, {}
   for i, name in ipairs(names) do lo[i], hi[i] = bounds(t.box[name], units[name], "rank: box." .. name) end
   local from, to = bounds(t.t or 0, "s", "rank: t")
-  return core.rank(self.handle, names, lo, hi, from, to, check.count(t.boxes or 10000, "rank: boxes"))
+  return core.rank(self.handle,
+    { names = names, lo = lo, hi = hi, from = from, to = to, boxes = check.count(t.boxes or 10000, "rank: boxes") })
 end
 
 -- What the verdicts mean for the exit code: a proof that the rank is lost is an answer.

@@ -1,5 +1,6 @@
 /* loops_lua.c -- closed loops as Lua values: constraints, the choice of independent speeds, multipliers, rank. */
 #include "script/core.h"
+#include "script/fields.h"
 #include "script/interrupt.h"
 #include "models/mechanism_lua.h"
 #include "script/request.h"
@@ -185,18 +186,22 @@ static void push_rank(lua_State *L, const ambit_rank *r) {
   lua_setfield(L, -2, "boxes");
 }
 
-/* rank(mechanism, {name}, {lo}, {hi}, t_lo, t_hi, boxes) -> {status, independent, dependent, redundant, rows, loops,
+/* rank(mechanism, {names, lo, hi, from, to, boxes}) -> {status, independent, dependent, redundant, rows, loops,
 ** boxes} */
 static int rank(lua_State *L) {
+#define LIST(key, kind, flags, member) AMBIT_LUA_LIST(ambit_rank_request, key, kind, flags, member, n)
+#define ONE(key, kind, member) AMBIT_LUA_ONE(ambit_rank_request, key, kind, AMBIT_LUA_NEEDED, member)
+  static const ambit_lua_field field[] = { LIST("names", AMBIT_LUA_TEXTS, AMBIT_LUA_NEEDED, name),
+    LIST("lo", AMBIT_LUA_NUMBERS, AMBIT_LUA_NEEDED | AMBIT_LUA_SAME, lo),
+    LIST("hi", AMBIT_LUA_NUMBERS, AMBIT_LUA_NEEDED | AMBIT_LUA_SAME, hi), ONE("from", AMBIT_LUA_NUMBER, time_lo),
+    ONE("to", AMBIT_LUA_NUMBER, time_hi), ONE("boxes", AMBIT_LUA_SIZE, budget) };
+#undef LIST
+#undef ONE
+  static const ambit_lua_fields fields = AMBIT_LUA_FIELDS(ambit_rank_request, field);
   ambit_failure f = { 0 };
   ambit_rank result;
   ambit_rank_request q = { .mechanism = ambit_lua_to_mechanism(L, 1) };
-  q.name = ambit_lua_texts(L, 2, &q.n);
-  q.lo = ambit_lua_numbers(L, 3, &q.n);
-  q.hi = ambit_lua_numbers(L, 4, &q.n);
-  q.time_lo = luaL_checknumber(L, 5);
-  q.time_hi = luaL_checknumber(L, 6);
-  q.budget = (size_t)luaL_checkinteger(L, 7);
+  ambit_lua_read(L, 2, "rank", &fields, &q);
   ambit_arena *arena = scratch(L);
   ambit_interrupt interrupt; /* many boxes take long: Ctrl-C in haste ends the process, once it raises at the end */
   ambit_interrupt_begin(&interrupt);

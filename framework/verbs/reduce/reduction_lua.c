@@ -3,6 +3,7 @@
 ** A callback runs in protected mode, inside the solver: an error in it is kept, the solver is told to stop, and the
 ** error is raised again once everything is closed. Ctrl-C stops as any verb.
 */
+#include "script/fields.h"
 #include "script/receiver.h"
 #include "script/request.h"
 #include "verbs/reduce/reduction.h"
@@ -29,106 +30,101 @@ typedef struct caller {
   const double *rank;
 } caller;
 
-/* -- fields of the table at 1 */
+/* -- the request */
 
-static bool field(lua_State *L, const char *key, int type) {
-  int got = lua_getfield(L, 1, key);
-  if (got != type && got != LUA_TNIL)
-    ambit_lua_error(L, "core.reduce: `%s` must be a %s, not a %s", key, lua_typename(L, type), luaL_typename(L, -1));
-  return got == type;
-}
+typedef struct row { /* a reference: data are one value each, or one row for each time */
+  uint32_t scenario;
+  size_t ntime, nx, ndata;
+  double *time, *x, *data;
+} row;
 
-/* the list in a field: its place on the stack; absent: an empty one */
-static int list(lua_State *L, const char *key, size_t *n) {
-  if (!field(L, key, LUA_TTABLE)) {
-    lua_pop(L, 1);
-    lua_newtable(L);
-  }
-  *n = (size_t)luaL_len(L, -1);
-  return lua_gettop(L);
-}
+typedef struct question {
+  ambit_reduction_request q;
+  size_t nrow;
+  double *candidate, *state; /* of each effect, from 1 */
+  row *row;
+} question;
 
 static void check_length(lua_State *L, const char *key, size_t n, size_t expected) {
   if (n != expected) ambit_lua_error(L, "core.reduce: `%s` has %d entries, not %d", key, (int)n, (int)expected);
 }
 
-static const char **texts(lua_State *L, const char *key, size_t *n) { return ambit_lua_texts(L, list(L, key, n), n); }
-
-static const ambit_expr *expressions(lua_State *L, const char *key, size_t expected) {
-  size_t n;
-  int at = list(L, key, &n);
-  if (expected != SIZE_MAX) check_length(L, key, n, expected);
-  return ambit_lua_to_array(L, at, n);
-}
-
 /* indices from 1 -> from 0; 0 and what is no index become UINT32_MAX, which the kernel refuses */
-static const uint32_t *indices(lua_State *L, const char *key, size_t expected) {
-  size_t n;
-  const double *x = ambit_lua_numbers(L, list(L, key, &n), &n);
-  check_length(L, key, n, expected);
+static const uint32_t *indices(lua_State *L, size_t n, const double *x) {
   uint32_t *index = lua_newuserdatauv(L, (n + 1) * sizeof *index, 0);
   for (size_t i = 0; i < n; i++) index[i] = x[i] >= 1 && x[i] < UINT32_MAX ? (uint32_t)x[i] - 1 : UINT32_MAX;
   return index;
 }
 
-static double *subnumbers(lua_State *L, int idx, const char *key, size_t *n) {
-  if (lua_getfield(L, idx, key) != LUA_TTABLE) ambit_lua_error(L, "core.reduce: a reference needs the list `%s`", key);
-  return ambit_lua_numbers(L, lua_gettop(L), n);
+static double *repeated(lua_State *L, const row *r, size_t ndata) {
+  if (r->ndata != ndata) check_length(L, "data", r->ndata, r->ntime * ndata);
+  size_t n = r->ntime * ndata;
+  double *rows = lua_newuserdatauv(L, (n + 1) * sizeof *rows, 0);
+  for (size_t i = 0; i < n; i++) rows[i] = r->data[i % r->ndata];
+  return rows;
 }
 
-/* {scenario =, t =, x =, data =} at idx; data: one value each, or one row for each time */
-static ambit_reduction_reference reference(lua_State *L, int idx, size_t nx, size_t ndata) {
-  ambit_reduction_reference r = { 0 };
-  size_t n, given;
-  lua_getfield(L, idx, "scenario");
-  r.scenario = (uint32_t)luaL_optinteger(L, -1, 1);
-  r.time = subnumbers(L, idx, "t", &r.ntime);
-  r.x = subnumbers(L, idx, "x", &n);
-  check_length(L, "x", n, r.ntime * nx);
-  const double *data = subnumbers(L, idx, "data", &given);
-  if (given != ndata) check_length(L, "data", given, r.ntime * ndata);
-  double *rows = lua_newuserdatauv(L, (r.ntime * ndata + 1) * sizeof *rows, 0);
-  for (size_t i = 0; i < r.ntime * ndata; i++) rows[i] = data[i % given];
-  r.data = rows;
-  return r;
-}
-
-/* Arrays of each reference are kept in one table, so that the stack does not grow with their number. */
-static const ambit_reduction_reference *references(lua_State *L, size_t nx, size_t ndata, size_t *n) {
-  int at = list(L, "references", n);
-  ambit_reduction_reference *r = lua_newuserdatauv(L, (*n + 1) * sizeof *r, 0);
-  lua_newtable(L);
-  int keep = lua_gettop(L);
-  for (size_t i = 0; i < *n; i++) {
-    lua_rawgeti(L, at, (lua_Integer)i + 1);
-    luaL_checktype(L, -1, LUA_TTABLE);
-    r[i] = reference(L, lua_gettop(L), nx, ndata);
-    while (lua_gettop(L) > keep) luaL_ref(L, keep);
+/* The arrays of each reference are kept in one table, so that the stack does not grow with their number. */
+static const ambit_reduction_reference *references(lua_State *L, const question *a) {
+  const ambit_reduction_request *q = &a->q;
+  ambit_reduction_reference *r = lua_newuserdatauv(L, (a->nrow + 1) * sizeof *r, 0);
+  lua_createtable(L, (int)a->nrow, 0);
+  for (size_t i = 0; i < a->nrow; i++) {
+    const row *from = &a->row[i];
+    check_length(L, "x", from->nx, from->ntime * q->nx);
+    r[i] = (ambit_reduction_reference) { .scenario = from->scenario ? from->scenario : 1,
+      .ntime = from->ntime,
+      .time = from->time,
+      .x = from->x,
+      .data = repeated(L, from, q->ndata) };
+    luaL_ref(L, -2);
   }
   return r;
 }
 
+/* [1] the table of fields */
 static ambit_reduction_request request(lua_State *L) {
-  ambit_reduction_request q = { .graph = AMBIT_LUA(L)->graph, .registry = AMBIT_LUA(L)->registry };
-  size_t n;
-  q.solver = field(L, "solver", LUA_TSTRING) ? lua_tostring(L, -1) : AMBIT_DEFAULT_STRATEGY;
-  q.solver_option = ambit_lua_options(L, list(L, "options", &n), &q.nsolver_option);
-  q.state = texts(L, "states", &q.nx);
-  q.symbol = expressions(L, "symbols", q.nx);
-  q.rate = expressions(L, "rates", q.nx);
-  int data = list(L, "data", &q.ndata);
-  q.data = ambit_lua_to_array(L, data, q.ndata);
-  q.output = texts(L, "outputs", &q.noutput);
-  q.output_expression = expressions(L, "output_expressions", q.noutput);
-  q.bound = ambit_lua_numbers(L, list(L, "bounds", &n), &n);
-  check_length(L, "bounds", n, q.noutput);
-  q.candidate = texts(L, "candidates", &q.ncandidate);
-  int effect = list(L, "effect", &q.neffect);
-  q.effect = ambit_lua_to_array(L, effect, q.neffect);
-  q.effect_candidate = indices(L, "effect_candidate", q.neffect);
-  q.effect_state = indices(L, "effect_state", q.neffect);
-  q.reference = references(L, q.nx, q.ndata, &q.nreference);
-  return q;
+#define LIST(key, kind, flags, member, count) AMBIT_LUA_LIST(question, key, kind, flags, member, count)
+#define NEEDED(key, member, count) AMBIT_LUA_LIST(row, key, AMBIT_LUA_NUMBERS, AMBIT_LUA_NEEDED, member, count)
+  static const ambit_lua_field of_row[] = { AMBIT_LUA_ONE(row, "scenario", AMBIT_LUA_COUNT, 0, scenario),
+    NEEDED("t", time, ntime), NEEDED("x", x, nx), NEEDED("data", data, ndata) };
+  static const ambit_lua_fields rows = AMBIT_LUA_FIELDS(row, of_row);
+  static const ambit_lua_field field[] = { AMBIT_LUA_ONE(question, "solver", AMBIT_LUA_TEXT, 0, q.solver),
+    LIST("options", AMBIT_LUA_OPTIONS, 0, q.solver_option, q.nsolver_option),
+    LIST("states", AMBIT_LUA_TEXTS, 0, q.state, q.nx),
+    LIST("symbols", AMBIT_LUA_EXPRESSIONS, AMBIT_LUA_SAME, q.symbol, q.nx),
+    LIST("rates", AMBIT_LUA_EXPRESSIONS, AMBIT_LUA_SAME, q.rate, q.nx),
+    LIST("data", AMBIT_LUA_EXPRESSIONS, 0, q.data, q.ndata), LIST("outputs", AMBIT_LUA_TEXTS, 0, q.output, q.noutput),
+    LIST("output_expressions", AMBIT_LUA_EXPRESSIONS, AMBIT_LUA_SAME, q.output_expression, q.noutput),
+    LIST("bounds", AMBIT_LUA_NUMBERS, AMBIT_LUA_SAME, q.bound, q.noutput),
+    LIST("candidates", AMBIT_LUA_TEXTS, 0, q.candidate, q.ncandidate),
+    LIST("effect", AMBIT_LUA_EXPRESSIONS, 0, q.effect, q.neffect),
+    LIST("effect_candidate", AMBIT_LUA_NUMBERS, AMBIT_LUA_SAME, candidate, q.neffect),
+    LIST("effect_state", AMBIT_LUA_NUMBERS, AMBIT_LUA_SAME, state, q.neffect),
+    { "references", AMBIT_LUA_ROWS, 0, offsetof(question, row), offsetof(question, nrow), &rows },
+    AMBIT_LUA_ONE(question, "prove", AMBIT_LUA_OTHER, AMBIT_LUA_NEEDED, q.prove),
+    AMBIT_LUA_ONE(question, "tried", AMBIT_LUA_OTHER, 0, q.tried) };
+#undef LIST
+#undef NEEDED
+  static const ambit_lua_fields fields = AMBIT_LUA_FIELDS(question, field);
+  question a = {
+    .q = { .graph = AMBIT_LUA(L)->graph, .registry = AMBIT_LUA(L)->registry, .solver = AMBIT_DEFAULT_STRATEGY }
+  };
+  ambit_lua_read(L, 1, "reduce", &fields, &a);
+  a.q.effect_candidate = indices(L, a.candidate ? a.q.neffect : 0, a.candidate);
+  a.q.effect_state = indices(L, a.state ? a.q.neffect : 0, a.state);
+  a.q.nreference = a.nrow;
+  a.q.reference = references(L, &a);
+  return a.q;
+}
+
+/* the function in a field: its place on the stack, or 0 */
+static int function(lua_State *L, const char *key) {
+  int type = lua_getfield(L, 1, key);
+  if (type == LUA_TNIL) return 0;
+  if (type != LUA_TFUNCTION)
+    ambit_lua_error(L, "core.reduce: `%s` must be a function, not a %s", key, luaL_typename(L, -1));
+  return lua_gettop(L);
 }
 
 /* -- callbacks: first the part in protected mode, then what the kernel calls */
@@ -267,10 +263,13 @@ static void push_result(lua_State *L, const caller *c, const ambit_reduction_res
   lua_setfield(L, -2, "cut");
   lua_pushvalue(L, c->rankings);
   lua_setfield(L, -2, "rankings");
-  ambit_lua_set_number(L, "cpu_seconds", result->cpu_seconds);
-  ambit_lua_set_number(L, "cpu_seconds_rank", result->cpu_seconds_rank);
-  ambit_lua_set_count(L, "proofs", result->proofs);
-  ambit_lua_set_count(L, "proofs_lowered", result->lowered);
+#define ONE(key, kind, member) AMBIT_LUA_ONE(ambit_reduction_result, key, kind, 0, member)
+  static const ambit_lua_field field[] = { ONE("cpu_seconds", AMBIT_LUA_NUMBER, cpu_seconds),
+    ONE("cpu_seconds_rank", AMBIT_LUA_NUMBER, cpu_seconds_rank), ONE("proofs", AMBIT_LUA_COUNT, proofs),
+    ONE("proofs_lowered", AMBIT_LUA_COUNT, lowered) };
+#undef ONE
+  static const ambit_lua_fields fields = AMBIT_LUA_FIELDS(ambit_reduction_result, field);
+  ambit_lua_write(L, &fields, result);
 }
 
 /* reduce{solver, options, states, symbols, data, rates, outputs, output_expressions, bounds, candidates, effect,
@@ -283,9 +282,8 @@ static int reduce(lua_State *L) {
   ambit_receiver to = ambit_receiver_silent();
   caller c = { .L = L, .to = &to, .q = &q };
   watcher w = { { sizeof(ambit_sink), NULL, progress }, &c };
-  if (!field(L, "prove", LUA_TFUNCTION)) ambit_lua_error(L, "core.reduce: `prove` is missing");
-  c.prove = lua_gettop(L);
-  c.tried = field(L, "tried", LUA_TFUNCTION) ? lua_gettop(L) : 0;
+  c.prove = function(L, "prove");
+  c.tried = function(L, "tried");
   lua_newtable(L);
   c.rankings = lua_gettop(L);
   lua_pushnil(L);
