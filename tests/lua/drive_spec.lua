@@ -182,3 +182,135 @@ describe("a hydraulic cylinder", function()
     end, "expected a joint that slides")
   end)
 end)
+
+describe("a linear-quadratic regulator", function()
+  local function upright(mass)
+    local m = ambit.mechanism { "upright", gravity = { 0, "-9.81", 0 } }
+    local at, joint = m:revolute { from = m.world, axis = "z", name = "q" }
+    m:point_mass { at = m:rigid_link { from = at, offset = { 0, 2, 0 } }, mass = mass }
+    return m, joint
+  end
+
+  it("has the gains of the closed form", function()
+    local m, joint = upright(3) -- 12 q'' = 6 g q + u
+    local c = m:lqr { joints = joint, weights = { q = 5, ["q'"] = 7 }, effort = 2 }
+    local a = 6 * 9.81
+    local k = a + math.sqrt(a * a + 5 / 2)
+    assert.is_true(math.abs(c.gains[1][1] / k - 1) < 1e-9)
+    assert.is_true(math.abs(c.gains[1][2] / math.sqrt(2 * 12 * k + 7 / 2) - 1) < 1e-9)
+  end)
+
+  it("holds a goal, and the law is what it hands out", function()
+    local m, joint = upright(3)
+    local c = m:lqr { joints = { joint }, goal = { q = "0.5" }, weights = { q = 5, ["q'"] = 7 } }
+    near(value(c.efforts.q, { q = "0.5", ["q'"] = 0 }), -6 * 9.81 * math.sin(0.5))
+    near(value(c.efforts.q, { q = 1, ["q'"] = 2 }),
+      -6 * 9.81 * math.sin(0.5) - c.gains[1][1] * 0.5 - 2 * c.gains[1][2])
+  end)
+
+  it("brings every cart and pole within the tolerances upright", function()
+    local m = ambit.mechanism { "cart and pole", gravity = { 0, "-9.81", 0 } }
+    local cart, rail = m:prismatic { from = m.world, axis = "x", name = "x" }
+    m:point_mass { at = cart, mass = 1 }
+    local pole = m:revolute { from = cart, axis = "z", name = "q" }
+    m:point_mass { at = m:rigid_link { from = pole, offset = { 0, 1, 0 } }, mass = around("0.1", "2%") }
+    m:lqr { joints = rail, weights = { x = 1, q = 1, ["x'"] = 1, ["q'"] = 1 } }
+    local run = ambit.simulate { m, t = 10,
+      initial = { x = "0.5", q = around("0.1", "5%"), ["x'"] = 0, ["q'"] = 0 } }
+    assert.equal("complete", run.status)
+    assert.is_true(run.x.q:mag() < 1e-3 and run.x.x:mag() < 1e-2)
+  end)
+
+  it("refuses what is no question", function()
+    local m, joint = upright(1)
+    expect_error(function() m:lqr { joints = {}, weights = {} } end, "lqr: joints: expected a joint or a list")
+    expect_error(function() m:lqr { joints = joint, weights = { p = 1 } } end, "lqr: weights.*`p`")
+    local far = m:revolute { from = m.world, axis = "z", name = "arm" }
+    m:point_mass { at = m:rigid_link { from = far, offset = { 1, 0, 0 } }, mass = 1 }
+    expect_error(function() m:lqr { joints = joint, weights = { q = 1 } } end,
+      "no state of rest: joint `arm`, which is not driven, would have to hold")
+  end)
+end)
+
+describe("Hertz's contact", function()
+  local function force_of(depth, modulus, radius) return 4 / 3 * modulus * math.sqrt(radius) * depth ^ 1.5 end
+
+  it("is its law between balls, nothing apart, and Hertz's but for its rounding", function()
+    local m = ambit.mechanism "balls"
+    local a = m:prismatic { from = m.world, axis = "x", name = "a" }
+    m:point_mass { at = a, mass = 1 }
+    local b = m:prismatic { from = m.world, axis = "x", name = "b" }
+    m:point_mass { at = b, mass = 2 }
+    local c = m:hertz_contact { from = a, to = b, reach = "0.25", radius = "0.0625", modulus = 1e6, damping = "0.5" }
+    near(value(c.force, { a = 0, b = "0.5", ["a'"] = 0, ["b'"] = 0 }), 0)
+    local touching = value(c.force, { a = 0, b = "0.24", ["a'"] = 1, ["b'"] = "0.5" })
+    local depth = 0.01
+    near(touching, force_of(depth, 1e6, 0.0625) * math.sqrt(depth / (depth + 1e-6)) * 1.25)
+    assert.is_true(math.abs(touching:mid() / (1.25 * force_of(depth, 1e6, 0.0625)) - 1) < 1e-6 / (2 * depth))
+    near(value(m:dynamics():rate "b'", { a = 0, b = "0.24", ["a'"] = 1, ["b'"] = "0.5" }), touching:mid() / 2)
+  end)
+
+  it("throws a ball back as high as it fell, without damping", function()
+    local m = ambit.mechanism { "ball", gravity = { 0, 0, "-9.81" } }
+    local at = m:prismatic { from = m.world, axis = "z", name = "z" }
+    m:point_mass { at = at, mass = around(1, "1%") }
+    m:hertz_contact { to = at, normal = { 0, 0, 1 }, reach = "0.05", radius = "0.05", modulus = 1e6,
+      rounding = "1e-4" }
+    local run = ambit.simulate { m, initial = { z = "0.15", ["z'"] = 0 }, t = "0.3" }
+    assert.equal("complete", run.status)
+    -- fourth order, 3e-6 s
+    local z, v, h, k = 0.15, 0, 3e-6, 4 / 3 * 1e6 * math.sqrt(0.05)
+    local least, most = 1, 0
+    local function f(x, mass)
+      local depth = math.max(0.05 - x, 0)
+      return -9.81 + k * depth ^ 2 / math.sqrt(depth + 1e-4) / mass
+    end
+    for n = 1, 100000 do
+      local a1 = f(z, 1)
+      local a2 = f(z + h / 2 * v, 1)
+      local a3 = f(z + h / 2 * (v + h / 2 * a1), 1)
+      local a4 = f(z + h * (v + h / 2 * a2), 1)
+      z, v = z + h * (v + h / 6 * (a1 + a2 + a3)), v + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
+      if n < 60000 then least = math.min(least, z) else most = math.max(most, z) end
+    end
+    assert.is_true(run.x.z:contains(z) and run.x["z'"]:contains(v))
+    assert.is_true(least < 0.05 and run.x.z:width() < 0.02)
+  end)
+
+  it("asks for the other ball or a plane", function()
+    local m, _, at = slider()
+    expect_error(function() m:hertz_contact { to = at, reach = 1, radius = 1, modulus = 1 } end,
+      "expected either `from`, the other ball, or `normal`, of a plane")
+  end)
+end)
+
+describe("a tyre", function()
+  it("is Pacejka's formula in the axes of its hub", function()
+    local m = ambit.mechanism "hub"
+    local hub = m:planar { from = m.world, name = "car" }
+    m:rigid_body { at = hub, mass = 2, inertia = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } }
+    local tyre = m:tyre { at = hub, load = 4000, friction = "0.9", stiffness = 60000, drive = 100 }
+    local at, names = {}, m:coordinate_names()
+    for i, name in ipairs(names) do at[name] = 0; at[m:speed_names()[i]] = 0 end
+    local s = m:speed_names()
+    at[s[1]], at[s[2]] = 20, 1
+    local v = ambit.evaluate { m:velocity(hub), at = at }
+    local peak, slip = 0.9 * 4000, v.y:mid() / math.sqrt(v.x:mid() ^ 2 + 0.01)
+    near(value(tyre.lateral, at), -peak * math.sin(1.3 * math.atan(60000 / (1.3 * peak) * slip)))
+    near(value(tyre.drive, at), 100)
+  end)
+
+  it("is its stiffness times the slip angle where that is small, and at most friction by load", function()
+    local m = ambit.mechanism "wheel"
+    local hub = m:prismatic { from = m:prismatic { from = m.world, axis = "x", name = "x" }, axis = "y", name = "y" }
+    m:point_mass { at = hub, mass = 2 }
+    local tyre = m:tyre { at = hub, load = 4000, stiffness = 60000 }
+    local function lateral(vx, vy) return value(tyre.lateral, { x = 0, y = 0, ["x'"] = vx, ["y'"] = vy }) end
+    assert.is_true(math.abs(lateral(20, 1e-3):mid() + 60000 * 1e-3 / 20) < 1e-4)
+    for _, vy in ipairs { -30, -1, 2, 50 } do assert.is_true(lateral(10, vy):mag() <= 4000) end
+    assert.is_true(lateral(0, 0):mag() == 0 and lateral(-20, 1).hi < 0)
+    local run = ambit.simulate { m, initial = { x = 0, y = 0, ["x'"] = 20, ["y'"] = around("0.5", "2%") }, t = "0.1" }
+    assert.equal("complete", run.status)
+    assert.is_true(run.x["y'"]:mag() < 0.5)
+  end)
+end)
