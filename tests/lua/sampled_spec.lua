@@ -175,6 +175,24 @@ describe("a sampled controller", function()
       safe = function(s) return "0.4" - s.x end }.status)
     assert.equal("proved", ambit.verify { plant, initial = initial, t = 1,
       safe = function(s) return s.u - "-0.3" end, at_end = function(s) return s.u - "-0.35" end }.status)
+    -- what is held after a sample, and time, which goes on: u is k + 1 from t = k on
+    local count = ambit.sampled { period = 1, outputs = { "u" }, memory = { n = 0 },
+      law = function(_, m) return m.n + 1, { n = m.n + 1 } end }
+    local counted = ambit.ode { states = { "x" }, sampled = count, equations = function() return { x = 0 } end }
+    local function verdict(start, limit)
+      return ambit.verify { counted, initial = { x = 0, u = start }, t = 4,
+        safe = function(s, _, t) return s.u - t - limit end }.status
+    end
+    assert.equal("refuted", verdict(0, 0.5))
+    assert.equal("refuted", verdict(0, 0.9))
+    assert.equal("proved", verdict(0, 1.1))
+    assert.equal("refuted", verdict(2, 1.1)) -- before the first sample
+    local function reaches(limit)
+      return ambit.verify { counted, initial = { x = 0 }, t = 4,
+        reach = function(s, _, t) return t - s.u + limit end }.status
+    end
+    assert.equal("proved", reaches(0.9))
+    assert.equal("refuted", reaches(1.1))
     assert.has_error(function()
       ambit.simulate { plant, initial = initial, t = 1, events = { { g = function(s) return s.u end } } }
     end, "simulate: events[1].g: an event is a zero of what moves steadily, but g depends on `u`, which jumps at samples")

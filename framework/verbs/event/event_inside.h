@@ -39,6 +39,7 @@ struct ambit_event_watch {
   int way;                /* of the run: 1, or -1 backwards */
   double t_before, start; /* end of the step before; where this one is taken up (steps may overlap) */
   bool rigorous, has_speed;
+  bool leaps;      /* samples make states leap: the end of one step says nothing of the next one */
   uint32_t budget; /* evaluations left for this step and event */
   size_t count, room, first, stopped_by;
   ambit_event_found *found; /* [room]; those of this step from `first` on */

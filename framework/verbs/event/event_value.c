@@ -40,7 +40,7 @@ static ambit_interval state(const ambit_event_watch *w, uint32_t i, double a, do
     narrow_to(&x, ambit_interval_add(w->before[i], ambit_interval_mul(gone, w->speed[i])));
     narrow_to(&x, ambit_interval_sub(now, ambit_interval_mul(left, w->speed[i])));
   }
-  if (b == w->t_before) narrow_to(&x, w->before[i]);
+  if (b == w->t_before && !w->leaps) narrow_to(&x, w->before[i]);
   if (a == r->t_to) narrow_to(&x, now);
   return x;
 }
@@ -56,7 +56,7 @@ void ambit_event_watch_step(ambit_event_watch *w, const ambit_record *r) {
   w->rigorous = r->rigorous;
   w->has_speed = false;
   w->start = (w->t_before - r->t_from) * w->way > 0 ? w->t_before : r->t_from;
-  if (r->ndense || !r->tube_lo || !r->tube_hi || w->start != w->t_before) return;
+  if (r->ndense || !r->tube_lo || !r->tube_hi || w->start != w->t_before || w->leaps) return;
   set_inputs(w, w->start, r->t_to);
   if (ambit_hull(w->rate, w->in, w->slot) & (AMBIT_F_PARTIAL | AMBIT_F_EMPTY)) return;
   for (uint32_t i = 0; i < w->nx; i++) w->speed[i] = w->slot[w->rate->out[i]];

@@ -3,7 +3,9 @@
 ** Soundness: the records enclose every solution at every time of a step; a hull of tape(g) over them encloses g. The
 ** mean value form needs g(x(t)) to be differentiable in t on the part: so it is used only where every operation of g
 ** and of dg/dt is defined over the whole box (no flag), and off the cut of atan2, where g would jump. Points of
-** time are doubles inside the step; the ends of a step take the record's own boxes.
+** time are doubles inside the step; the ends of a step take the record's own boxes. Where samples make states leap, the
+** box at the end of one step says nothing of the next one, and the start, before the first sample, is looked at by
+** itself.
 */
 #include "verbs/verify/watch_inside.h"
 #include "graph/hull.h"
@@ -22,7 +24,8 @@ void ambit_watch_place(ambit_watch *w, const watched *c, const ambit_record *r, 
     if (!c->wanted[i]) continue;
     ambit_interval x = ambit_dense_state(r, i, when);
     if (point && when.lo == r->t_to) x = (ambit_interval) { r->lo[i], r->hi[i] };
-    if (point && when.lo == r->t_from && w->started && w->reached == r->t_from) x = w->before[i];
+    if (point && when.lo == r->t_from && w->started && w->reached == r->t_from && !w->q->system->njump)
+      x = w->before[i];
     w->in[i] = x;
   }
   w->in[w->nin - 1] = when;
@@ -141,6 +144,20 @@ static void scan(ambit_watch *w, watched *c, const ambit_record *r) {
   }
 }
 
+/* The states at the end of the last step, or at the start. */
+static part look_before(ambit_watch *w, const watched *c) {
+  for (size_t i = 0; i < w->nx; i++) w->in[i] = w->before[i];
+  ambit_interval when = { w->reached, w->reached };
+  w->in[w->nin - 1] = when;
+  return (part) { .when = when, .g = ambit_watch_run(w, c->value) };
+}
+
+static void look_at_the_start(ambit_watch *w, watched *c) {
+  part p = look_before(w, c);
+  witness(w, c, p.when, p.g);
+  conclude(c, &p);
+}
+
 /* The end is somewhere in this step. */
 static void look_at_an_end(ambit_watch *w, watched *c, const ambit_record *r) {
   bool backwards = r->t_to < r->t_from;
@@ -173,8 +190,10 @@ static int32_t emit(ambit_sink *s, const ambit_record *r) {
   ambit_watch *w = (ambit_watch *)(void *)s;
   if (r->kind != AMBIT_REC_STEP) return 0;
   w->is_ending = is_ending(w, r);
+  bool leaps_first = w->q->system->njump && w->started && w->reached == w->q->start;
   for (size_t k = 0; k < w->n; k++) {
     uint32_t kind = w->watched[k].condition->kind;
+    if (leaps_first && kind != AMBIT_WATCH_END) look_at_the_start(w, &w->watched[k]);
     if (kind == AMBIT_WATCH_MOST)
       ambit_watch_scan_most(w, &w->watched[k], r);
     else if (kind != AMBIT_WATCH_END)
@@ -200,9 +219,7 @@ ambit_sink *ambit_watch_sink(ambit_watch *w) { return &w->sink; }
 /* -- the outcome */
 
 static void look_at_the_end(ambit_watch *w, watched *c) {
-  for (size_t i = 0; i < w->nx; i++) w->in[i] = w->before[i];
-  w->in[w->nin - 1] = (ambit_interval) { w->reached, w->reached };
-  part p = { .when = w->in[w->nin - 1], .g = ambit_watch_run(w, c->value) };
+  part p = look_before(w, c);
   if (w->q->last) {
     double a = *w->q->last, b = w->reached;
     p.when = a < b ? (ambit_interval) { a, b } : (ambit_interval) { b, a };
