@@ -170,7 +170,8 @@ static inline ambit_status compute_plain(
   ambit_context context = { 0 };
   ambit_block *block = NULL;
   uint32_t n = s->x.ndatum;
-  ambit_status status = ambit_tape_seal(s->graph, arena, 1, &e, n, s->datum, 0, AMBIT_SEAL_KEEP, &tape, f);
+  uint32_t seal = AMBIT_SEAL_KEEP | ambit_arithmetic_seal(c->arithmetic);
+  ambit_status status = ambit_tape_seal(s->graph, arena, 1, &e, n, s->datum, 0, seal, &tape, f);
   if (status == AMBIT_OK) status = ambit_context_open(s->registry, c->name, c->noption, c->option, n, &context, f);
   if (status == AMBIT_OK) status = ambit_block_open(tape, context.arithmetic, context.ctx, 1, &block, f);
   if (status == AMBIT_OK) {

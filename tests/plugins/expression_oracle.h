@@ -175,6 +175,34 @@ static inline void oracle_divide(expression_oracle *o, oracle_value *r, const or
     oracle_corners(o, r, a, b, mpfr_div);
 }
 
+static inline void oracle_atanh(oracle_value *r, const oracle_value *a) {
+  if (mpfr_cmp_si(a->hi, -1) <= 0 || mpfr_cmp_si(a->lo, 1) >= 0)
+    r->state = UNDEFINED;
+  else if (mpfr_cmp_si(a->lo, -1) <= 0 || mpfr_cmp_si(a->hi, 1) >= 0)
+    r->state = DOUBTFUL;
+  else
+    oracle_rising(r, a, mpfr_atanh);
+}
+
+/* over the ends of |a| and |b|, in which it rises */
+static inline void oracle_hypot(oracle_value *r, const oracle_value *a, const oracle_value *b) {
+  oracle_value x, y;
+  mpfr_inits2(ORACLE_BITS, x.lo, x.hi, y.lo, y.hi, (mpfr_ptr)NULL);
+  oracle_abs(&x, a), oracle_abs(&y, b);
+  mpfr_hypot(r->lo, x.lo, y.lo, MPFR_RNDD), mpfr_hypot(r->hi, x.hi, y.hi, MPFR_RNDU);
+  mpfr_clears(x.lo, x.hi, y.lo, y.hi, (mpfr_ptr)NULL);
+}
+
+/* a > 0: monotone in each operand; at a = 0 there may be a limit, of which nothing is claimed */
+static inline void oracle_pow(expression_oracle *o, oracle_value *r, const oracle_value *a, const oracle_value *b) {
+  if (mpfr_sgn(a->hi) < 0)
+    r->state = UNDEFINED;
+  else if (mpfr_sgn(a->lo) <= 0)
+    r->state = DOUBTFUL;
+  else
+    oracle_corners(o, r, a, b, mpfr_pow);
+}
+
 /* r := op(a, b), defined operands; the signs of zeros in them may change */
 static inline void oracle_operation(
     expression_oracle *o, uint32_t op, oracle_value *r, oracle_value *a, oracle_value *b, int32_t n) {
@@ -208,6 +236,17 @@ static inline void oracle_operation(
   case AMBIT_OP_ABS: oracle_abs(r, a); break;
   case AMBIT_OP_MIN: mpfr_min(r->lo, a->lo, b->lo, MPFR_RNDD), mpfr_min(r->hi, a->hi, b->hi, MPFR_RNDU); break;
   case AMBIT_OP_MAX: mpfr_max(r->lo, a->lo, b->lo, MPFR_RNDD), mpfr_max(r->hi, a->hi, b->hi, MPFR_RNDU); break;
+  case AMBIT_OP_LOG1P: oracle_from(r, a, -1, true, mpfr_log1p); break;
+  case AMBIT_OP_EXPM1: oracle_rising(r, a, mpfr_expm1); break;
+  case AMBIT_OP_ASINH: oracle_rising(r, a, mpfr_asinh); break;
+  case AMBIT_OP_ACOSH: oracle_from(r, a, 1, false, mpfr_acosh); break;
+  case AMBIT_OP_ATANH: oracle_atanh(r, a); break;
+  case AMBIT_OP_LOG2: oracle_from(r, a, 0, true, mpfr_log2); break;
+  case AMBIT_OP_LOG10: oracle_from(r, a, 0, true, mpfr_log10); break;
+  case AMBIT_OP_EXP2: oracle_rising(r, a, mpfr_exp2); break;
+  case AMBIT_OP_CBRT: oracle_rising(r, a, mpfr_cbrt); break;
+  case AMBIT_OP_HYPOT: oracle_hypot(r, a, b); break;
+  case AMBIT_OP_POW: oracle_pow(o, r, a, b); break;
   default: abort();
   }
 }
@@ -243,7 +282,7 @@ static inline void oracle_evaluate(expression_oracle *o, const random_expression
     r->state = DEFINED;
     if (q->op == LEAF_LITERAL)
       oracle_literal(o, r, q->text);
-    else if (q->op >= AMBIT_OP_COUNT) {
+    else if (q->op >= AMBIT_OP_END) {
       double value = q->op == LEAF_DATUM ? point[q->a] : q->number;
       mpfr_set_d(r->lo, value, MPFR_RNDD), mpfr_set_d(r->hi, value, MPFR_RNDU);
     } else {

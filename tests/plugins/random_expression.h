@@ -13,7 +13,7 @@
 #define RANDOM_DATA_MAX 6
 #define RANDOM_NODES_MAX 96
 
-enum { LEAF_DATUM = AMBIT_OP_COUNT, LEAF_NUMBER, LEAF_LITERAL };
+enum { LEAF_DATUM = AMBIT_OP_END, LEAF_NUMBER, LEAF_LITERAL };
 
 typedef struct random_node {
   uint32_t op;      /* AMBIT_OP_* or LEAF_* */
@@ -36,19 +36,21 @@ static const char *const random_symbols[] = {
 #define AMBIT_X(name, arity, symbol) symbol,
   AMBIT_OPS(AMBIT_X)
 #undef AMBIT_X
+#define AMBIT_X(name, arity, symbol) [AMBIT_OP_##name] = #symbol,
+      AMBIT_FUNCTIONS(AMBIT_X)
+#undef AMBIT_X
 };
 
-static inline bool random_is_binary(uint32_t op) {
-  static const uint8_t arity[] = {
-#define AMBIT_X(name, arity, symbol) arity,
-    AMBIT_OPS(AMBIT_X)
-#undef AMBIT_X
-  };
-  return op < AMBIT_OP_COUNT && arity[op] == 2;
-}
+static inline bool random_is_binary(uint32_t op) { return ambit_op_arity(op) == 2; }
 
 static inline uint32_t random_below(random_expression *x, uint32_t n) {
   return (uint32_t)(oracle_random(&x->state) >> 33) % n;
+}
+
+/* any operation */
+static inline uint32_t random_operation(random_expression *x) {
+  uint32_t k = random_below(x, AMBIT_OP_COUNT + AMBIT_OP_END - AMBIT_OP_FUNCTIONS);
+  return k < AMBIT_OP_COUNT ? k : AMBIT_OP_FUNCTIONS + k - AMBIT_OP_COUNT;
 }
 
 /* true in `percent` of the cases */
@@ -56,7 +58,7 @@ static inline bool random_chance(random_expression *x, uint32_t percent) { retur
 
 static inline uint32_t random_add(random_expression *x, random_node node) {
   ambit_interval a = { 0, 0 }, b = a;
-  if (node.op < AMBIT_OP_COUNT) {
+  if (node.op < AMBIT_OP_END) {
     a = x->node[node.a].range, b = x->node[node.b].range;
     if (node.op == AMBIT_OP_POWN)
       ambit_interval_pown(&node.range, a, node.n);
@@ -140,11 +142,19 @@ static inline bool random_fits(const random_expression *x, uint32_t op, uint32_t
   case AMBIT_OP_DIV: return r.lo > 0 || r.hi < 0;
   case AMBIT_OP_POWN: return (n >= 0 || r.lo > 0 || r.hi < 0) && random_within(x, a, -30, 30);
   case AMBIT_OP_SQRT: return r.lo >= 0;
-  case AMBIT_OP_LOG: return r.lo > 0;
+  case AMBIT_OP_LOG:
+  case AMBIT_OP_LOG2:
+  case AMBIT_OP_LOG10: return r.lo > 0;
+  case AMBIT_OP_LOG1P: return r.lo > -1;
+  case AMBIT_OP_ACOSH: return r.lo >= 1;
+  case AMBIT_OP_POW: return r.lo > 0 && r.hi < 30;
+  case AMBIT_OP_ATANH: return random_within(x, a, -0.99, 0.99);
   case AMBIT_OP_ASIN:
   case AMBIT_OP_ACOS: return random_within(x, a, -1, 1);
   case AMBIT_OP_TAN: return random_within(x, a, -1.5, 1.5);
   case AMBIT_OP_EXP:
+  case AMBIT_OP_EXPM1:
+  case AMBIT_OP_EXP2:
   case AMBIT_OP_SINH:
   case AMBIT_OP_COSH: return random_within(x, a, -20, 20);
   default: return random_within(x, a, -1e6, 1e6);
@@ -157,7 +167,12 @@ static inline uint32_t random_operand(random_expression *x, uint32_t op, uint32_
   switch (op) {
   case AMBIT_OP_DIV:
   case AMBIT_OP_SQRT:
-  case AMBIT_OP_LOG: return random_positive(x, a);
+  case AMBIT_OP_LOG:
+  case AMBIT_OP_LOG2:
+  case AMBIT_OP_LOG10:
+  case AMBIT_OP_LOG1P: return random_positive(x, a);
+  case AMBIT_OP_POW: return random_positive(x, random_angle(x, a));
+  case AMBIT_OP_ACOSH: return random_apply(x, AMBIT_OP_ADD, random_positive(x, a), random_number(x, 1));
   case AMBIT_OP_POWN: return n < 0 ? random_positive(x, random_angle(x, a)) : random_angle(x, a);
   default: return random_angle(x, a);
   }
@@ -166,14 +181,14 @@ static inline uint32_t random_operand(random_expression *x, uint32_t op, uint32_
 static inline void random_grow(random_expression *x) {
   static const uint32_t common[] = { AMBIT_OP_ADD, AMBIT_OP_SUB, AMBIT_OP_MUL, AMBIT_OP_MUL, AMBIT_OP_SIN, AMBIT_OP_COS,
     AMBIT_OP_DIV, AMBIT_OP_SQR };
-  uint32_t op =
-      random_chance(x, 45) ? common[random_below(x, sizeof common / sizeof *common)] : random_below(x, AMBIT_OP_COUNT);
+  uint32_t op = random_chance(x, 45) ? common[random_below(x, sizeof common / sizeof *common)] : random_operation(x);
   uint32_t a = random_pick(x), b = random_chance(x, 10) ? a : random_pick(x);
   int32_t n = (int32_t)random_below(x, 12) - 4;
   if (op == AMBIT_OP_DIV)
     b = random_operand(x, op, b, n);
   else
     a = random_operand(x, op, a, n);
+  if (op == AMBIT_OP_POW && !random_within(x, b, -8, 8)) b = random_angle(x, b);
   random_add(x, (random_node) { .op = op, .a = a, .b = random_is_binary(op) ? b : a, .n = n });
 }
 
@@ -183,9 +198,9 @@ static inline void random_gather(random_expression *x) {
   bool used[RANDOM_NODES_MAX] = { false };
   uint32_t count = x->count, last = count - 1;
   for (uint32_t i = 0; i < count; i++)
-    if (x->node[i].op < AMBIT_OP_COUNT) used[x->node[i].a] = used[x->node[i].b] = true;
+    if (x->node[i].op < AMBIT_OP_END) used[x->node[i].a] = used[x->node[i].b] = true;
   for (uint32_t i = 0; i + 1 < count && x->count + 2 < RANDOM_NODES_MAX; i++) {
-    if (used[i] || x->node[i].op >= AMBIT_OP_COUNT || random_chance(x, 40)) continue;
+    if (used[i] || x->node[i].op >= AMBIT_OP_END || random_chance(x, 40)) continue;
     uint32_t a = random_operand(x, AMBIT_OP_ADD, i, 0);
     last = random_apply(x, joint[random_below(x, 20) < 19 ? random_below(x, 3) : 3], last, a);
   }
@@ -213,7 +228,7 @@ static inline void random_print(const random_expression *x, uint32_t last, FILE 
   bool used[RANDOM_NODES_MAX] = { false };
   used[last] = true;
   for (uint32_t i = last + 1; i-- > 0;)
-    if (used[i] && x->node[i].op < AMBIT_OP_COUNT) used[x->node[i].a] = used[x->node[i].b] = true;
+    if (used[i] && x->node[i].op < AMBIT_OP_END) used[x->node[i].a] = used[x->node[i].b] = true;
   fprintf(out, "local ambit = require \"ambit\"\n");
   for (uint32_t i = 0; i <= last; i++) {
     const random_node *q = &x->node[i];
