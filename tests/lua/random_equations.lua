@@ -41,7 +41,7 @@ local function pick(n) return 1 + math.floor(unit() * n) end
 
 -- -- systems: lists of instructions over slots x, p, t
 
-local binary = { add = 1, sub = 1, mul = 1, div = 1, atan2 = 1, min = 1, max = 1 }
+local binary = { add = 1, sub = 1, mul = 1, div = 1, atan2 = 1, min = 1, max = 1, hypot = 1, pow = 1 }
 
 local function random_system()
   local nx, np = pick(8), pick(10)
@@ -83,6 +83,17 @@ local function random_system()
     function(d) return emit("min", tame(expression(d)), number(1.5)) end,
     function(d) return emit("max", tame(expression(d)), number(-1.5)) end,
     function(d) return emit("neg", expression(d)) end,
+    function(d) return emit("log1p", emit("sqr", expression(d))) end,
+    function(d) return emit("expm1", tame(expression(d))) end,
+    function(d) return emit("asinh", expression(d)) end,
+    function(d) return emit("acosh", positive(expression(d))) end,
+    function(d) return emit("atanh", emit("mul", number(0.8), tame(expression(d)))) end,
+    function(d) return emit("log2", positive(expression(d))) end,
+    function(d) return emit("log10", positive(expression(d))) end,
+    function(d) return emit("exp2", tame(expression(d))) end,
+    function(d) return emit("cbrt", positive(expression(d))) end,
+    function(d) return emit("hypot", expression(d), positive(expression(d))) end,
+    function(d) return emit("pow", positive(expression(d)), tame(expression(d))) end,
   }
   -- a law with two slopes, a dead zone, a saturation, and kinks of any two expressions
   local zero = o.kinks and number(0)

@@ -18,7 +18,8 @@ enum { STATES = 16, SLOTS = 600, COLUMNS = 9, STEPS = 200000 };
 #define NOTHING 1e-17L /* that a kink may add in a step */
 
 static const char *const names[] = { "number", "add", "sub", "mul", "div", "neg", "sqr", "sqrt", "exp", "log", "sin",
-  "cos", "tan", "atan", "atan2", "sinh", "cosh", "tanh", "abs", "min", "max", "asin", "acos", NULL };
+  "cos", "tan", "atan", "atan2", "sinh", "cosh", "tanh", "abs", "min", "max", "asin", "acos", "log1p", "expm1", "asinh",
+  "acosh", "atanh", "log2", "log10", "exp2", "cbrt", "hypot", "pow", NULL };
 enum {
   NUMBER,
   ADD,
@@ -42,7 +43,18 @@ enum {
   MIN,
   MAX,
   ASIN,
-  ACOS
+  ACOS,
+  LOG1P,
+  EXPM1,
+  ASINH,
+  ACOSH,
+  ATANH,
+  LOG2,
+  LOG10,
+  EXP2,
+  CBRT,
+  HYPOT,
+  POW
 };
 
 typedef struct equations {
@@ -70,6 +82,15 @@ static real function(int op, real a) {
   case TANH: return tanhl(a);
   case ASIN: return asinl(a);
   case ACOS: return acosl(a);
+  case LOG1P: return log1pl(a);
+  case EXPM1: return expm1l(a);
+  case ASINH: return asinhl(a);
+  case ACOSH: return acoshl(a);
+  case ATANH: return atanhl(a);
+  case LOG2: return log2l(a);
+  case LOG10: return log10l(a);
+  case EXP2: return exp2l(a);
+  case CBRT: return cbrtl(a);
   default: return fabsl(a);
   }
 }
@@ -83,6 +104,8 @@ static real value(const equations *e, int i) {
   case MUL: return a * b;
   case DIV: return a / b;
   case ATAN2: return atan2l(a, b);
+  case HYPOT: return hypotl(a, b);
+  case POW: return powl(a, b);
   case MIN: return a < b ? a : b;
   case MAX: return a > b ? a : b;
   default: return function(e->op[i], a);
