@@ -149,6 +149,8 @@ return {
     "adds 0: a run slower",
   ["plugins/solver/zonotope/kink.c | logic 1 | if (!is_line(z, i) || has_twin(z, i)) continue;"] =
     "more is noted, which is asked only where lines are",
+  ["plugins/solver/zonotope/jump.c | guard 1 | if (row_parts(s, 0) & TRIPLES) continue;"] =
+    "what is of degree three goes to the box as well: the set is wider",
   ["plugins/solver/zonotope/jump.c | guard 1 | if (!p->njump) return 1;"] =
     "no programs are opened then: an array of none",
   ["plugins/solver/zonotope/tanh.c | unit 1 | k->slope = hi - lo > 0x1p-10 ? (last - first) / (hi - lo) : slope_at(middle);"] =

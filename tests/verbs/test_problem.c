@@ -215,6 +215,9 @@ static void strangers_are_named(void **unused) {
   s.invariant[0] = AMBIT_NO_EXPR;
   assert_int_equal(build(&s, AMBIT_WANT_RHS | AMBIT_WANT_INVARIANT), AMBIT_INVALID);
   assert_non_null(strstr(s.failure.message, "invariant `loop: row 1` has no formula"));
+  s.invariant[0] = s.state[0], s.rate[1] = stranger;
+  assert_int_equal(build(&s, AMBIT_WANT_RHS | AMBIT_WANT_INVARIANT), AMBIT_INVALID);
+  assert_non_null(strstr(s.failure.message, "the right-hand side of state `y` depends on `lambda`"));
   close_scene(&s);
 }
 
