@@ -119,6 +119,9 @@ local function read_table(t)
       local inputs = layers[n - 1] and #layers[n - 1].bias or #layer.weights[1]
       if #row ~= inputs then check.fail("%s: expected %d weights in each row, got %d", what, inputs, #row) end
     end
+    if given.bias and #check.table(given.bias, what .. ": bias") ~= #layer.weights then
+      check.fail("%s: expected a bias for each of %d rows of weights, got %d", what, #layer.weights, #given.bias)
+    end
     for i in ipairs(layer.weights) do layer.bias[i] = number((given.bias or {})[i] or 0, what .. ": bias") end
     layers[n] = layer
   end

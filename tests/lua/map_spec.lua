@@ -67,6 +67,8 @@ describe("a network", function()
       assert.is_true(got:contains(y) and got:width() < 1e-14)
     end
     assert.has_error(function() net { 1 } end, "network: expected 2 inputs, got 1")
+    assert.has_error(function() ambit.network { { weights = { { 1 }, { 2 } }, bias = { 1 } } } end,
+      "network: layer 1: expected a bias for each of 2 rows of weights, got 1")
   end)
 
   it("is read from a file, whose faults are told by line", function()
