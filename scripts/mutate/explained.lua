@@ -169,6 +169,8 @@ return {
     "less is cut away",
   ["framework/functions/pow.c | logic 1 | if (ambit_interval_is_empty(r) || ambit_interval_is_empty(*a)) return false;"] =
     "less is found to be impossible",
+  ["framework/verbs/simulate/problem.c | logic 1 | if (status == AMBIT_OK && b->ninvariant)"] =
+    "a tape over what is no input is refused when it is sealed, and the sentence is that of the first check",
   ["framework/verbs/simulate/problem.c | guard 1 | if (!range || !slot || !x) return no_memory(b);"] =
     "memory that ran out for one array ran out for the next: an allocation that fails is tried where it is made",
   ["plugins/solver/zonotope/quartic.c | extremum 1 | all.most = fmin(bound, all.rest + add_known(z, j, whole)) * ABOVE;"] =
