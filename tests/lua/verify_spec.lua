@@ -139,6 +139,22 @@ describe("verify", function()
     assert.is_true(x[2] ^ 2 > 7.5 and math.abs(x[2] ^ 2 - 7.5 - c.g:mid()) < 1e-6)
   end)
 
+  it("cuts the parameter that makes bounds wide, not data that nothing depends on", function()
+    local states, initial = { "x", "v" }, { x = 1, v = 0 }
+    for i = 1, 4 do
+      states[2 + i], initial["y" .. i] = "y" .. i, ambit.between(0, 1)
+    end
+    local o = ambit.ode { states = states, parameters = { w = ambit.between("0.5", 2) }, equations = function(s, p)
+      local rates = { x = s.v, v = -p.w ^ 2 * s.x }
+      for i = 1, 4 do rates["y" .. i] = -s["y" .. i] end
+      return rates
+    end }
+    local r = verify { o, initial = initial, t = { 0, 8 }, solver = "lohner", -- x = cos(w t)
+      safe = { high = function(s) return s.x - "1.05" end, low = function(s) return "-1.05" - s.x end } }
+    assert.equal("proved", r.status)
+    assert.is_true(r.refinements < 120)
+  end)
+
   it("agrees with ordinary integration on random systems", function()
     local seed = 4711
     local function draw()

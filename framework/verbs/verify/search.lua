@@ -17,6 +17,9 @@ local OTHERS_MORE, OTHERS_LEAST = 10, 5 -- CPU time of another solver's run: tim
 local WORTH = 0.8         -- of the gap that is open: what leaves less is an improvement
 local TIGHTER, TIGHTEST = 1e-3, 1e-18 -- tolerances of the solver: factor, and where it stops to matter
 
+local LEAST_WEIGHT = 1e-3 -- of a datum that moves no condition from the middle: it may do so elsewhere
+local DULL, DULLER = 0.01, 0.25 -- a cut that gains less than this share of the gap makes its datum's weight so much less
+
 -- -- points
 
 local function middle(lo, hi)
@@ -66,7 +69,8 @@ end
 
 -- -- cutting
 
--- The datum that matters most in this box: by how much it moved the worst condition, relative to its part of the range.
+-- The datum that matters most in this box: by how much it moved the worst condition, relative to its part of the range,
+-- and less where the last cuts across it gained nothing.
 local function choose(job, b)
   local effect = {}
   for k, condition in ipairs(job.conditions) do
@@ -81,7 +85,8 @@ local function choose(job, b)
     local hi, m = b.hi[j], middle(lo, b.hi[j])
     if m > lo and m < hi then
       local share = (hi - lo) / (job.hi[j] - job.lo[j])
-      local weight = most > 0 and math.max((effect[j] or 0) / most, 0.02) or 1
+      local weight = most > 0 and math.max((effect[j] or 0) / most, LEAST_WEIGHT) or 1
+      weight = weight * (job.worth[j] or 1)
       if not best or share * weight > gain then best, gain = j, share * weight end
     end
   end
@@ -112,19 +117,50 @@ local function still_open(job, boxes)
   return list
 end
 
+-- Are the halves of a box nearer to a proof than it was? Where nothing is bounded, a run that gets further is.
+local function is_gain(job, b, parts)
+  local worst, reached, first = -math.huge, math.huge, job.times[1]
+  for _, part in ipairs(parts) do
+    worst = math.max(worst, box.badness(job, part))
+    reached = math.min(reached, math.abs(part.outcome.t_reached - first))
+  end
+  local before = box.badness(job, b)
+  if before < math.huge then return before - worst > DULL * box.gap(job, b) end
+  return worst < math.huge or reached > (1 + DULL) * math.abs(b.outcome.t_reached - first)
+end
+
 -- Both halves across datum j, and the middle of the second.
 local function cut_box(job, b, j, boxes)
   local m = middle(b.lo[j], b.hi[j])
-  for _, part in ipairs { half(b, j, b.lo[j], m), half(b, j, m, b.hi[j]) } do
+  local parts = { half(b, j, b.lo[j], m), half(b, j, m, b.hi[j]) }
+  for _, part in ipairs(parts) do
     box.run(job, part)
     if job.sound_points then box.note(job, part) end
     boxes[#boxes + 1] = part
   end
+  if not is_gain(job, b, parts) then job.worth[j] = (job.worth[j] or 1) * DULLER end
   local last = boxes[#boxes]
   if job.sound_points and box.is_open(job, last) and not box.is_spent(job) then try_point(job, centre(last)) end
 end
 
+-- What one half of the root gains across each datum, by the most: conditions may not depend on what makes their bounds
+-- wide, and a cut across a datum that gains nothing leaves two boxes in the place of one.
+local function probe(job, root)
+  local gains, most = {}, 0
+  for j, lo in ipairs(root.lo) do
+    if box.is_spent(job) then return end
+    local part = box.run(job, half(root, j, lo, middle(lo, root.hi[j])))
+    gains[j] = math.max(0, box.badness(job, root) - box.badness(job, part))
+    most = math.max(most, gains[j])
+  end
+  if not (most > DULL * box.gap(job, root) and most < math.huge) then return end
+  job.moved = nil
+  for j, gain in ipairs(gains) do job.worth[j] = math.max(gain / most, LEAST_WEIGHT) end
+end
+
 local function cut(job, root)
+  job.worth = {}
+  if #job.lo > 1 and #job.lo <= SINGLE and box.is_open(job, root) then probe(job, root) end
   local boxes, stuck = still_open(job, { root }), {}
   while #boxes > 0 and not box.is_spent(job) do
     local b = take_worst(job, boxes)
