@@ -4,6 +4,7 @@
 #include "sum.h"
 #define MULTIPLY quartic_avx2
 #define ADD add_avx2
+#define MEASURE measure_avx2
 #include "multiply.h"
 #else
 typedef int nothing_here;

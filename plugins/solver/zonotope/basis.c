@@ -4,6 +4,7 @@
 ** alike; if these are known state by state only, all that bounds sizes takes them for errors of its length.
 */
 #include "basis.h"
+#include "depend.h"
 #include "modes.h"
 #include "quartic.h"
 
@@ -62,6 +63,25 @@ static int take_modes(zono *z) {
   return 1;
 }
 
+/* along the principal axes of generators that depend on the data */
+static int take_axes(zono *z) {
+  double *a = z->proof->depend->work;
+  uint32_t n = z->nx;
+  memset(a, 0, (size_t)n * n * sizeof *a);
+  for (uint32_t c = 0; c < z->ngen; c++)
+    for (uint32_t i = 0; i < n; i++)
+      for (uint32_t k = 0; k < n; k++) {
+        const double *g = z->G + (size_t)c * n, *unit = z->proof->spread;
+        a[i * n + k] += g[i] / unit[i] * (g[k] / unit[k]);
+      }
+  depend_axes(z, z->basis->columns, z->basis->inverse);
+  return 1;
+}
+
+static int take_directions(zono *z) {
+  return z->modes->now.any ? take_modes(z) : z->proof->depend->any ? take_axes(z) : 0;
+}
+
 double basis_along(zono *z, const double *y) {
   uint32_t n = z->nx;
   double sum = 0, rounded = 0;
@@ -71,6 +91,7 @@ double basis_along(zono *z, const double *y) {
     sum += fabs(part);
   }
   for (uint32_t i = 0; i < n; i++) rounded += fabs(y[i]) * z->E[i];
+  sum += depend_through(z, y);
   return (sum + quartic_through(z, y) + discs_along(z, &z->modes->now, y) + 2 * (n + 4) * UNIT * rounded) * ABOVE;
 }
 
@@ -114,4 +135,4 @@ static int is_worth_it(const zono *z) {
   return turned < WORTH * single;
 }
 
-void basis_choose(zono *z) { z->basis->is_turned = z->modes->now.any && take_modes(z) && scale(z) && is_worth_it(z); }
+void basis_choose(zono *z) { z->basis->is_turned = take_directions(z) && scale(z) && is_worth_it(z); }

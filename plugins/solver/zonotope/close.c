@@ -5,6 +5,7 @@
 ** sizes, the columns that are nearest to an axis, or shortest, go into a box, or into discs where there are any.
 */
 #include "basis.h"
+#include "depend.h"
 #include "modes.h"
 #include "proof.h"
 #include "quartic.h"
@@ -74,6 +75,7 @@ static uint32_t move_generators(zono *z) {
       size += size_by_errors(z, y + s->mix + (size_t)j * z->nx);
     *box(z, FROM_START, i) += 2 * (z->nx + 4) * UNIT * size * ABOVE;
   }
+  depend_move(z);
   return mixed_add(z, z->ngen);
 }
 
@@ -110,7 +112,7 @@ static void find_scores(const zono *z, uint32_t n) {
     const double *g = p->columns + (size_t)c * z->nx;
     double sum = 0, most = 0;
     for (uint32_t i = 0; i < z->nx; i++) {
-      double u = fabs(g[i]) / p->spread[i];
+      double u = (fabs(g[i]) + depend_depth(z, c, i)) / p->spread[i];
       sum += u, most = fmax(most, u);
     }
     p->score[c] = p->source[c] ? INFINITY : sum - most;
@@ -122,7 +124,8 @@ static void find_spread(const zono *z, uint32_t n) {
   proof *p = z->proof;
   for (uint32_t i = 0; i < z->nx; i++) p->spread[i] = 0;
   for (uint32_t c = 0; c < n; c++)
-    for (uint32_t i = 0; i < z->nx; i++) p->spread[i] += fabs(p->columns[(size_t)c * z->nx + i]);
+    for (uint32_t i = 0; i < z->nx; i++)
+      p->spread[i] += fabs(p->columns[(size_t)c * z->nx + i]) + depend_depth(z, c, i);
   for (uint32_t i = 0; i < z->nx; i++) {
     const double *y = p->end + (size_t)i * z->shape.stride;
     p->spread[i] += row_l(&z->shape, y) + row_q(&z->shape, y) + row_c(&z->shape, y);
@@ -165,14 +168,16 @@ static void reduce(zono *z, uint32_t n) {
   for (uint32_t c = 0; c < n; c++) {
     const double *g = p->columns + (size_t)c * nx;
     if (kept < room && (least < 0 || p->score[c] >= least)) {
-      p->from[kept] = p->origin[c], p->made_by[kept] = p->source[c];
+      p->from[kept] = p->origin[c], p->made_by[kept] = p->source[c], p->depend->kept[kept] = c;
       memcpy(z->G + (size_t)kept++ * nx, g, nx * sizeof *g);
     } else {
+      for (uint32_t i = 0; i < nx; i++) *box(z, FROM_MIXED, i) += depend_depth(z, c, i) * ABOVE;
       memmove(p->columns + (size_t)left * nx, g, nx * sizeof *g);
       p->origin[left++] = p->origin[c];
     }
   }
   for (uint32_t c = 0; c < left; c++) discs_put(z, p->columns + (size_t)c * nx, p->origin[c]);
+  depend_keep(z, kept);
   discs_finish(z);
   z->ngen = put_box(z, kept);
 }
@@ -181,7 +186,7 @@ static void find_sizes(zono *z) {
   for (uint32_t i = 0; i < z->nx; i++) {
     double sum = 0;
     for (uint32_t c = 0; c < z->ngen; c++) sum += fabs(z->G[(size_t)c * z->nx + i]);
-    z->E[i] = (sum + quartic_size(z, i) + discs_width(z, i)) * ABOVE;
+    z->E[i] = (sum + depend_size(z, i) + quartic_size(z, i) + discs_width(z, i)) * ABOVE;
   }
 }
 

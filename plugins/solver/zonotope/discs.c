@@ -5,6 +5,7 @@
 ** xi_j U_j, U_j = V T_j, it is enlarged for that: V w = (V + sum_j xi_j U_j) u for some u if b_k >= |w_k| + sum_l
 ** tilt_kl b_l.
 */
+#include "depend.h"
 #include "modes.h"
 #include "proof.h"
 
@@ -88,7 +89,8 @@ static void copy_axes(const zono *z, const discs *from, discs *to) {
   memcpy(to->S, from->S, square * sizeof(double)), memcpy(to->tilt, from->tilt, square * sizeof(double));
 }
 
-/* discs that are empty, as the step would move them: are they of use? */
+/* discs that are empty, as the step would move them: are they of use? Where they would be much wider than generators,
+** and only shrink, generators that depend on the data do it better. */
 static int are_of_use(zono *z) {
   modes *m = z->modes;
   enum worth worth = worth_enclosing(z);
@@ -96,7 +98,9 @@ static int are_of_use(zono *z) {
   copy_axes(z, &m->now, &m->old);
   memset(m->old.b, 0, z->nx * sizeof *m->old.b);
   map_discs(z);
-  return worth_keeping(z) && (worth == WORTH_KEEPING || m->rate < 0);
+  if (!worth_keeping(z)) return 0;
+  if (worth == WORTH_IF_SHRINKING && m->rate < 0) depend_begin(z);
+  return worth == WORTH_KEEPING;
 }
 
 static void clear(zono *z) {

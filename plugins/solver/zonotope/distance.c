@@ -4,6 +4,7 @@
 ** (quartic.c). What K and C vary by besides, and what slopes vary by, goes into the box.
 */
 #include "basis.h"
+#include "change.h"
 #include "quartic.h"
 #include "residual.h"
 #include "vary.h"
@@ -41,6 +42,7 @@ static uint32_t add_lump(zono *z, uint32_t at, lump size, const double *c, const
   for (uint32_t i = 0; i < nx; i++)
     any += fabs(c[i]), sum->centre[i] += fabs(c[i]) * size.rest, sum->path[i] += fabs(c[i]) * size.path;
   if (any == 0) return at;
+  change_note(z, c, size.rest);
   for (uint32_t i = 0; i < nx; i++) {
     mean[i] = z->h * size.mean * times(z, p->mean, i, c);
     tilt[i] = z->h * size.moment * times(z, p->tilt, i, c);
@@ -70,6 +72,7 @@ static uint32_t add_known(zono *z, uint32_t at, const sums *sum) {
     size *= ABOVE;
     for (uint32_t i = 0; i < z->nx; i++) c[i] = i == l;
     sum->centre[l] += known, sum->path[l] += known;
+    change_note(z, c, known);
     at = add_lump(z, at, (lump) { 0, size, size, size, 0 }, c, sum, FROM_MIXED);
   }
   return at;
@@ -199,6 +202,17 @@ static void refine(zono *z, const sums *sum) {
   }
 }
 
+/* the columns of the slopes' dependence on the data */
+static uint32_t add_changes(zono *z, uint32_t at, const sums *sum) {
+  change *c = z->proof->change;
+  uint32_t count = c->count;
+  change_end(z, sum->centre, sum->width);
+  c->count = 0; /* no more is noted */
+  for (uint32_t r = 0; r < count; r++)
+    at = add_lump(z, at, quartic_none(c->size[r]), c->u + (size_t)r * z->nx, sum, FROM_JACOBIAN);
+  return at;
+}
+
 uint32_t distance_add(zono *z, uint32_t at) {
   proof *p = z->proof;
   uint32_t nx = z->nx;
@@ -208,10 +222,12 @@ uint32_t distance_add(zono *z, uint32_t at) {
   }
   sums sum = { p->work, p->work + 3 * (size_t)nx, p->work + nx };
   memset(p->work, 0, 4 * nx * sizeof(double));
+  change_begin(z);
   at = add_lumps(z, at, &sum);
   double *square = p->work + 2 * (size_t)nx;
   close_sums(z, &sum);
   refine(z, &sum);
+  at = add_changes(z, at, &sum);
   for (uint32_t i = 0; i < nx; i++)
     for (uint32_t j = 0; j < nx; j++) square[i] += p->dJ[(size_t)i * nx + j] * p->zeta[j];
   for (uint32_t i = 0; i < nx; i++) {

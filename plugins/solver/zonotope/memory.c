@@ -1,6 +1,8 @@
 /* memory.c -- what phase 2 needs, all at once, and how each x' is found. */
 #include "proof.h"
 #include "basis.h"
+#include "change.h"
+#include "depend.h"
 #include "jump.h"
 #include "modes.h"
 #include "quartic.h"
@@ -97,7 +99,7 @@ static int open_states(zono *z) {
   proof *p = z->proof;
   const ambit_host *h = z->host;
   size_t nx = z->nx, square = nx * nx, lumps = 2 * ((size_t)z->nslot + z->nout + z->na + nx), jumps = jump_columns(z),
-         columns = z->ngen_max + (lumps > jumps ? lumps : jumps) + nx + 2 * (size_t)z->shape.m;
+         columns = z->ngen_max + (lumps > jumps ? lumps : jumps) + nx + 6 * (size_t)z->shape.m;
   double **matrix[] = { &p->J, &p->dJ, &p->mean, &p->tilt, &p->reach, &p->wobble, &p->power, &p->power_new, &p->size,
     &p->size_new, &p->jacobian_size };
   for (size_t n = 0; n < sizeof matrix / sizeof *matrix; n++)
@@ -118,7 +120,9 @@ static int open_states(zono *z) {
 int zono_open_proof(zono *z) {
   proof *p = z->proof = z->host->alloc(z->host, sizeof *p);
   if (!p || !open_slots(z) || !open_targets(z) || !open_states(z)) return 0;
-  if (!quartic_open(z) || !residual_open(z) || !modes_open(z) || !cycle_open(z) || !basis_open(z)) return 0;
+  if (!quartic_open(z) || !depend_open(z) || !change_open(z) || !residual_open(z) || !modes_open(z) || !cycle_open(z) ||
+      !basis_open(z))
+    return 0;
   slope_open(p);
   if ((z->problem.extras & AMBIT_EXTRA_DENSE) && z->nx && !dense_open(z)) return 0;
   return !(z->problem.extras & AMBIT_EXTRA_SET) || !z->nx || set_open(z);

@@ -5,11 +5,11 @@
 ** what is left, and u_r xi_j (w_r' eps) is one generator, of size |w_r' eps|. Boxed, it would move the states
 ** independently of each other, and slow ones by what shakes stiff ones. What R_j makes goes into the box.
 */
+#include "change.h"
+#include "depend.h"
 #include "modes.h"
 #include "proof.h"
 #include "quartic.h"
-
-#define RANK 2 /* crosses of a datum */
 
 void mixed_prepare(zono *z) {
   proof *p = z->proof;
@@ -46,7 +46,9 @@ static double of_quartic(const zono *z, const double *y) {
   return sum;
 }
 
-double mixed_size(const zono *z, const double *y) { return of_generators(z, y) + of_quartic(z, y) + discs_size(z, y); }
+double mixed_size(const zono *z, const double *y) {
+  return of_generators(z, y) + depend_through(z, y) + of_quartic(z, y) + discs_size(z, y);
+}
 
 /* -- crosses */
 
@@ -88,22 +90,29 @@ static void split(zono *z, double *B, uint32_t i, uint32_t k, double *u, double 
   }
 }
 
+/* Terms xi_j M_j G rho are part of what generators depend on (depend.c) if that is followed; then M_j acts on what they
+** depend on, and on terms of degree 4. */
 uint32_t mixed_add(zono *z, uint32_t at) {
   proof *p = z->proof;
-  uint32_t nx = z->nx, i = 0, k = 0;
-  double *B = p->moves, *u = B + (size_t)nx * nx, *w = u + nx;
+  depend *d = p->depend;
+  uint32_t nx = z->nx, i = 0, k = 0, first = at, crosses = 0;
+  double *B = p->moves;
   for (uint32_t j = 0; j < z->shape.mixed; j++) {
     if (!take_moves(z, j, B)) continue;
-    for (int r = 0; r < RANK && find_pivot(z, B, &i, &k); r++) {
-      split(z, B, i, k, u, w);
-      double *column = p->columns + (size_t)at * nx, size = (of_generators(z, w) + quartic_through(z, w)) * ABOVE;
-      for (uint32_t a = 0; a < nx; a++) column[a] = u[a] * size, *box(z, FROM_START, a) += UNIT * fabs(column[a]);
-      p->source[at] = 0, p->origin[at++] = FROM_MIXED;
-    }
+    for (int r = 0; r < CROSSES && find_pivot(z, B, &i, &k); r++)
+      split(z, B, i, k, p->columns + (size_t)at++ * nx, d->turn + (size_t)crosses++ * nx);
     for (uint32_t a = 0; a < nx; a++) {
       const double *y = B + (size_t)a * nx;
-      *box(z, FROM_MIXED, a) += (of_generators(z, y) + of_quartic(z, y)) * ABOVE;
+      double old = d->any ? depend_through(z, y) : of_generators(z, y);
+      *box(z, FROM_MIXED, a) += (old + of_quartic(z, y)) * ABOVE;
     }
+  }
+  depend_along(z, d->turn, crosses, d->along);
+  for (uint32_t c = 0; c < crosses; c++) {
+    double *u = p->columns + (size_t)(first + c) * nx, *w = d->turn + (size_t)c * nx;
+    double size = ((d->any ? d->along[c] : of_generators(z, w)) + quartic_through(z, w)) * ABOVE;
+    for (uint32_t a = 0; a < nx; a++) u[a] *= size, *box(z, FROM_START, a) += UNIT * fabs(u[a]);
+    p->source[first + c] = 0, p->origin[first + c] = FROM_MIXED;
   }
   return at;
 }

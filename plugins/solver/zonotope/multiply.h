@@ -4,6 +4,7 @@
 ** different pairs p. Runs over l > k are made in vectors; the last one of a run may write up to three coefficients of
 ** the next run, which is made after it.
 */
+#include "depend.h"
 #include "quartic.h"
 
 /* of i <= j <= k = l */
@@ -58,4 +59,19 @@ void ADD(double *to, double scale, const double *x, size_t n) {
   size_t m = 0;
   for (; m + 4 <= n; m += 4) *(four *)(to + m) += SPREAD(scale) * *(const four *)(x + m);
   for (; m < n; m++) to[m] += scale * x[m];
+}
+
+void MEASURE(const double *G, size_t stride, size_t n, uint32_t nx, const double *w, uint32_t count, double *to) {
+  const four_bits no_sign = { INT64_MAX, INT64_MAX, INT64_MAX, INT64_MAX };
+  for (size_t c = 0; c < n; c += 8)
+    for (uint32_t r = 0; r < count; r++) {
+      four a = { 0, 0, 0, 0 }, b = a;
+      for (uint32_t k = 0; k < nx; k++) {
+        const four *x = (const four *)(G + k * stride + c);
+        four by = SPREAD(w[r * nx + k]);
+        a += by * x[0], b += by * x[1];
+      }
+      a = (four)((four_bits)a & no_sign) + (four)((four_bits)b & no_sign);
+      to[r] += (a[0] + a[1]) + (a[2] + a[3]);
+    }
 }

@@ -3,6 +3,7 @@
 ** The data's own share of a state's width is that of its terms. Errors are put down to the data that the failing
 ** operations' operands depend on, in proportion to their linear terms: estimates, on which no proof depends.
 */
+#include "depend.h"
 #include "modes.h"
 #include "proof.h"
 #include <stdarg.h>
@@ -49,7 +50,7 @@ static uint32_t take_largest(double *x, uint32_t n, double *value) {
 static void put_origins(const zono *z, uint32_t i, writer *w) {
   double share[ORIGINS] = { 0 }, value;
   for (uint32_t c = 0; c < z->ngen; c++) share[z->proof->from[c]] += fabs(z->G[(size_t)c * z->nx + i]);
-  share[FROM_MIXED] += discs_width(z, i);
+  share[FROM_MIXED] += discs_width(z, i) + depend_size(z, i);
   for (int n = 0; n < ORIGINS; n++) {
     uint32_t origin = take_largest(share, ORIGINS, &value);
     if (!(value > 0.01 * z->E[i])) return;

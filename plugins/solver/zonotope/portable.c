@@ -3,4 +3,5 @@
 #include "sum.h"
 #define MULTIPLY quartic_portable
 #define ADD add_portable
+#define MEASURE measure_portable
 #include "multiply.h"

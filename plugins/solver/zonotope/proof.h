@@ -89,6 +89,8 @@ typedef struct proof {
   double *boxes;              /* [ORIGINS x nx] what goes into the box */
   uint8_t *origin, *from;     /* of columns, of z->G */
   uint16_t *source, *made_by; /* vary.c: which function of time, of columns, of z->G; 0: none */
+  struct depend *depend;      /* depend.c */
+  struct change *change;      /* change.c */
   struct quartic *quartic;    /* quartic.c */
   struct residual *residual;  /* residual.c */
   double *late;               /* [nslot] what of z->r is FROM_TIME */

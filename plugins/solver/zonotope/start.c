@@ -4,6 +4,7 @@
 ** and how far that spreads. A state or parameter that is more than rounding away from its row gets a datum of its own.
 */
 #include "basis.h"
+#include "depend.h"
 #include "given.h"
 #include "modes.h"
 #include "zonotope.h"
@@ -218,6 +219,7 @@ void zono_start(zono *z) {
   shape_hold_all(&z->shape);
   if (z->modes) modes_start(z), z->basis->is_turned = 0;
   size_t bytes = z->shape.stride * sizeof(double);
+  if (z->proof) depend_start(z);
   z->t = z->problem.time[0], z->next = 1, z->jumped = 0, z->guess = 0, z->ngen = 0, z->why = WHY_NOTHING,
   z->detail = NULL;
   memcpy(z->P, z->start, z->nx * bytes);

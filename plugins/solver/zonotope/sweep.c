@@ -6,6 +6,8 @@
 ** unknowns a is by how much the row fails, rho; the true coefficients are C + rho C_a (close_rows), C_a those of the
 ** unknowns.
 */
+#include "change.h"
+#include "depend.h"
 #include "kink.h"
 #include "proof.h"
 #include "residual.h"
@@ -163,6 +165,19 @@ typedef struct coefficients {
   double *C, *dC, *L, *dL, *rho;
 } coefficients;
 
+/* what each datum makes of the coefficients of the states */
+static void keep_slopes(const zono *z, const sweeps *w, uint32_t n) {
+  if (!z->proof->change->known) return;
+  for (uint32_t l = 0; l < z->nx; l++) {
+    const double *x = adjoint(w, slot_x(z, l));
+    double *to = z->proof->change->slope + ((size_t)n * z->nx + l) * z->m;
+    if (form_seen(&w->forms, x))
+      memcpy(to, x + 1, z->m * sizeof *to);
+    else
+      memset(to, 0, z->m * sizeof *to);
+  }
+}
+
 /* target n: C [nslot] and L [na], by equation, and rho [na], by unknown */
 static void sweep_target(const zono *z, const sweeps *w, uint32_t n, const coefficients *k) {
   const forms *f = &w->forms;
@@ -183,6 +198,7 @@ static void sweep_target(const zono *z, const sweeps *w, uint32_t n, const coeff
     k->C[at + j] = x[0];
     if (k->dC) k->dC[at + j] = varies(w, x);
   }
+  if (k->dC) keep_slopes(z, w, n);
   for (uint32_t c = 0; k->rho && c < z->na; c++) {
     const double *x = adjoint(w, slot_a(z, c));
     k->rho[row + c] = (fabs(x[0] + (c == n)) + form_moving(f, x)) * ABOVE + 2 * UNIT;
@@ -311,6 +327,7 @@ static void add_rest(zono *z) {
 int sweep_coefficients(zono *z) {
   proof *p = z->proof;
   coefficients k = { p->C, p->dC, p->L, p->dL, p->rho };
+  p->change->known = p->depend->any;
   if (!sweep(z, &p->forms, z->h, &k) || !close_rows(z)) return 0;
   if (p->residual->used) sweep_equations(z, &p->forms);
   add_rest(z);
