@@ -272,4 +272,43 @@ describe("sensitivity", function()
     assert.equal("zonotope", solver_of(ambit.around(1, "20%"), ambit.around(1, "20%")))
     assert.equal("lohner", solver_of(1e5, 1)) -- `stiff` for the system itself
   end)
+
+  -- Five links and more are differentiated in implicit form; formulas for the accelerations are written for solvers
+  -- that ask for them. Against differences of ordinary runs, which the mean value theorem puts between the derivatives.
+  it("differentiates balances instead of formulas for accelerations", function()
+    local function ask(mass, start, more)
+      local m, initial = ambit.mechanism { "chain", gravity = { 0, "-9.81", 0 } }, {}
+      local at = m.world
+      for i = 1, 5 do
+        local turned, joint = m:revolute { from = at, axis = i % 2 == 0 and "x" or "z", name = "q" .. i }
+        at = m:rigid_link { from = turned, offset = { "0.4", "0.1", 0 } }
+        m:rigid_body { at = turned, mass = i == 3 and mass or 1, centre = { "0.2", 0, 0 },
+          inertia = { "0.01", 0, 0, 0, "0.02", 0, 0, 0, "0.02" } }
+        m:joint_damper { joint = joint, damping = "0.1" }
+        initial["q" .. i], initial["q" .. i .. "'"] = 0.1 * i, 0
+      end
+      initial.q1 = start
+      local t = { m:dynamics(), initial = initial, t = { 0, 0.1, 0.2 } }
+      for key, value in pairs(more) do t[key] = value end
+      return t
+    end
+    local mass, start = ambit.around(2, 0.001), ambit.around(0.1, 0.001)
+    local found = ambit.sensitivity(ask(mass, start, { wrt = { "q1", mass = mass }, solver = "zonotope" }))
+    assert.equal("complete", found.run.status)
+    local by_formulas = ambit.sensitivity(ask(mass, start, { wrt = { mass = mass }, solver = "lohner", t = { 0, 0.01 } }))
+    assert.equal("complete", by_formulas.run.status)
+    local function ordinary(m, q) return ambit.simulate(ask(m, q, { solver = "gsl", relative = 1e-13, absolute = 1e-15 })) end
+    local light, heavy = ordinary(1.999, 0.1), ordinary(2.001, 0.1)
+    local low, high = ordinary(2, 0.099), ordinary(2, 0.101)
+    local function holds(x, quotient, name)
+      assert.is_true(x.lo - 1e-8 <= quotient and quotient <= x.hi + 1e-8, name)
+      assert.is_true(x:width() < 0.02 * (1 + x:mag()), name)
+    end
+    for _, t in ipairs { 0.1, 0.2 } do
+      for _, name in ipairs(found.of) do
+        holds(found:d_at(t, name, "mass"), (heavy:at(t)[name]:mid() - light:at(t)[name]:mid()) / 0.002, name)
+        holds(found:d_at(t, name, "q1"), (high:at(t)[name]:mid() - low:at(t)[name]:mid()) / 0.002, name)
+      end
+    end
+  end)
 end)

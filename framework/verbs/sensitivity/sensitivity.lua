@@ -21,11 +21,19 @@ local function collector()
   end
 end
 
+-- What the equations are made of: in implicit form where they have one, which is far shorter than formulas for
+-- accelerations.
+local function equations(system)
+  local form = not rawget(system, "rates") and core.system_implicit(system.system)
+  if not form then return system.rates end
+  return table.move(form.residuals, 1, #form.residuals, #form.rates + 1, form.rates)
+end
+
 -- Every initial value, and every uncertain datum of the equations. A datum that a parameter is made of by a factor is
 -- called as the parameter: then the derivative is by the parameter's value.
 local function everything(system, add)
   for i, name in ipairs(system.states) do add(name, i, core.expression(0)) end
-  for _, leaf in ipairs(uncertain.leaves(system.rates)) do
+  for _, leaf in ipairs(uncertain.leaves(equations(system))) do
     local parameter = system.parameters[leaf.name]
     local own = parameter and uncertain.leaves { parameter } or {}
     add(leaf.name, 0, #own == 1 and own[1].expression == leaf.expression and parameter or leaf.expression)
@@ -39,7 +47,7 @@ local function by_name(system, name, add)
   if system.parameters[name] then return add(name, 0, system.parameters[name]) end
   local known = check.sorted(system.parameters)
   table.move(system.states, 1, #system.states, #known + 1, known)
-  for _, leaf in ipairs(uncertain.leaves(system.rates)) do
+  for _, leaf in ipairs(uncertain.leaves(equations(system))) do
     if leaf.name == name then return add(name, 0, leaf.expression) end
     known[#known + 1] = leaf.name
   end

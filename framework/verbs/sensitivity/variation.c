@@ -4,30 +4,17 @@
 ** derivative, nor have a forcing, nor are reached through nonzero entries of A from such a row: there S = 0 solves the
 ** linear equations, and solutions are unique.
 */
-#include <ambit/variation.h>
+#include "verbs/sensitivity/variation_build.h"
 #include "verbs/run/unknowns.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define ZERO 0u /* node 0 is the constant 0 */
+#define LARGE 5 /* unknowns of the implicit form, from which on formulas for accelerations are far longer than it */
 
-typedef struct column {
-  ambit_expr unknown, scale;   /* of the datum; unknown is NO_EXPR for an initial value */
-  ambit_expr *start, *forcing; /* [nx] dx0/dq, df/dq */
-  bool *reached;               /* [nx] */
-} column;
-
-typedef struct build {
-  const ambit_variation_request *q;
-  const ambit_system *s;
-  ambit_graph *graph;
-  ambit_arena *arena;
-  ambit_failure *f;
-  ambit_expr *slope; /* [nx x nx] A by rows */
-  column *column;    /* [nby] */
-  ambit_variation *v;
-} build;
+typedef ambit_variation_build_state build;
+typedef ambit_variation_column column;
 
 static ambit_status no_memory(const build *b) { return ambit_fail(b->f, AMBIT_NOMEM, "out of memory"); }
 
@@ -71,14 +58,11 @@ static ambit_status read_datum(const build *b, const ambit_variation_by *by, col
 
 static ambit_status differentiate_datum(const build *b, column *c) {
   for (size_t i = 0; i < b->s->nx; i++) {
-    ambit_expr start, forcing;
+    ambit_expr start;
     ambit_status status = derive(b, b->q->initial[i], c->unknown, "initial value of state", b->s->name[i], &start);
-    if (status == AMBIT_OK)
-      status = derive(b, b->s->rate[i], c->unknown, "right-hand side of state", b->s->name[i], &forcing);
     if (status != AMBIT_OK) return status;
     c->start[i] = start == ZERO ? ZERO : multiply(b, start, c->scale);
-    c->forcing[i] = forcing == ZERO ? ZERO : multiply(b, forcing, c->scale);
-    if (c->start[i] == AMBIT_NO_EXPR || c->forcing[i] == AMBIT_NO_EXPR) return no_memory(b);
+    if (c->start[i] == AMBIT_NO_EXPR) return no_memory(b);
   }
   return AMBIT_OK;
 }
@@ -123,20 +107,38 @@ static ambit_status check_invariants(const build *b, size_t j) {
   return AMBIT_OK;
 }
 
-static ambit_status differentiate(const build *b) {
-  size_t nx = b->s->nx;
-  for (size_t i = 0; i < nx; i++)
-    for (size_t k = 0; k < nx; k++) {
-      ambit_status status =
-          derive(b, b->s->rate[i], b->s->state[k], "right-hand side of state", b->s->name[i], &b->slope[i * nx + k]);
-      if (status != AMBIT_OK) return status;
-    }
-  for (size_t j = 0; j < b->q->nby; j++) {
-    ambit_status status = read_column(b, j);
+static ambit_status read_columns(const build *b) {
+  ambit_status status = AMBIT_OK;
+  for (size_t j = 0; j < b->q->nby && status == AMBIT_OK; j++) {
+    status = read_column(b, j);
     if (status == AMBIT_OK) status = check_invariants(b, j);
+  }
+  return status;
+}
+
+/* df/dq of a datum */
+static ambit_status force(const build *b, column *c) {
+  for (size_t i = 0; i < b->s->nx && c->unknown != AMBIT_NO_EXPR; i++) {
+    ambit_expr forcing;
+    ambit_status status = derive(b, b->rate[i], c->unknown, "right-hand side of state", b->s->name[i], &forcing);
     if (status != AMBIT_OK) return status;
+    c->forcing[i] = forcing == ZERO ? ZERO : multiply(b, forcing, c->scale);
+    if (c->forcing[i] == AMBIT_NO_EXPR) return no_memory(b);
   }
   return AMBIT_OK;
+}
+
+/* A and b by formulas for the right-hand sides */
+static ambit_status differentiate(build *b) {
+  size_t nx = b->s->nx;
+  ambit_status status = ambit_system_rates(b->s, &b->rate, b->f);
+  b->slope = room(b, nx * nx, sizeof *b->slope);
+  if (status == AMBIT_OK && !b->slope) status = no_memory(b);
+  for (size_t i = 0; i < nx; i++)
+    for (size_t k = 0; k < nx && status == AMBIT_OK; k++)
+      status = derive(b, b->rate[i], b->s->state[k], "right-hand side of state", b->s->name[i], &b->slope[i * nx + k]);
+  for (size_t j = 0; j < b->q->nby && status == AMBIT_OK; j++) status = force(b, &b->column[j]);
+  return status;
 }
 
 /* -- structure */
@@ -156,7 +158,7 @@ static void reach(const build *b, column *c) {
 static size_t number_states(const build *b, uint32_t *place) {
   size_t n = b->s->nx, nby = b->q->nby;
   for (size_t j = 0; j < nby; j++) {
-    reach(b, &b->column[j]);
+    if (!b->form) reach(b, &b->column[j]);
     for (size_t i = 0; i < b->s->nx; i++)
       place[i * nby + j] = b->column[j].reached[i] ? (uint32_t)n++ : AMBIT_VARIATION_ZERO;
   }
@@ -226,15 +228,41 @@ static ambit_status check_names(const build *b) {
   return AMBIT_OK;
 }
 
-static ambit_status assemble(const build *b, size_t n) {
-  size_t nx = b->s->nx, nby = b->q->nby;
+/* p.rate of all further states */
+static ambit_status write_rates(const build *b, ambit_expr *rate) {
+  size_t nby = b->q->nby;
+  for (size_t i = 0; i < b->s->nx; i++)
+    for (size_t j = 0; j < nby; j++) {
+      uint32_t at = b->v->place[i * nby + j];
+      if (at == AMBIT_VARIATION_ZERO) continue;
+      rate[at] = variation_rate(b, i, j);
+      if (rate[at] == AMBIT_NO_EXPR) return no_memory(b);
+    }
+  return AMBIT_OK;
+}
+
+/* Formulas for the right-hand sides, for a solver that cannot do without. */
+static ambit_status write_later(ambit_system_source *self, ambit_failure *f) {
+  build *b = ((ambit_variation_source *)(void *)self)->build;
+  ambit_failure *before = b->f;
+  ambit_expr *rate = room(b, b->v->system.nx, sizeof *rate);
+  b->f = f;
+  ambit_status status = rate ? differentiate(b) : no_memory(b);
+  if (status == AMBIT_OK) memcpy(rate, b->rate, b->s->nx * sizeof *rate);
+  if (status == AMBIT_OK) status = write_rates(b, rate);
+  if (status == AMBIT_OK) self->rate = rate;
+  b->f = before;
+  return status;
+}
+
+static ambit_status assemble(build *b, size_t n) {
+  size_t nx = b->s->nx;
   parts p = { room(b, n, sizeof *p.name), room(b, n, sizeof *p.unit), room(b, n, sizeof *p.state),
     room(b, n, sizeof *p.rate), room(b, n, sizeof *p.start) };
   if (!p.name || !p.unit || !p.state || !p.rate || !p.start) return no_memory(b);
   memcpy(p.name, b->s->name, nx * sizeof *p.name);
   memcpy(p.unit, b->s->unit, nx * sizeof *p.unit);
   memcpy(p.state, b->s->state, nx * sizeof *p.state);
-  memcpy(p.rate, b->s->rate, nx * sizeof *p.rate);
   memcpy(p.start, b->q->initial, nx * sizeof *p.start);
   b->v->system = *b->s;
   b->v->system.source = NULL; /* it knows nothing of the further states */
@@ -242,31 +270,41 @@ static ambit_status assemble(const build *b, size_t n) {
   b->v->system.name = p.name;
   b->v->system.unit = p.unit;
   b->v->system.state = p.state;
-  b->v->system.rate = p.rate;
   b->v->initial = p.start;
   ambit_status status = name_states(b, &p);
   if (status == AMBIT_OK) status = check_names(b);
-  for (size_t i = 0; i < nx && status == AMBIT_OK; i++)
-    for (size_t j = 0; j < nby && status == AMBIT_OK; j++) {
-      uint32_t at = b->v->place[i * nby + j];
-      if (at == AMBIT_VARIATION_ZERO) continue;
-      p.rate[at] = variation_rate(b, i, j);
-      if (p.rate[at] == AMBIT_NO_EXPR) status = no_memory(b);
-    }
-  return status;
+  if (status != AMBIT_OK) return status;
+  if (b->form) {
+    b->v->system.rate = NULL;
+    return ambit_variation_implicit(b, write_later);
+  }
+  memcpy(p.rate, b->rate, nx * sizeof *p.rate);
+  b->v->system.rate = p.rate;
+  return write_rates(b, p.rate);
+}
+
+/* Outlives the request, as long as the arena does. */
+static build *open_build(const ambit_variation_request *q, ambit_arena *arena, ambit_variation *v, ambit_failure *f) {
+  build *b = ambit_arena_alloc(arena, sizeof *b);
+  ambit_variation_request *own = ambit_arena_alloc(arena, sizeof *own);
+  if (!b || !own) return NULL;
+  *own = *q;
+  *b = (build) { .q = own, .s = q->system, .graph = q->system->graph, .arena = arena, .f = f, .v = v };
+  b->column = room(b, q->nby, sizeof *b->column);
+  return b->column ? b : NULL;
 }
 
 ambit_status ambit_variation_build(
     const ambit_variation_request *q, ambit_arena *arena, ambit_variation *v, ambit_failure *f) {
-  build b = { .q = q, .s = q->system, .graph = q->system->graph, .arena = arena, .f = f, .v = v };
-  size_t nx = q->system->nx;
   *v = (ambit_variation) { 0 };
-  b.slope = room(&b, nx * nx, sizeof *b.slope);
-  b.column = room(&b, q->nby, sizeof *b.column);
-  uint32_t *place = room(&b, nx * q->nby, sizeof *place);
-  if (!b.slope || !b.column || !place) return no_memory(&b);
-  ambit_status status = differentiate(&b);
+  build *b = open_build(q, arena, v, f);
+  uint32_t *place = b ? room(b, q->system->nx * q->nby, sizeof *place) : NULL;
+  if (!place) return ambit_fail(f, AMBIT_NOMEM, "out of memory");
+  ambit_status status = read_columns(b);
+  if (status == AMBIT_OK && !q->system->rate) status = ambit_system_implicit(q->system, &b->form, f);
+  if (b->form && b->form->na < LARGE) b->form = NULL;
+  if (status == AMBIT_OK) status = b->form ? ambit_variation_reach(b) : differentiate(b);
   if (status != AMBIT_OK) return status;
   v->place = place;
-  return assemble(&b, number_states(&b, place));
+  return assemble(b, number_states(b, place));
 }

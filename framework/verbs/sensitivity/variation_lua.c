@@ -23,10 +23,13 @@ static ambit_variation_by *quantities(lua_State *L, const ambit_system *s, ambit
   const char **name = ambit_lua_texts(L, 3, n);
   const double *state = ambit_lua_numbers(L, 4, n);
   const ambit_expr *datum = ambit_lua_to_array(L, 5, *n);
-  ambit_variation_by *by = lua_newuserdatauv(L, (*n + 1) * sizeof *by, 0);
+  ambit_variation_by *by = ambit_arena_alloc(arena, (*n + 1) * sizeof *by);
+  if (!by) ambit_lua_error(L, "out of memory");
   for (size_t j = 0; j < *n; j++) {
     bool is_state = state[j] >= 1 && state[j] <= (double)s->nx;
-    by[j] = (ambit_variation_by) { .name = name[j], .datum = datum[j], .initial_of = AMBIT_VARIATION_ZERO };
+    by[j] = (ambit_variation_by) {
+      .name = ambit_arena_text(arena, name[j]), .datum = datum[j], .initial_of = AMBIT_VARIATION_ZERO
+    };
     if (is_state) by[j].initial_of = (uint32_t)state[j] - 1;
     by[j].unit = is_state ? s->unit[by[j].initial_of] : datum_unit(L, arena, 5, (lua_Integer)j + 1);
   }
@@ -36,20 +39,23 @@ static ambit_variation_by *quantities(lua_State *L, const ambit_system *s, ambit
 /* variation(system, {initial}, {name}, {number of the state whose initial value it is, or 0}, {datum}) -> system,
 ** {initial}, {number of the state d x_i/d q_j by rows, or 0: identically zero} */
 static int variation(lua_State *L) {
-  const ambit_system *s = &ambit_lua_check_system(L, 1)->system;
+  const ambit_system *s = &ambit_lua_check_outline(L, 1)->system;
   ambit_variation_request q = { .system = s, .initial = ambit_lua_to_array(L, 2, s->nx) };
   ambit_lua_system *out = ambit_lua_push_system(L);
   int at = lua_gettop(L);
   q.by = quantities(L, s, out->arena, &q.nby);
-  ambit_variation v;
+  ambit_variation *v = ambit_arena_alloc(out->arena, sizeof *v);
+  if (!v) ambit_lua_error(L, "out of memory");
   ambit_failure f = { 0 };
-  if (ambit_variation_build(&q, out->arena, &v, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
-  out->system = v.system;
+  if (ambit_variation_build(&q, out->arena, v, &f) != AMBIT_OK) ambit_lua_raise(L, &f);
+  out->system = v->system;
+  lua_pushvalue(L, 1); /* formulas for right-hand sides may be made of it later */
+  lua_setiuservalue(L, at, 1);
   lua_pushvalue(L, at);
-  ambit_lua_push_expressions(L, v.system.nx, v.initial);
+  ambit_lua_push_expressions(L, v->system.nx, v->initial);
   lua_createtable(L, (int)(s->nx * q.nby), 0);
   for (size_t i = 0; i < s->nx * q.nby; i++) {
-    lua_pushinteger(L, v.place[i] == AMBIT_VARIATION_ZERO ? 0 : (lua_Integer)v.place[i] + 1);
+    lua_pushinteger(L, v->place[i] == AMBIT_VARIATION_ZERO ? 0 : (lua_Integer)v->place[i] + 1);
     lua_rawseti(L, -2, (lua_Integer)i + 1);
   }
   return 3;
