@@ -26,7 +26,7 @@ do
   end
 end
 
-local MEMORY = 1.5e9 -- bytes
+local MEMORY = 6e9 -- bytes
 
 -- Asks in a process of its own: was it answered, and how; what it cost.
 local function answer(question, machine)

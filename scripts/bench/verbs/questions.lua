@@ -7,18 +7,14 @@ local session = require "ambit.session"
 local questions = {}
 local folder = (arg[0]:match ".*/" or "./") .. "robots/"
 
--- Runs the scene up to its simulation, which is not made: the request for it, over the machine's time, the mechanism,
--- and the data in the order in which they are made.
+-- Runs the scene up to its simulation, which is not made: the request for it, over the machine's time, and the
+-- mechanism.
 local function capture(machine)
-  local simulate, around, mechanism, load, named, left = ambit.simulate, ambit.around, ambit.mechanism, ambit.load, arg, {}
-  local scene = { data = {} }
+  local simulate, mechanism, load, named, left = ambit.simulate, ambit.mechanism, ambit.load, arg, {}
+  local scene = {}
   ambit.simulate = function(t)
     scene.t = t
     error(left, 0)
-  end
-  ambit.around = function(...)
-    scene.data[#scene.data + 1] = around(...)
-    return scene.data[#scene.data]
   end
   local function keep(make)
     return function(...)
@@ -29,7 +25,7 @@ local function capture(machine)
   ambit.mechanism, ambit.load = keep(mechanism), keep(load)
   arg = table.move(machine.words, 1, #machine.words, 1, { [0] = folder .. machine.scene .. ".lua" })
   local good, problem = pcall(dofile, arg[0])
-  ambit.simulate, ambit.around, ambit.mechanism, ambit.load, arg = simulate, around, mechanism, load, named
+  ambit.simulate, ambit.mechanism, ambit.load, arg = simulate, mechanism, load, named
   if not good and problem ~= left then error(problem, 0) end
   scene.system, scene.initial, scene.end_time = scene.t[1], scene.t.initial, ambit.number(machine.t)
   return scene
@@ -114,16 +110,15 @@ end)
 
 -- Which datum has this in its name?
 local function datum(scene, name)
-  for _, leaf in ipairs(core.leaves(scene.data)) do
-    if leaf.name and leaf.name:find(name, 1, true) then return leaf.expression end
+  local form = core.system_implicit(scene.system.system)
+  for _, leaf in ipairs(core.leaves(form.residuals)) do
+    if leaf.kind == "unknown" and leaf.name and leaf.name:find(name, 1, true) then return leaf.expression end
   end
   error("no datum has `" .. name .. "` in its name", 0)
 end
 
--- Derivatives against the difference of two ordinary runs, which lies between them by the mean value theorem.
-add("sensitivity", "derivatives by a mass and a length", function(scene, machine)
+add("sensitivity", "the derivative by a mass", function(scene, machine)
   local wrt = { mass = datum(scene, machine.mass) }
-  if machine.length then wrt.length = datum(scene, machine.length) end
   local found = ambit.sensitivity(question(scene, { wrt = wrt }))
   if found.run.status ~= "complete" then return false, outcome(found.run) end
   local by_mass = found:d(machine.joint, "mass")
@@ -148,8 +143,8 @@ add("continue", "a run, and one from its set", function(scene, machine)
   local first = ambit.simulate(question(scene, { t = { 0, scene.end_time / 2 } }))
   if first.status ~= "complete" then return false, outcome(first) end
   local second = ambit.simulate(question(scene, { initial = first:set(), t = { scene.end_time / 2, scene.end_time } }))
-  local whole = ambit.simulate(question(scene))
   if second.status ~= "complete" then return false, outcome(second) end
+  local whole = ambit.simulate(question(scene))
   local one, two = whole.x[machine.joint], second.x[machine.joint]
   return one.lo <= two.hi and two.lo <= one.hi, ("complete, %.3g times as wide as in one go"):format(two:width()
     / one:width())
