@@ -32,6 +32,7 @@ local ambit = {
   eigenvalues = later("stability", "eigenvalues"),
   inverse_kinematics = later("inverse_kinematics", "inverse_kinematics"),
   verify = later("verify", "verify"),
+  invariant = later("forever.invariant", "invariant"),
   certify = later("reduce.certify", "certify"),
   reduce = later("reduce", "reduce"),
   compare = later("compare", "compare"),

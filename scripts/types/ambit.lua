@@ -698,6 +698,27 @@ function counterexample:value(e) end
 ---@field reach? ambit.condition|table<string|integer, ambit.condition> not positive at some time
 ---@field budget? integer|string runs after the first, 200 unless given; "10 s" of CPU time
 ---@field expect? "proved"|"refuted"|"undecided" the verdict with which the scene is to end with 0
+---@field about? table<string, ambit.datum> with t = math.huge: roughly where it rests, if that is far from the start
+
+---@class ambit.invariant
+---@field status "proved"|"undecided"
+---@field reason string
+---@field box? table<string, ambit.enclosure> by state: the range of the set
+---@field settles? table<string, ambit.enclosure> by state: where all its solutions are in the end
+---@field centre? table<string, ambit.enclosure> by state: the states of rest, for all data
+---@field rate? number of the decay, 1/s
+---@field contains fun(self: ambit.invariant, state: table<string, ambit.datum>): boolean
+
+---@class ambit.invariant.request
+---@field [1] ambit.ode|ambit.mechanism
+---@field about table<string, ambit.datum> roughly where it rests; speeds are 0
+---@field within? table<string, any> { lo, hi } of states: where the set must lie
+---@field budget? integer boxes that are looked at for one set, 400 unless given
+
+---A set about a state of rest that no solution leaves, whatever the data are and whatever varies in time.
+---@param t ambit.invariant.request
+---@return ambit.invariant
+function ambit.invariant(t) end
 
 ---Proves or refutes conditions for every behaviour that the tolerances allow.
 ---@param t ambit.verify.request

@@ -15,7 +15,7 @@ local stability = require "ambit.stability"
 local verb = {}
 
 -- The states that must be 0: { name = true }. A mechanism knows its speeds; those of a quaternion are no one's rate.
-local function find_speeds(system)
+function verb.speeds(system)
   local speeds, is_state = {}, {}
   for _, name in ipairs(system.states) do is_state[name] = true end
   for _, speed in ipairs(system.mechanism and core.speeds(system.mechanism.handle) or {}) do
@@ -89,7 +89,7 @@ function verb.equilibria(t)
     check.fail("equilibria: stability: expected true or false, got %s", check.kind(t.stability))
   end
   check_fixed(system)
-  local speeds = find_speeds(system)
+  local speeds = verb.speeds(system)
   local units = {}
   for i, name in ipairs(system.states) do units[name] = ode.unit(system, i) end
   local names, ranges = roots.read_box(t.box, "equilibria", units)

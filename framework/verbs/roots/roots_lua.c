@@ -169,6 +169,21 @@ static int is_positive_definite(lua_State *L) {
   return 1;
 }
 
+/* lyapunov(n, {enclosure}) -> {number}: P by rows, roughly A'P + PA = -1 for the middle A; nil: there is none */
+static int lyapunov(lua_State *L) {
+  size_t n = (size_t)luaL_checkinteger(L, 1);
+  const ambit_interval *a = boxes(L, 2, n * n);
+  double *p = lua_newuserdatauv(L, (n * n + 1) * sizeof *p, 0);
+  ambit_arena *arena = ambit_arena_open();
+  bool found = arena && ambit_lyapunov_solve(n, a, p, arena);
+  ambit_arena_close(arena);
+  if (found)
+    push_doubles(L, n * n, p);
+  else
+    lua_pushnil(L);
+  return 1;
+}
+
 /* solve(n, {enclosure} by rows, {enclosure}) -> {enclosure}: all solutions; nil if the matrices are not proved
 ** regular */
 static int solve(lua_State *L) {
@@ -187,6 +202,7 @@ static int solve(lua_State *L) {
 
 void ambit_lua_open_roots(lua_State *L, ambit_lua *core) {
   static const luaL_Reg functions[] = { { "roots", roots }, { "approach", approach }, { "are_smooth", are_smooth },
-    { "spectrum", spectrum }, { "is_positive_definite", is_positive_definite }, { "solve", solve }, { NULL, NULL } };
+    { "spectrum", spectrum }, { "is_positive_definite", is_positive_definite }, { "lyapunov", lyapunov },
+    { "solve", solve }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
 }

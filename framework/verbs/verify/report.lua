@@ -201,6 +201,18 @@ function report.of(job)
   return self
 end
 
+-- Conditions about which no run was needed: proved, or undecided for this reason.
+function report.without_run(conditions, reason)
+  local list, by_name, status = {}, {}, reason and "undecided" or "proved"
+  for k, c in ipairs(conditions) do
+    list[k] = setmetatable({ name = c.name, kind = c.kind, status = status, code = code.of(status),
+      reason = reason or "", bound = core.interval(-math.huge, reason and math.huge or 0) }, Verdict)
+    by_name[c.name] = list[k]
+  end
+  return setmetatable({ list = list, conditions = by_name, status = status, code = code.of(status),
+    reason = reason or "", refinements = 0, bound = list[1].bound, report = {} }, Report)
+end
+
 -- { name, { "status", ..., "bound", ... }, ... }: for the result's record
 function report.fields(self)
   local fields = {}

@@ -59,8 +59,9 @@ local function tolerance_of(q)
   end
 end
 
-function verb.verify(t)
-  local own, expected = { "budget", "expect" }, expect.read(t, "verify", { "proved", "refuted", "undecided" })
+-- The answer to a request about finite times, and what was asked.
+local function answer(t)
+  local own = { "budget", "expect" }
   table.move(conditions.keys, 1, #conditions.keys, #own + 1, own)
   local q = simulate.request(t, "verify", nil, own)
   if not option.declaration("solver", q.solver).rigorous then
@@ -72,13 +73,40 @@ function verb.verify(t)
     unknowns = unknowns, lo = lo, hi = hi, inner = inner, names = names,
     sound_points = uncertain.are_points_starts(q), budget = read_budget(t.budget), tolerance_of = tolerance_of }
   search.run(job)
-  local result = report.of(job)
-  expect.judge(result, expected)
-  session.finish("verify", result, result.report,
-    { "solver", job.request.solver, "options", job.request.settings, "t_start", instant.first(q.times), "t_end",
-      instant.final(q.times), "refinements",
-      result.refinements, "conditions", report.fields(result) })
+  return report.of(job), job
+end
+
+local function finish(t, result, settings)
+  expect.judge(result, expect.read(t, "verify", { "proved", "refuted", "undecided" }))
+  table.move({ "refinements", result.refinements, "conditions", report.fields(result) }, 1, 4, #settings + 1, settings)
+  session.finish("verify", result, result.report, settings)
   return result
+end
+
+-- For all times: by runs as far as they are needed, and a set that no solution leaves.
+local function for_ever(t)
+  local start, last = core.cpu(), nil
+  local result = require "ambit.forever.always".verify(t, function(copy)
+    local found, job = answer(copy)
+    last = job
+    return found
+  end, function(list, reason) return report.without_run(list, reason) end)
+  result.cpu_seconds = core.cpu() - start
+  return finish(t, result, last and { "solver", last.request.solver, "options", last.request.settings } or {})
+end
+
+-- Is t math.huge or { start, math.huge }?
+local function is_infinite(t)
+  if type(t) == "table" then return #t == 2 and t[2] == math.huge end
+  return t == math.huge
+end
+
+function verb.verify(t)
+  if type(t) == "table" and is_infinite(t.t) then return for_ever(t) end
+  local result, job = answer(t)
+  local q = job.asked
+  return finish(t, result, { "solver", job.request.solver, "options", job.request.settings, "t_start",
+    instant.first(q.times), "t_end", instant.final(q.times) })
 end
 
 return verb
