@@ -104,6 +104,10 @@ describe("split", function()
     assert.matches("^piece 9 of 9 %(initial x in %[0%.9, 1%]%): ", run.reason)
     assert.equal(0.5, run.t_reached) -- the last instant that all pieces reached
     assert.is_true(run.x.x:contains(1 / (1 - 0.5)))
+    local rate = ambit.between(1, 4, "rate")
+    local faster = ambit.ode { states = { "x" }, equations = function(v) return { x = rate * v.x ^ 2 } end }
+    run = ambit.simulate { faster, initial = { x = 1 }, t = { 0, 1 }, split = 4, solver = "lohner", threads = 2 }
+    assert.matches("^piece 4 of 4 %(rate in %[3%.25, 4%]%): ", run.reason)
   end)
 
   it("counts the time of all threads, and that of the clock", function()

@@ -53,8 +53,10 @@ ambit_status ambit_split_plan_make(const ambit_problem *p, const ambit_tape *ini
     if (status != AMBIT_OK) return ambit_fail(f, status, "out of memory");
     ambit_pieces_deal(p->nu, influence, total, parts);
   }
-  for (uint32_t j = 0; j < p->nu; j++)
+  for (uint32_t j = 0; j < p->nu; j++) {
     if (!parts[j]) parts[j] = 1;
+    if (!name[j] && p->unknown_name) name[j] = p->unknown_name[j];
+  }
   if (status == AMBIT_OK) status = ambit_pieces_cut(arena, p->nu, p->u_lo, p->u_hi, parts, &plan->pieces, f);
   plan->name = name;
   return status;
