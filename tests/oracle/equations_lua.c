@@ -4,7 +4,7 @@
 ** adds nothing that counts. Shares nothing with Ambit.
 **
 ** equations.solve { n, p = { ... }, x = { ... }, code = { { "mul", 3, 4 }, ... }, out = { ... }, times = { ... },
-**   tolerance } returns the list of states at the times (the first is where x is given), or nil. Slots count from 1:
+**   tolerance [, steps = { [k] = { ... } }: other p up to times[k], k > 1] } returns the list of states at the times (the first is where x is given), or nil. Slots count from 1:
 **   x, p, t, then instructions; { "number", c } is a constant.
 */
 #include <lauxlib.h>
@@ -14,7 +14,7 @@
 #include <string.h>
 
 typedef long double real;
-enum { STATES = 16, SLOTS = 600, COLUMNS = 9, STEPS = 200000 };
+enum { STATES = 16, SLOTS = 600, TIMES = 5000, COLUMNS = 9, STEPS = 200000 };
 #define NOTHING 1e-17L /* that a kink may add in a step */
 
 static const char *const names[] = { "number", "add", "sub", "mul", "div", "neg", "sqr", "sqrt", "exp", "log", "sin",
@@ -234,9 +234,24 @@ static void read_code(lua_State *L, equations *e) {
   lua_pop(L, 1);
 }
 
+/* p up to times[k], if it is another one there */
+static void take_step(lua_State *L, equations *e, int k) {
+  lua_getfield(L, 1, "steps");
+  if (!lua_isnil(L, -1)) {
+    lua_geti(L, -1, k + 1);
+    for (int i = 0; i < e->np; i++) {
+      lua_geti(L, -1, i + 1);
+      e->slot[e->n + i] = luaL_checknumber(L, -1);
+      lua_pop(L, 1);
+    }
+    lua_pop(L, 1);
+  }
+  lua_pop(L, 1);
+}
+
 static int solve(lua_State *L) {
   static equations e;
-  static real times[1000];
+  static real times[TIMES];
   real x[STATES] = { 0 }, out[STATES];
   memset(&e, 0, sizeof e);
   e.n = list(L, "x", x, STATES);
@@ -244,11 +259,12 @@ static int solve(lua_State *L) {
   read_code(L, &e);
   luaL_argcheck(L, list(L, "out", out, STATES) == e.n, 1, "out");
   for (int i = 0; i < e.n; i++) e.out[i] = (int)out[i] - 1;
-  int count = list(L, "times", times, 1000);
+  int count = list(L, "times", times, TIMES);
   lua_getfield(L, 1, "tolerance");
   real tolerance = luaL_optnumber(L, -1, 1e-17);
   lua_newtable(L);
   for (int k = 0; k < count; k++) {
+    if (k > 0) take_step(L, &e, k);
     if (k > 0 && !integrate(&e, times[k - 1], times[k], tolerance, x)) return lua_pushnil(L), 1;
     lua_newtable(L);
     for (int i = 0; i < e.n; i++) lua_pushnumber(L, (double)x[i]), lua_seti(L, -2, i + 1);
