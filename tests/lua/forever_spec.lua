@@ -163,6 +163,21 @@ describe("a condition for all times", function()
     local before = verify({ 0, math.huge }, { x = 1, v = 0 }, function(s) return "-0.05" - s.v end)
     assert.equal("refuted", before.status)
     assert.is_not_nil(before.conditions.safe.counterexample)
+    -- without any set, too: rest at 0 repels
+    local away = ambit.ode { states = { "x" }, equations = function(s) return { x = 2 * s.x - s.x ^ 3 } end }
+    local leaves = { away, initial = { x = ambit.between("0.1", "0.2") }, t = math.huge, about = { x = 0 },
+      safe = function(s) return s.x - "0.5" end }
+    assert.equal("refuted", ambit.verify(leaves).status)
+  end)
+
+  it("says what it was asked wrongly before anything is computed", function()
+    local asked = { oscillator(1, 0), initial = { x = 0, v = 0 }, t = math.huge, safe = function(s) return s.x - 1 end }
+    for key, part in pairs { expct = "did you mean `expect`", expect = "expected one of proved, refuted, undecided",
+      budget = "verify: budget: " } do
+      local wrong = { [key] = "x" }
+      for k, value in pairs(asked) do wrong[k] = value end
+      fails(function() ambit.verify(wrong) end, part)
+    end
   end)
 
   it("has no last time", function()

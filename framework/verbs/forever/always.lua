@@ -84,6 +84,14 @@ local function about_start(system, initial)
   return about
 end
 
+-- The request for the times up to `till`, for some time if none is given.
+function always.finite(t, till)
+  local start, copy = type(t.t) == "table" and t.t[1] or 0, {}
+  for key, value in pairs(t) do copy[key] = value end
+  copy.t, copy.about = { start, till or start + BLIND }, nil
+  return copy
+end
+
 -- t: the request of ambit.verify; ask(t): its answer for a finite time; nothing(list, reason): one without any run,
 -- proved if there is no reason why not. -> report
 function always.verify(t, ask, nothing)
@@ -95,22 +103,14 @@ function always.verify(t, ask, nothing)
   local initial = simulate.initial(t.initial, system, "verify")
   local about = t.about or about_start(system, initial)
   local self = invariant.find { system = system, guess = invariant.guess(about, system, "verify"), within = {} }
-  if not self.set then return nothing(list, "no set was found that nothing leaves: " .. self.reason) end
-  local set, failing = nil, nil
-  local function up_to(till)
-    local copy = {}
-    for key, value in pairs(t) do copy[key] = value end
-    copy.t, copy.about = { start, till }, nil
-    return ask(copy)
-  end
   -- without a set a condition can still be refuted
   local function without(reason)
-    local result = up_to(start + BLIND / (self.set and self.set.by.rate or 1))
+    local result = ask(always.finite(t, start + BLIND / (self.set and self.set.by.rate or 1)))
     if result.status == "refuted" then return result end
     return nothing(list, reason)
   end
   if not self.set then return without("no set was found that nothing leaves: " .. self.reason) end
-  set, failing = safe_part(self, list)
+  local set, failing = safe_part(self, list)
   if not set then
     return without(("the sets that nothing leaves reach to where `%s` is not known to hold"):format(
       failing or list[1].name))
@@ -121,7 +121,7 @@ function always.verify(t, ask, nothing)
   if inside and not reaches then return nothing(list) end
   local till = arrival(t, self, set, start, square)
   if not till then return without "not all solutions were seen to come into a set that nothing leaves" end
-  local result = up_to(till)
+  local result = ask(always.finite(t, till))
   result.followed = till
   return result
 end

@@ -59,10 +59,11 @@ local function tolerance_of(q)
   end
 end
 
+local own = table.move(conditions.keys, 1, #conditions.keys, 3, { "budget", "expect" })
+local verdicts = { "proved", "refuted", "undecided" }
+
 -- The answer to a request about finite times, and what was asked.
 local function answer(t)
-  local own = { "budget", "expect" }
-  table.move(conditions.keys, 1, #conditions.keys, #own + 1, own)
   local q = simulate.request(t, "verify", nil, own)
   if not option.declaration("solver", q.solver).rigorous then
     check.fail("verify: solver `%s` proves nothing", q.solver)
@@ -77,7 +78,7 @@ local function answer(t)
 end
 
 local function finish(t, result, settings)
-  expect.judge(result, expect.read(t, "verify", { "proved", "refuted", "undecided" }))
+  expect.judge(result, expect.read(t, "verify", verdicts))
   table.move({ "refinements", result.refinements, "conditions", report.fields(result) }, 1, 4, #settings + 1, settings)
   session.finish("verify", result, result.report, settings)
   return result
@@ -86,7 +87,11 @@ end
 -- For all times: by runs as far as they are needed, and a set that no solution leaves.
 local function for_ever(t)
   local start, last = core.cpu(), nil
-  local result = require "ambit.forever.always".verify(t, function(copy)
+  local always = require "ambit.forever.always"
+  expect.read(t, "verify", verdicts)
+  read_budget(t.budget)
+  simulate.request(always.finite(t), "verify", nil, own) -- refuses what makes no sense before anything is computed
+  local result = always.verify(t, function(copy)
     local found, job = answer(copy)
     last = job
     return found
