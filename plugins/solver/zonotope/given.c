@@ -53,13 +53,15 @@ int given_is_large(const ambit_tape *t) {
   return 1;
 }
 
-/* -- room */
+/* -- room: pieces of powers of 2, free ones in lists; each begins with the address of the next one */
+
+enum { LINK = sizeof(term *) };
 
 static term *take(given *g, uint32_t size) {
   term *found = g->free_list[size];
   size_t n = (size_t)8 << size;
   if (found) {
-    memcpy(&g->free_list[size], found, sizeof found);
+    memcpy(&g->free_list[size], found, LINK);
     return found;
   }
   if (g->left < n) {
@@ -74,7 +76,7 @@ static term *take(given *g, uint32_t size) {
 
 static void give_back(given *g, list *l) {
   if (l->term) {
-    memcpy(l->term, &g->free_list[l->size], sizeof(term *));
+    memcpy(l->term, &g->free_list[l->size], LINK);
     g->free_list[l->size] = l->term;
   }
   *l = (list) { 0 };
