@@ -5,7 +5,7 @@ cd "$(dirname "$0")/.."
 mapfile -t sources < <(git ls-files 'framework/*.[ch]' 'plugins/*.[ch]' 'tests/*.[ch]')
 clang-format --dry-run -Werror "${sources[@]}"
 echo "format: ${#sources[@]} files"
-git ls-files '*.md' '*.lua' '*.c' | xargs lua5.4 scripts/wrap.lua --check # headers: a few comments are still longer
+git ls-files '*.md' '*.lua' '*.c' '*.h' | xargs lua5.4 scripts/wrap.lua --check
 echo "lines: at most 120 columns"
 reuse --no-multiprocessing lint | tail -n 1 # the licence of each file: .reuse/dep5
 cmake --preset clang -DAMBIT_TESTS=OFF >/dev/null

@@ -1,8 +1,8 @@
 /* embedded.c -- the Lua half of Ambit becomes loadable as ambit.*, in an environment of its own.
 **
 ** A scene may redefine globals and what libraries hold (`type = 3`, `table.concat = nil`). Ambit's own modules see a
-** copy from when Ambit was loaded; _G in it is the true one. So do methods of strings (strings.c). Modules are made once
-** and get each other, whatever a scene makes of package.loaded.
+** copy from when Ambit was loaded; _G in it is the true one. So do methods of strings (strings.c). Modules are made
+** once and get each other, whatever a scene makes of package.loaded.
 */
 #include "script/embedded.h"
 #include "script/core.h"

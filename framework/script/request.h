@@ -12,8 +12,8 @@ double *ambit_lua_numbers(lua_State *L, int idx, size_t *n);       /* {x, ...} *
 const char **ambit_lua_texts(lua_State *L, int idx, size_t *n);    /* {text, ...}; the texts stay the table's */
 void ambit_lua_push_report(lua_State *L, const ambit_report *r);
 
-/* What is evaluated: { arithmetic = nil (the verb's own), options, expressions, leaves, values } at idx; leaves, values:
-** the bindings. */
+/* What is evaluated: { arithmetic = nil (the verb's own), options, expressions, leaves, values } at idx; leaves,
+** values: the bindings. */
 ambit_evaluate_request ambit_lua_read_question(lua_State *L, int idx, const char *what);
 /* {enclosure, ...}; partial [n]: 1 where it holds for a part of the data only, or NULL */
 void ambit_lua_push_enclosures(lua_State *L, size_t n, const ambit_interval *x, const uint8_t *partial);

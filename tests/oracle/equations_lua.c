@@ -4,8 +4,9 @@
 ** adds nothing that counts. Shares nothing with Ambit.
 **
 ** equations.solve { n, p = { ... }, x = { ... }, code = { { "mul", 3, 4 }, ... }, out = { ... }, times = { ... },
-**   tolerance [, steps = { [k] = { ... } }: other p up to times[k], k > 1] } returns the list of states at the times (the first is where x is given), or nil. Slots count from 1:
-**   x, p, t, then instructions; { "number", c } is a constant.
+**   tolerance [, steps = { [k] = { ... } }: other p up to times[k], k > 1] } returns the list of states at the times
+**   (the first is where x is given), or nil. Slots count from 1: x, p, t, then instructions; { "number", c } is a
+**   constant.
 */
 #include <lauxlib.h>
 #include <lua.h>

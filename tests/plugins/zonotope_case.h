@@ -164,7 +164,8 @@ static inline void make_empty(maker *k, uint32_t nconst, uint32_t nx, uint32_t n
   k->degree[nconst + nx + na + np] = 1;
 }
 
-/* abs, min, max and tanh as the step takes them: a and b times these, less the twin's slot; others are left as they are */
+/* abs, min, max and tanh as the step takes them: a and b times these, less the twin's slot; others are left as they
+** are */
 static inline void kink_slopes(const zono *z, uint32_t i, long double *by_a, long double *by_b) {
   double a, b;
   if (!is_line(z, i)) return;

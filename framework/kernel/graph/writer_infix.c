@@ -1,5 +1,5 @@
-/* writer_infix.c -- usual operators, with as few brackets as the usual precedence allows: the text of messages, and what
-** other languages with such operators have in common with it.
+/* writer_infix.c -- usual operators, with as few brackets as the usual precedence allows: the text of messages, and
+** what other languages with such operators have in common with it.
 */
 #include "graph/writer.h"
 #include <stdio.h>

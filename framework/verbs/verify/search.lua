@@ -18,7 +18,8 @@ local WORTH = 0.8         -- of the gap that is open: what leaves less is an imp
 local TIGHTER, TIGHTEST = 1e-3, 1e-18 -- tolerances of the solver: factor, and where it stops to matter
 
 local LEAST_WEIGHT = 1e-3 -- of a datum that moves no condition from the middle: it may do so elsewhere
-local DULL, DULLER = 0.01, 0.25 -- a cut that gains less than this share of the gap makes its datum's weight so much less
+-- a cut that gains less than this share of the gap makes its datum's weight so much less
+local DULL, DULLER = 0.01, 0.25
 
 -- -- points
 

@@ -26,7 +26,8 @@ void depend_begin(zono *z); /* G_j are followed from this step on, where nothing
 double depend_size(const zono *z, uint32_t i);
 /* at most |sum_i y_i (sum_j xi_j G_j rho)_i|, y [nx] */
 double depend_through(const zono *z, const double *y);
-/* columns [nx x nx] and their inverse, about: the principal axes of d->work, a covariance in units of the states' sets */
+/* columns [nx x nx] and their inverse, about: the principal axes of d->work, a covariance in units of the states'
+** sets */
 void depend_axes(const zono *z, double *columns, double *inverse);
 /* next and depth := what the step makes of G_j, from G in p->turned and rows at p->end */
 void depend_move(zono *z);

@@ -48,8 +48,8 @@ double modes_mixed(const zono *z, uint32_t j, uint32_t i, uint32_t k);
 int modes_find(zono *z);
 /* map.c: m->now.b, m->in, m->box and m->growth from m->old, along m->now.V */
 void map_discs(zono *z);
-/* worth.c: may discs be of use? Of those that modes_find() found: are they not much wider than what they hold, or little
-** enough for discs that shrink? After map_discs(): m->rate, and do they not grow too much? */
+/* worth.c: may discs be of use? Of those that modes_find() found: are they not much wider than what they hold, or
+** little enough for discs that shrink? After map_discs(): m->rate, and do they not grow too much? */
 enum worth { WORTH_NOTHING, WORTH_IF_SHRINKING, WORTH_KEEPING };
 int worth_trying(const zono *z);
 enum worth worth_enclosing(zono *z);

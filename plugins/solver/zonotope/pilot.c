@@ -1,8 +1,8 @@
 /* pilot.c -- before the first step, by an unproved run of low degree: how much each datum matters, by its linear terms
-** in the states, and how wide states get. Data that matter most are numbered first, since parts of the rows and terms of
-** degree 4 are held for the first data only. What states get to tells what is next to nothing beside it, for states that
-** start at rest or stay there for a while: what they get to soon, since what is added early grows as long as the run,
-** and where sets grow by orders of magnitude their end is no measure of it. No proof depends on anything here.
+** in the states, and how wide states get. Data that matter most are numbered first, since parts of the rows and terms
+** of degree 4 are held for the first data only. What states get to tells what is next to nothing beside it, for states
+** that start at rest or stay there for a while: what they get to soon, since what is added early grows as long as the
+** run, and where sets grow by orders of magnitude their end is no measure of it. No proof depends on anything here.
 */
 #include "zonotope.h"
 

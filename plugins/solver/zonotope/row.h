@@ -1,13 +1,13 @@
 /* row.h -- rows: polynomials with point coefficients, of degree 3 in xi [m], 1 in eps [nx], and 1 in each of xi and
 ** eps.
 **
-** A row is  c | xi [m] | eps [nx] | xi xi | xi eps | norms | low | xi xi xi:  the constant is c + low; where there are no
-** data c | norms | low | eps. Pairs xi_i xi_j of i <= j, row by row, j < reach[i] only; xi_j eps_i for j < mixed, j-major; triples of i <= j <= k < cubic, in the same order. Rows of
-** higher orders in time do not hold all of these parts (row_parts): what they would add is small, for it has a power of
-** the step before it. A monomial that a row does not hold is dropped from every product; sums lose nothing, for what
-** they add up is of the same order in time. Norms are sums of absolute values: of each part, and of the linear terms
-** and pairs that have no triples (FAR). The coefficients of a part whose norm is 0 are not there: nothing reads them,
-** and they may be anything.
+** A row is c | xi [m] | eps [nx] | xi xi | xi eps | norms | low | xi xi xi: the constant is c + low; where there are no
+** data c | norms | low | eps. Pairs xi_i xi_j of i <= j, row by row, j < reach[i] only; xi_j eps_i for j < mixed,
+** j-major; triples of i <= j <= k < cubic, in the same order. Rows of higher orders in time do not hold all of these
+** parts (row_parts): what they would add is small, for it has a power of the step before it. A monomial that a row does
+** not hold is dropped from every product; sums lose nothing, for what they add up is of the same order in time. Norms
+** are sums of absolute values: of each part, and of the linear terms and pairs that have no triples (FAR). The
+** coefficients of a part whose norm is 0 are not there: nothing reads them, and they may be anything.
 */
 #ifndef ZONOTOPE_ROW_H
 #define ZONOTOPE_ROW_H

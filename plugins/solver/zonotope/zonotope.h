@@ -169,8 +169,8 @@ int zono_open_rows(zono *z);
 /* m, start, p_row from the initial tape; data in the order of the weights [nu] of their unknowns, or as they are */
 ambit_status zono_start_open(zono *z, const double *weight);
 void zono_start(zono *z); /* P, G, t as at time[0] */
-/* pilot.c: weight [nu] += how much each datum matters in the whole run, or NULL; z->expected, of the whole run if states
-** may wait at rest */
+/* pilot.c: weight [nu] += how much each datum matters in the whole run, or NULL; z->expected, of the whole run if
+** states may wait at rest */
 void zono_pilot(zono *z, double *weight, int may_wait);
 /* rows of all slots from P, E, p_row, t; z->K orders. 0: see z->why */
 int zono_series(zono *z);

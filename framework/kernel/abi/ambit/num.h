@@ -24,9 +24,9 @@ enum { AMBIT_CONVEX, AMBIT_CONCAVE, AMBIT_CONVEX_RIGHT, AMBIT_CONCAVE_RIGHT };
 
 typedef struct ambit_num_service {
   uint32_t size;
-  /* n intervals, 2 n doubles each: r[i] := op(a[i], b[i]) for every AMBIT_OP_*, functions too; b may be NULL when unary;
-  ** POWN: a[i]^exponent. r may be a or b. + - * / sqr sqrt abs min max are the tightest doubles, the rest at most 1 ulp
-  ** wider on each side. Returns flags. */
+  /* n intervals, 2 n doubles each: r[i] := op(a[i], b[i]) for every AMBIT_OP_*, functions too; b may be NULL when
+  ** unary; POWN: a[i]^exponent. r may be a or b. + - * / sqr sqrt abs min max are the tightest doubles, the rest at
+  ** most 1 ulp wider on each side. Returns flags. */
   uint32_t (*map)(uint32_t op, size_t n, double *r, const double *a, const double *b, int32_t exponent);
   /* [rlo[i], rhi[i]] := op([alo[i], ahi[i]]) for op in EXP .. TANH (ATAN2: b too), bounds in arrays of their own.
   ** Parts outside the domain are dropped without a flag. r must not be a or b. */

@@ -1,5 +1,5 @@
-/* reduction.h -- "ambit.strategy/1": chooses what a model may leave out. It gets candidates, reference solutions to rank
-** them by, and a way to prove what a choice of them costs.
+/* reduction.h -- "ambit.strategy/1": chooses what a model may leave out. It gets candidates, reference solutions to
+** rank them by, and a way to prove what a choice of them costs.
 **
 ** The kernel owns formulas and proofs, the plugin the strategy: in which order candidates are tried, how many at once,
 ** which are undone. A candidate is a replacement of one term (or variable) of the equations; any subset of them makes a

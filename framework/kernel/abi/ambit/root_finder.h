@@ -1,5 +1,5 @@
-/* root_finder.h -- "ambit.root_finder/1": finds the roots of f(x, p) = 0 in a box, for every value of the parameters, and
-** emits records. */
+/* root_finder.h -- "ambit.root_finder/1": finds the roots of f(x, p) = 0 in a box, for every value of the parameters,
+** and emits records. */
 #ifndef AMBIT_ROOT_FINDER_H
 #define AMBIT_ROOT_FINDER_H
 #include "arithmetic.h"
@@ -15,8 +15,8 @@
 /* As many equations as unknowns. Inputs of every tape: x [nx], p [np]. */
 typedef struct ambit_root_problem {
   uint32_t size, nx, np, nfurther;
-  /* the further equations hold at every root of f that they do not exclude as soon as its enclosure is narrow (redundant
-  ** ones that single out some of isolated roots): they narrow and exclude, roots are proved by f alone */
+  /* the further equations hold at every root of f that they do not exclude as soon as its enclosure is narrow
+  ** (redundant ones that single out some of isolated roots): they narrow and exclude, roots are proved by f alone */
   uint32_t implied, pad;
   const char *const *name;                          /* [nx] unknowns, [np] parameters behind them */
   const ambit_tape *f, *jacobian, *slope, *further; /* [nx], [nx x nx], [nx x np], [nfurther]; NULL: not wanted, or
@@ -35,7 +35,8 @@ typedef struct ambit_root_finder {
   const ambit_param *param;
   /* [ctx] allocates everything here; `option` in declaration order, shapes flattened */
   ambit_status (*open)(const ambit_host *h, const ambit_root_problem *p, const double *option, void **self);
-  /* [ctx] emits AMBIT_REC_ROOT for each box that may hold a root, AMBIT_REC_SEARCHED at the end; no allocation inside */
+  /* [ctx] emits AMBIT_REC_ROOT for each box that may hold a root, AMBIT_REC_SEARCHED at the end; no allocation
+  ** inside */
   ambit_status (*run)(void *self, ambit_sink *s);
   void (*close)(void *self);
   uint32_t (*want_for)(const double *option); /* NULL: `want`; else what these options need */

@@ -28,12 +28,13 @@
 #define AMBIT_WANT_IMPLICIT 256u
 /* Parameters may be functions of time (ambit_problem.nvarying): a solver that does not say so is never given any. */
 #define AMBIT_WANT_VARYING 512u
-/* States may jump at instants that are known (ambit_problem.njump): a solver that does not say so is never given any. */
+/* States may jump at instants that are known (ambit_problem.njump): a solver that does not say so is never given
+** any. */
 #define AMBIT_WANT_JUMP 1024u
 
 /* What the receiver of the records would like besides: a solver that can't, leaves it out; one that can, does so only
-** where it is asked for. DENSE: the dense enclosure of each step. SET: the set at the end of each step as a function of the
-** unknowns. */
+** where it is asked for. DENSE: the dense enclosure of each step. SET: the set at the end of each step as a function of
+** the unknowns. */
 #define AMBIT_EXTRA_DENSE 1u
 #define AMBIT_EXTRA_SET 2u
 
@@ -81,8 +82,8 @@ typedef struct ambit_problem {
   ** each the same wherever it occurs, nothing else is known of them. `initial` gives their ranges. */
   uint32_t nvarying;
   /* AMBIT_WANT_JUMP: x becomes what jump[jump_number[k]] gives of x, p and the time, at instants in [time[0], end of
-  ** time[]), in this order. A record that ends there has the states before the jump. Every sample draws the functions of
-  ** time anew, as every instant does. The true instants are off by at most jump_error each: what is proved holds for
+  ** time[]), in this order. A record that ends there has the states before the jump. Every sample draws the functions
+  ** of time anew, as every instant does. The true instants are off by at most jump_error each: what is proved holds for
   ** them. Jumps only where time ascends. */
   uint32_t njump;
   const ambit_tape *const *jump; /* [njump] inputs as of rhs, outputs x [nx]; SERIES if that is wanted */

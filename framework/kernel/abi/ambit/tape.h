@@ -85,8 +85,8 @@ typedef struct ambit_run {
 } ambit_run;
 
 /* Tape flags. A SERIES tape can be run on truncated power series: it holds only ADD SUB NEG MUL SQR DIV SQRT EXP LOG
-** SIN COS ATAN ATAN2 SINH COSH TANH ABS MIN MAX (TAN, ASIN, ACOS, POWN and functions are written with these), and aux is
-** set:
+** SIN COS ATAN ATAN2 SINH COSH TANH ABS MIN MAX (TAN, ASIN, ACOS, POWN and functions are written with these), and aux
+** is set:
 **   SIN, COS: slot of the cosine, sine of the same operand;  SINH, COSH: likewise;
 **   TANH: slot of 1 - dst^2;  ATAN: slot of 1 + a^2;  ATAN2: slot of a^2 + b^2;  all others: AMBIT_NO_SLOT.
 ** An aux slot may lie behind its user; order by order both are defined. */
