@@ -9,11 +9,13 @@
 -- `equations` in LUA_CPATH. --beyond 2: data are drawn from twice their ranges, so that solutions must be found
 -- outside. --varying: about half of the parameters are functions of time, drawn as steps between the ends of their
 -- ranges at random times. --kinks: with abs, min and max that solutions cross, forces with two slopes and dead zones
--- among them. Exit 1 if a solution is outside.
+-- among them. Exit 1 if a solution is outside by more than the oracle may be off.
 local ambit = require "ambit"
 local core = require "ambit.core"
 local session = require "ambit.session"
 local equations = require "equations"
+
+local DOUBT = 20 -- times the differences of solutions that were found by different steps
 
 local o = { systems = 40, draws = 20, seed = 1, beyond = 1, solver = "zonotope" }
 do
@@ -186,8 +188,9 @@ local function draw(s)
   return point
 end
 
--- The solution at the times; what varies takes other values at random times. In one call, since states that are rounded
--- to doubles in between are off by more than an ulp where solutions run away.
+-- The solution at the times, and a function that finds it once more, by other steps; what varies takes other values at
+-- random times. In one call, since states that are rounded to doubles in between are off by more than an ulp where
+-- solutions run away.
 local function solve(s, point, times)
   local list, steps, places, p = { times[1] }, {}, { 1 }, table.move(point.p, 1, s.np, 1, {})
   local pieces = o.varying and pick(12) or 1
@@ -206,10 +209,25 @@ local function solve(s, point, times)
     end
     places[k] = #list
   end
-  local values = equations.solve { x = point.x, p = point.p, code = s.code, out = s.out, times = list, steps = steps,
-    tolerance = 1e-17 }
-  for k, place in ipairs(values and places or {}) do places[k] = values[place] end
-  return values and places
+  local function at(tolerance)
+    local values = equations.solve { x = point.x, p = point.p, code = s.code, out = s.out, times = list, steps = steps,
+      tolerance = tolerance }
+    local states = {}
+    for k, place in ipairs(values and places or {}) do states[k] = values[place] end
+    return values and states
+  end
+  return at(1e-17), at
+end
+
+-- How far the oracle itself may be off, from how far its solutions by other steps are apart. Rounding grows as
+-- solutions do: x' = 2.4 x^2 shortly before it has no solution any more loses 10 digits.
+local function doubt(again, at, i, value)
+  local most = 0
+  for _, tolerance in ipairs { 4e-18, 2e-17, 5e-17 } do
+    local other = again(tolerance)
+    most = math.max(most, other and math.abs(other[at][i] - value) or 0)
+  end
+  return DOUBT * most
 end
 
 local function prove(s)
@@ -246,7 +264,7 @@ local function instants(run, s)
   return apart
 end
 
-local total = { values = 0, outside = 0, complete = 0, solutions = 0, widths = 0 }
+local total = { values = 0, outside = 0, blurred = 0, complete = 0, solutions = 0, widths = 0 }
 
 -- The set at the end for the data of a point.
 local function set_at(s, set, point)
@@ -273,7 +291,7 @@ local function check(number)
     local set = run:set()
     for _ = 1, o.draws do
       local point = draw(s)
-      local solution = solve(s, point, times)
+      local solution, again = solve(s, point, times)
       if solution then
         total.solutions = total.solutions + 1
         local narrow = set_at(s, set, point)
@@ -283,7 +301,9 @@ local function check(number)
             local value, set = solution[at][i], k > #times and narrow[i] or sets[k]["x" .. i]
             local off = math.max(set.lo - value, value - set.hi) - 1e-15 * (1 + math.abs(value))
             total.values = total.values + 1
-            if off > 0 or off ~= off then
+            if off > 0 and off <= doubt(again, at, i, value) then
+              total.blurred = total.blurred + 1
+            elseif off > 0 or off ~= off then
               worst = math.max(worst, off)
               total.outside = total.outside + 1
               if o.verbose then print(("system %d: x%d at %.17g is %.17g, proved %s"):format(number, i, times[at], value, set)) end
@@ -301,6 +321,6 @@ end
 
 for number = 1, o.systems do check(number) end
 session.worst = "ok" -- what could not be proved is no failure here
-print(("%d systems, %d complete; %d solutions, %d values: %d outside"):format(o.systems, total.complete, total.solutions,
-  total.values, total.outside))
+print(("%d systems, %d complete; %d solutions, %d values: %d outside%s"):format(o.systems, total.complete, total.solutions,
+  total.values, total.outside, total.blurred > 0 and (", %d not decided"):format(total.blurred) or ""))
 os.exit(total.outside == 0 and 0 or 1)
