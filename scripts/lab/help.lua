@@ -83,8 +83,8 @@ certify { detailed, reduced, t = { 0, 10 }, initial = ..., outputs = { "x", y = 
   proves how far the outputs of a reduced model are off, for all data of all scenarios, at all times
   -> .status "proved" | "exceeded" | "unable" | "stopped", .error.x, .when.x, .scenarios, :curve()]],
   verify = [[
-verify { ode, initial = { x = 1 }, t = { 0, 1 }, safe = expression or function(s, p, t), at_end = ..., reach = ...,
-budget = 200 }: proves or refutes that conditions are never positive: status, reason, bound, counterexample,
+verify { ode, initial = { x = 1 }, t = { 0, 1 } or math.huge, safe = expression or function(s, p, t), at_end = ...,
+reach = ..., budget = 200 }: proves or refutes that conditions are never positive: status, reason, bound, counterexample,
 conditions.]],
   sensitivity = [[
 sensitivity { ode, initial = { x = 1 }, t = { 0, 1 }, wrt = { "x", k = datum } }: a run with derivatives by initial
@@ -93,6 +93,9 @@ values and data: :d(state, by), :d_at(t, state, by), step.d(state, by), :unit(st
 roots { function(s) return { s.x ^ 2 - 2 } end, box = { x = { 0, 3 } }, at = { name = value }, tolerance = 1e-8 }: every
 root in the box, proved: status, proved, partly, undecided, boxes; proved[1].x, .slope(datum). Options: help
 "krawczyk".]],
+  invariant = [[
+invariant { ode or mechanism, about = { angle = 0 }, within = { angle = { -0.5, 0.5 } }, budget = 400 }: a set about a
+state of rest that no solution leaves, for all data: status, box, settles, rate, contains { state = value }.]],
   equilibria = [[
 equilibria { ode or mechanism, box = { angle = { -3, 3 } }, at = { name = value }, stability = true }: where it rests,
 as roots does; proved[1].stability, .stability_by, .stability_reason, .eigenvalues[1].re, .im, .count.]],
