@@ -149,11 +149,12 @@ end
 local function best_of(t, asked)
   local began = core.cpu()
   local best = attempt(t, asked, nil)
-  local others = best.settings.others
+  local function may_go_on() return best.status == "exceeded" or best.status == "unable" end
+  local others = may_go_on() and settings.rigorous(best.settings.others) or {}
   local ends = core.cpu() + math.max(LEAST, MORE * (core.cpu() - began))
   for i, solver in ipairs(others) do
-    local may_go_on, left = best.status == "exceeded" or best.status == "unable", ends - core.cpu()
-    if not may_go_on or left <= 0 then break end
+    local left = ends - core.cpu()
+    if not may_go_on() or left <= 0 then break end
     local result
     local was_limit = within(i < #others and PART * left or left, function() result = attempt(t, asked, solver) end)
     if result.status == "stopped" and not was_limit then return result end

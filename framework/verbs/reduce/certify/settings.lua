@@ -39,13 +39,22 @@ function settings.read(t, own, what, positional)
   return how
 end
 
--- The solver that suits, and the others that prove their results, the next best ones first.
+-- Those of some solvers that prove their results; loads all of them.
+function settings.rigorous(solvers)
+  local list = {}
+  for _, name in ipairs(solvers) do
+    if option.declaration("solver", name).rigorous then list[#list + 1] = name end
+  end
+  return list
+end
+
+-- The solver that suits, and the others, the next best ones first.
 local function suggested(detailed, s)
   local fitting = suggest.candidates({}, {}, nil, "certify")
   local best = suggest.proving(suggest.solver(couple.alone(detailed, s), fitting, "certify"))
   local others, known = {}, { [best.solver] = true }
   local function add(solver)
-    if not known[solver] and option.declaration("solver", solver).rigorous then others[#others + 1] = solver end
+    if not known[solver] then others[#others + 1] = solver end
     known[solver] = true
   end
   for _, other in ipairs(best.others) do add(other.solver) end
