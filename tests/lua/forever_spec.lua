@@ -129,6 +129,45 @@ describe("a set that no solution leaves", function()
     end
   end)
 
+  -- a joint of inertia 1 with a law of torque
+  local function turning(law)
+    local m = ambit.mechanism {}
+    local frame, joint = m:revolute { from = m.world, axis = "z", name = "q" }
+    m:rigid_body { at = frame, mass = 1, inertia = { 1, 0, 0, 0, 1, 0, 0, 0, 1 } }
+    if law then m:joint_torque { joint = joint, torque = function(q, v) return law(q, v, m:coordinates()["q''"]) end } end
+    return m, joint
+  end
+
+  it("takes no energy whose masses vary or depend on speeds", function()
+    local u = ambit.varying(0, 2) -- 3 outwards and 1 inwards pumps the swing up: 110 rad after 5 s
+    local pumped = turning(function(q, v, a) return -100 * q - v / 2 - u * a end)
+    local set = ambit.invariant { pumped, about = { q = 0 }, within = { q = { -1, 1 } } }
+    assert.is_false(set:contains { q = "0.5", ["q'"] = 0 })
+    local by_speed = turning(function(q, v, a) return -1000 * q - v - "0.3" * (1 - ambit.cos(2 * ambit.pi * v)) * a end)
+    set = ambit.invariant { by_speed, about = { q = 0 }, within = { ["q'"] = { "-1.005", "1.005" } }, budget = 3000 }
+    assert.is_false(set:contains { q = 0, ["q'"] = "0.9999" }) -- from there q comes to .0351
+  end)
+
+  it("is that of the system it was asked about, not of what its mechanism became", function()
+    local m, joint = turning()
+    local free = m:dynamics()
+    m:joint_torque { joint = joint, torque = function(q, v) return -100 * q - 5 * v end }
+    local drifting = ambit.verify { free, initial = { q = 0, ["q'"] = "0.1" }, t = math.huge,
+      safe = function(s) return s.q - 1 end }
+    assert.not_equal("proved", drifting.status)
+    assert.equal("proved", ambit.invariant { m, about = { q = 0 }, within = { q = { -1, 1 } } }.status)
+  end)
+
+  it("says what it lacks where data are wide or a formula has kinks", function()
+    local wide = ambit.ode { states = { "x" }, parameters = { p = ambit.between(-9, 9) },
+      equations = function(s, p) return { x = p.p - s.x - s.x ^ 3 } end }
+    assert.equal("undecided", ambit.invariant { wide, about = { x = 0 }, within = { x = { -1, 1 } } }.status)
+    local kinked = ambit.ode { states = { "x" }, equations = function(s) return { x = ambit.abs(s.x) } end }
+    local set = ambit.invariant { kinked, about = { x = 0 }, within = { x = { -1, 1 } } }
+    assert.equal("undecided", set.status)
+    assert.is_true(#set.reason > 10)
+  end)
+
   it("says what it was asked wrongly", function()
     local system = oscillator(1, 0)
     local function refuses(t, text) fails(function() ambit.invariant(t) end, text) end
@@ -178,6 +217,18 @@ describe("a condition for all times", function()
       for k, value in pairs(asked) do wrong[k] = value end
       fails(function() ambit.verify(wrong) end, part)
     end
+  end)
+
+  it("may be reached later than solutions are followed", function()
+    local decay = ambit.ode { states = { "x" }, equations = function(s) return { x = -s.x } end }
+    local function reach(system, g)
+      return ambit.verify { system, initial = { x = 1 }, t = math.huge, reach = g }
+    end
+    local soon = reach(decay, function(s) return s.x - "0.5" end)
+    assert.is_true(soon.status == "undecided" or soon.status == "proved", soon.status)
+    local grows = ambit.ode { states = { "x" }, equations = function(s) return { x = s.x } end }
+    assert.equal("undecided", reach(grows, function(s) return 1000 - s.x end).status)
+    fails(function() reach(decay, function(s, _, t) return s.x - t end) end, "may not depend on time")
   end)
 
   it("has no last time", function()

@@ -8,6 +8,7 @@ local conditions = require "ambit.verify.condition"
 local core = require "ambit.core"
 local equilibria = require "ambit.equilibria"
 local invariant = require "ambit.forever.invariant"
+local report = require "ambit.verify.report"
 local simulate = require "ambit.simulate"
 
 local always = {}
@@ -74,6 +75,11 @@ end
 local function check_request(t, list)
   if t.at_end ~= nil then check.fail "verify: at_end: there is no last time if t = math.huge" end
   if #list == 0 then check.fail "verify: expected a condition: safe or reach" end
+  for _, c in ipairs(list) do
+    for _, leaf in ipairs(core.leaves { c.g }) do
+      if leaf.kind == "time" then check.fail("verify: %s: a condition for all times may not depend on time", c.name) end
+    end
+  end
 end
 
 -- Where rest is looked for if nobody says: the middle of the starts, at speed 0.
@@ -105,7 +111,7 @@ function always.verify(t, ask, nothing)
   local self = invariant.find { system = system, guess = invariant.guess(about, system, "verify"), within = {} }
   -- without a set a condition can still be refuted
   local function without(reason)
-    local result = ask(always.finite(t, start + BLIND / (self.set and self.set.by.rate or 1)))
+    local result = report.for_ever(ask(always.finite(t, start + BLIND / (self.set and self.set.by.rate or 1))))
     if result.status == "refuted" then return result end
     return nothing(list, reason)
   end
@@ -121,7 +127,7 @@ function always.verify(t, ask, nothing)
   if inside and not reaches then return nothing(list) end
   local till = arrival(t, self, set, start, square)
   if not till then return without "not all solutions were seen to come into a set that nothing leaves" end
-  local result = ask(always.finite(t, till))
+  local result = report.for_ever(ask(always.finite(t, till)))
   result.followed = till
   return result
 end

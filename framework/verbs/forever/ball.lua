@@ -95,11 +95,12 @@ local function size(set)
   return product
 end
 
--- The point of rest for the middle of the data, near `guess`; nil: none was found.
+-- The point of rest for the middle of the data, near `guess`; nil and why none was found.
 local function middle(system, guess)
-  local x, _, converged = core.approach { equations = system.rates, unknowns = system.symbols, names = system.states,
-    leaves = {}, values = {}, x = guess }
-  return converged and x
+  local good, x, _, converged = pcall(core.approach, { equations = system.rates, unknowns = system.symbols,
+    names = system.states, leaves = {}, values = {}, x = guess })
+  if not good then return nil, (tostring(x):gsub("^.-: ", "")) end
+  return converged and x, "no state of rest was found from there, at the middle of the data"
 end
 
 local function candidates(request, centre)
@@ -117,9 +118,10 @@ end
 -- request: { system, guess (numbers), within ({ [state] = enclosure }), scales or nil, budget } -> { set, settled }, or
 -- nil and why there is none.
 function ball.find(request)
-  local centre = middle(request.system, request.guess)
-  if not centre then return nil, "no state of rest was found from there, at the middle of the data" end
-  local list, why = candidates(request, centre)
+  local centre, why = middle(request.system, request.guess)
+  if not centre then return nil, why end
+  local list
+  list, why = candidates(request, centre)
   if not list then return nil, why end
   local best
   for k = 1, math.min(BEST, #list) do

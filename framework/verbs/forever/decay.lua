@@ -12,6 +12,7 @@ local decay = {}
 
 local SLACK = 1e-14 -- relative, of sums of floats: more than their roundings, for the numbers of terms that occur
 local RESTS = 8     -- boxes that are tried for the state of rest
+local LARGEST = 1e100 -- half width of one
 local LOOKS = 8     -- so often the middle of the worst box is tried: if it fails, all does
 
 local methods = {}
@@ -353,6 +354,9 @@ function methods:rest(m)
   for i = 1, n do radius[i] = off and 1.5 * off[i]:mag() + 1e-12 * math.max(1, math.abs(m[i])) end
   for _ = 1, off and RESTS or 0 do
     local x, inside, left = {}, true, {}
+    for i = 1, n do
+      if not (radius[i] < LARGEST) then return nil end
+    end
     for i = 1, n do x[i] = points[i] + core.interval(-radius[i], radius[i]) end
     local slope = self:enclose(slopes, whole(self, x))
     if not slope then return nil end

@@ -59,11 +59,29 @@ local function rows(n, zero)
   return list
 end
 
+-- Is the system the one that the mechanism describes as it is now? It may have got parts since, or data of the system
+-- may have been replaced.
+local function is_current(system)
+  local m = system.mechanism
+  return rawget(m, "cached") == system and rawget(m, "cached_parts") == core.part_count(m.handle)
+end
+
+-- Do the masses depend on nothing but coordinates and constant data? Laws of force may put in what varies or a speed.
+local function is_of_coordinates(system, mass, q)
+  for _, leaf in ipairs(core.leaves(mass)) do
+    local known = leaf.kind == "unknown"
+    for _, place in ipairs(q) do known = known or leaf.expression == system.symbols[place] end
+    if not known then return false end
+  end
+  return true
+end
+
 local function parts_of(system)
   local q, v = places(system)
-  if not q then return nil end
+  if not q or not is_current(system) then return nil end
   local handle = system.mechanism.handle
   local m, mass = core.motion(handle)
+  if not is_of_coordinates(system, mass, q) then return nil end
   local force = core.force(handle)
   local parts = { q = q, v = v, m = m, mass = {}, force = {}, moving = {} }
   for i, h in ipairs(force) do parts.force[i] = decay.bare(h) end

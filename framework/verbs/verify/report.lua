@@ -184,21 +184,41 @@ local function reasons(list)
   return table.concat(lines, "; ")
 end
 
--- A finished search -> its report; bound and counterexample of the first condition that has the report's status.
+-- What the conditions say of the whole; its bound and counterexample are those of the first with its status.
+local function conclude(self)
+  self.status, self.code = overall(self.list)
+  self.reason, self.bound, self.counterexample = reasons(self.list), nil, nil
+  for _, c in ipairs(self.list) do
+    if c.status == self.status and not self.bound then self.bound, self.counterexample = c.bound, c.counterexample end
+  end
+  return self
+end
+
+-- A finished search -> its report.
 function report.of(job)
   local list, by_name = {}, {}
   for k, condition in ipairs(job.conditions) do
     list[k] = verdict(job, condition, k)
     by_name[condition.name] = list[k]
   end
-  local status, whole_code = overall(list)
-  local self = setmetatable({ list = list, conditions = by_name, status = status, code = whole_code,
-    reason = reasons(list), refinements = job.runs - 1, cpu_seconds = core.cpu() - job.start,
-    report = job.report }, Report)
-  for _, c in ipairs(list) do
-    if c.status == self.status and not self.bound then self.bound, self.counterexample = c.bound, c.counterexample end
+  return conclude(setmetatable({ list = list, conditions = by_name, refinements = job.runs - 1,
+    cpu_seconds = core.cpu() - job.start, report = job.report }, Report))
+end
+
+-- The same as an answer for all times: what was not reached until the end of a run may be reached later.
+function report.for_ever(self)
+  for _, c in ipairs(self.list) do
+    if c.kind == "once" and c.status == "refuted" then
+      c.status, c.code, c.counterexample = "undecided", "unable.undecided", nil
+      c.reason = "it was not reached for all data while solutions were followed; later it may be"
+    end
+    -- of a least value nothing is known from below, of a largest one no more than that a proved one is not positive
+    local least, most = c.bound.lo, c.bound.hi
+    if c.kind == "always" then most = c.status == "proved" and math.max(most, 0) or math.huge end
+    if c.kind == "once" then least = -math.huge end
+    if not c.bound:is_empty() then c.bound = core.interval(least, most) end
   end
-  return self
+  return conclude(self)
 end
 
 -- Conditions about which no run was needed: proved, or undecided for this reason.
