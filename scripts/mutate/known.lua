@@ -7,4 +7,6 @@ return {
   { area = "certify", file = "framework/verbs/reduce/certify/bound.lua", old = "core.interval(e).lo", new = "core.interval(e).hi" },
   { area = "robots", file = "framework/models/robot/urdf.lua", old = "{ 1, 0, 0 }", new = "{ 0, 0, 1 }" },
   { area = "graph", file = "framework/algebra/simplify.c", old = "if (e >= g->count || limit == 0)", new = "if (e >= g->count && limit == 0)" },
+  { area = "zonotope, lumps and discs", file = "plugins/solver/zonotope/residual.c", old = "to->moment += by * size.moment",
+    new = "to->moment = 0" },
 }
