@@ -201,9 +201,12 @@ static uint32_t find_minor(zono *z) {
   return n;
 }
 
+/* In another order of data other monomials have no place in rows, and more states may want data of their own than
+** before: for those there is no room, and what they are off by stays an error. */
 static ambit_status evaluate_all(zono *z, const double *weight) {
-  uint32_t own = 0, m = count_data(z);
+  uint32_t own = 0, m = count_data(z), room = weight ? z->m - m : UINT32_MAX;
   ambit_status status = evaluate_over(z, m, &own, weight);
+  if (own > room) own = room;
   return status == AMBIT_OK && own ? evaluate_over(z, m + own, &own, weight) : status;
 }
 
