@@ -84,8 +84,8 @@ certify { detailed, reduced, t = { 0, 10 }, initial = ..., outputs = { "x", y = 
   -> .status "proved" | "exceeded" | "unable" | "stopped", .error.x, .when.x, .scenarios, :curve()]],
   verify = [[
 verify { ode, initial = { x = 1 }, t = { 0, 1 } or math.huge, safe = expression or function(s, p, t), at_end = ...,
-reach = ..., budget = 200 }: proves or refutes that conditions are never positive: status, reason, bound, counterexample,
-conditions.]],
+reach = ..., budget = 200 }: proves or refutes that conditions are never positive: status, reason, bound,
+counterexample, conditions.]],
   sensitivity = [[
 sensitivity { ode, initial = { x = 1 }, t = { 0, 1 }, wrt = { "x", k = datum } }: a run with derivatives by initial
 values and data: :d(state, by), :d_at(t, state, by), step.d(state, by), :unit(state, by).]],

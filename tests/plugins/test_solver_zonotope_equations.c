@@ -1,7 +1,8 @@
 /* A step of the zonotope solver with a function of time in equations whose coefficients depend on the data and on old
 ** generators: a0 = -(q + y) a1, a1 = (p + y) v, with y known twice, as y1 and y2, and y1 - y2 as a further coefficient.
 ** x' = a and v constant in each half of the step make x(h) a product, of which the farthest values are at corners. As
-** w' = x1, all that v adds to w - h/2 x1 is by its first moment, which is largest if v leaps from one end to the other. */
+** w' = x1, all that v adds to w - h/2 x1 is by its first moment, which is largest if v leaps from one end to the
+** other. */
 #include "zonotope_case.h"
 #include "solver/zonotope/quartic.h"
 
