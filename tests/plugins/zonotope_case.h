@@ -240,7 +240,7 @@ static inline void open_case(zono *z, maker *k, uint32_t nx, uint32_t na, int th
 
 /* -- points: values of xi, eps and s, and what rows are there */
 
-#define MOST_SIGMAS 16
+#define MOST_SIGMAS 64
 
 typedef struct point {
   long double xi[MOST_SIGMAS], eps[MOST_SIGMAS], s;
