@@ -53,4 +53,61 @@ describe("the oracle of mechanisms", function()
       for i = 1, 6 do assert.near(case.a[i], a[i], 1e-12) end
     end
   end)
+
+  -- Wheels about their centres, in closed form.
+  local function wheel(inertia, more)
+    local b = { parent = 0, axis = { 0, 0, 1 }, turn_axis = { 0, 0, 1 }, mass = 1,
+      inertia = { 1, 0, 0, 1, 0, inertia } }
+    for key, x in pairs(more or {}) do b[key] = x end
+    return b
+  end
+  local function motion(t)
+    t.gravity, t.times, t.tolerance = { 0, 0, 0 }, { 0.3, 1 }, 1e-17
+    return multibody.run(t)
+  end
+
+  it("knows gears, and joints that follow others", function()
+    local found = motion { bodies = { wheel(2, { torque = 3 }), wheel(0.5), wheel(0.25) }, q = { 0.1, 0, 0 },
+      v = { 0.2, 0, 0 }, ties = { { follower = 2, leader = 1, ratio = -1.5, offset = 0.7 },
+        { follower = 3, leader = 2, ratio = 2, offset = 0.1 } } }
+    local a = 3 / (2 + 0.5 * 1.5 ^ 2 + 0.25 * 3 ^ 2)
+    for k, t in ipairs { 0.3, 1 } do
+      local q, v = 0.1 + 0.2 * t + a * t * t / 2, 0.2 + a * t
+      local expected = { q, 0.7 - 1.5 * q, 0.1 + 2 * (0.7 - 1.5 * q), v, -1.5 * v, -3 * v }
+      for i = 1, 6 do assert.near(expected[i], found[k][i], 1e-15) end
+    end
+  end)
+
+  it("knows given motions", function()
+    local found = motion { bodies = { wheel(2) }, q = { 0 }, v = { 0 },
+      ties = { { follower = 1, leader = 0, offset = 0.3, swing = 0.5, tempo = 4 } } }
+    for k, t in ipairs { 0.3, 1 } do
+      assert.near(0.3 + 0.5 * math.sin(4 * t), found[k][1], 1e-15)
+      assert.near(2 * math.cos(4 * t), found[k][2], 1e-15)
+    end
+  end)
+
+  it("knows friction", function()
+    local found = motion { bodies = { wheel(2, { friction = 0.4, creep = 0.2 }) }, q = { 0 }, v = { 0.9 } }
+    for k, t in ipairs { 0.3, 1 } do -- sinh(v / creep) falls as e^(-friction t / (I creep))
+      local s = math.exp(-0.4 * t / (2 * 0.2)) * (math.exp(4.5) - math.exp(-4.5)) / 2
+      assert.near(0.2 * math.log(s + math.sqrt(s * s + 1)), found[k][2], 1e-15)
+    end
+  end)
+
+  it("knows PD control", function()
+    -- I = 1, kp = 25, kd = 6: the error w - q obeys e'' + 6 e' + 25 e = w'', whose steady part is a wave
+    local control = { proportional = 25, derivative = 6, goal = 0.2, swing = 0.5, tempo = 2 }
+    local found = motion { bodies = { wheel(1, control) }, q = { 0.1 }, v = { 0.3 } }
+    local b, c = 25 - 4, 12 -- of e = A sin 2t + B cos 2t: b A - c B = -2, c A + b B = 0
+    local A = -2 * b / (b * b + c * c)
+    local B = -c * A / b
+    local C = 0.1 - B -- e(0) = 0.1, e'(0) = 1 - 0.3
+    local D = (0.7 - 2 * A + 3 * C) / 4
+    for k, t in ipairs { 0.3, 1 } do
+      local steady = A * math.sin(2 * t) + B * math.cos(2 * t)
+      local e = steady + math.exp(-3 * t) * (C * math.cos(4 * t) + D * math.sin(4 * t))
+      assert.near(0.2 + 0.5 * math.sin(2 * t) - e, found[k][1], 1e-15)
+    end
+  end)
 end)

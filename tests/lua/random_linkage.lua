@@ -82,8 +82,7 @@ local function pair_at(loop, angle, tip, ground, first, second)
 end
 
 -- Closes the loops of the scene, and fills in the initial values of the dependent coordinates.
-function linkage.close(m, frames, plan, value, initial)
-  local angle = initial.crank
+function linkage.close(m, frames, plan, value, initial, angle)
   for _, loop in ipairs(plan.loops) do
     local a, b = plan.bodies[loop.a], plan.bodies[loop.b]
     local first, second = value(loop.a_length, 1), value(loop.b_length, 1)
@@ -93,13 +92,6 @@ function linkage.close(m, frames, plan, value, initial)
     initial[a.state], initial[b.state] = pair_at(loop, angle, value(a.offset, 1),
       { value(b.offset, 1), value(b.offset, 2) }, first, second)
   end
-  local free, middle = {}, {}
-  for i, b in ipairs(plan.bodies) do
-    if not plan.dependent[i] then free[#free + 1] = b.state end
-    middle[b.state] = plan.q[i]
-  end
-  m:reference(middle)
-  m:independent(free)
 end
 
 -- The loops as the oracle takes them.

@@ -3,12 +3,15 @@
 local ambit = require "ambit"
 local multibody = require "multibody"
 local linkage = require "random_linkage"
+local parts = require "random_parts"
 local spatial = require "random_spatial"
 local state = require "random_state"
 
 local random_mechanism = {}
 
-local DATA = { "mass", "turn", "scale", "torque", "amplitude", "stiffness", "rest", "damping", "armature" }
+local DATA = { "mass", "turn", "scale", "torque", "amplitude", "stiffness", "rest", "damping", "armature",
+  "friction", "creep", "proportional", "derivative", "goal", "swing", "tempo" }
+local OF_TIES = { "ratio", "offset", "swing", "tempo" }
 local LISTS = { "offset", "centre" }
 local AXES = { x = { 1, 0, 0 }, y = { 0, 1, 0 }, z = { 0, 0, 1 } }
 
@@ -132,9 +135,12 @@ local function candidates(plan)
   end
   for _, b in ipairs(plan.bodies) do
     for _, key in ipairs(DATA) do
-      if b[key] ~= 0 and not (key == "scale" and b.mass == 0) then list[#list + 1] = { b, key } end
+      if b[key] ~= 0 and not b.exact and not (key == "scale" and b.mass == 0) then list[#list + 1] = { b, key } end
     end
-    for _, key in ipairs(LISTS) do add_list(b[key]) end
+    for _, key in ipairs(b.exact and {} or LISTS) do add_list(b[key]) end
+  end
+  for _, t in ipairs(plan.ties) do
+    for _, key in ipairs(OF_TIES) do if t[key] ~= 0 then list[#list + 1] = { t, key } end end
   end
   for _, loop in ipairs(plan.loops) do
     add_list(loop.a_length)
@@ -142,7 +148,7 @@ local function candidates(plan)
   end
   for _, key in ipairs { "q", "v" } do
     for i = 1, #plan.bodies do
-      if plan[key][i] and not (plan.dependent and plan.dependent[i]) then list[#list + 1] = { plan[key], i, true } end
+      if parts.is_free(plan, i) then list[#list + 1] = { plan[key], i, true } end
     end
   end
   return list
@@ -204,8 +210,8 @@ local function add_body(m, b, value, at)
     inertia = { xx, xy, xz, xy, yy, yz, xz, yz, zz } }
 end
 
-local function add_joint(m, b, at)
-  local t = { from = at, name = b.name }
+local function add_joint(m, b, at, t)
+  t.from, t.name = at, b.name
   if b.compound and b.compound ~= "cylindrical" then return m[b.compound](m, t) end
   t.axis = b.axis
   if b.compound == "cylindrical" then return m:cylindrical(t) end
@@ -214,18 +220,23 @@ end
 
 local function build(plan, value)
   local m = ambit.mechanism { "random", gravity = plan.gravity }
-  local frames, i = { [0] = m.world }, 1
+  local frames, joints, i = { [0] = m.world }, {}, 1
   while i <= #plan.bodies do
     local b = plan.bodies[i]
     local at = m:rigid_link { from = frames[b.parent], offset = list_of(value, b.offset) }
     if b.turn ~= 0 then at = m:weld { from = at, axis = b.turn_axis, angle = value(b, "turn") } end
-    local frame, joint = add_joint(m, b, at)
+    local frame, joint = add_joint(m, b, at, parts.motion(plan, i, value, joints))
+    joints[i] = joint
     local last = i + (b.count or 1) - 1
-    if not b.compound then add_torque(m, b, value, joint) end
+    if not b.compound then
+      add_torque(m, b, value, joint)
+      parts.add_to_joint(m, b, value, joint)
+    end
     add_body(m, plan.bodies[last], value, frame)
     for k = i, last do frames[k] = frame end
     i = last + 1
   end
+  parts.add_gears(m, plan, value, joints)
   return m, frames
 end
 
@@ -234,12 +245,17 @@ local function question(plan, data)
   local m, frames = build(plan, value)
   local initial = {}
   for _, i in ipairs(state.joints(plan)) do
-    if not (plan.dependent and plan.dependent[i]) then
+    if parts.is_free(plan, i) then
       state.each(plan, i, ambit, function(k) return value(plan.q, k) end, function(k) return value(plan.v, k) end,
         function(name, x) initial[name] = x end)
     end
   end
-  if #plan.loops > 0 then (plan.spatial and spatial or linkage).close(m, frames, plan, value, initial) end
+  parts.start(plan, value, initial)
+  if #plan.loops > 0 then
+    (plan.spatial and spatial or linkage).close(m, frames, plan, value, initial,
+      parts.angle_of_crank(plan, value, initial))
+  end
+  parts.choose_independent(m, plan)
   return { m:dynamics(), initial = initial }
 end
 
@@ -266,7 +282,7 @@ local function resolved(plan, data, draw)
     kept[k] = d.where[d.key]
     d.where[d.key] = d.middle + d.radius * (1 - 1e-9) * (draw[k] or 0)
   end
-  local t = { bodies = {}, loops = {}, gravity = plan.gravity, dependent = plan.dependent or {} }
+  local t = { bodies = {}, loops = {}, ties = {}, gravity = plan.gravity, dependent = plan.dependent or {} }
   local waves = waves_of(data, draw)
   for i, b in ipairs(plan.bodies) do
     local c = {}
@@ -279,6 +295,10 @@ local function resolved(plan, data, draw)
   end
   t.q, t.v = table.move(plan.q, 1, #plan.bodies, 1, {}), table.move(plan.v, 1, #plan.bodies, 1, {})
   if #plan.loops > 0 then (plan.spatial and spatial or linkage).resolve(plan, t) end
+  for k, tie in ipairs(plan.ties) do
+    t.ties[k] = {}
+    for key, x in pairs(tie) do t.ties[k][key] = x end
+  end
   for k, d in ipairs(data) do d.where[d.key] = kept[k] end
   return t
 end
@@ -295,6 +315,7 @@ end
 function random_mechanism.new(r, o)
   local n = 2 + r.integer(math.max(1, o.joints - 2))
   local plan = plan_of(r, n)
+  parts.add(r, plan)
   local data = choose_data(r, plan, o.data, o.varying)
   return {
     name = ("%s, %d data"):format(plan.name, #data), data = data,

@@ -2,14 +2,14 @@
 --   ambit run tests/lua/random_mechanisms.lua [--solver NAME] [--mechanisms N] [--draws N] [--seed N] [--seconds S]
 --     [--joints N] [--data N] [--time T] [--beyond X] [--varying] [--verbose]
 --
--- Trees, plane and spatial loops of 3 to 12 joints, ball joints as quaternions among them, with 5 to 40 data of .01 to
--- 5 % are simulated; motions of drawn mechanisms, half of them corners of the data, are integrated in extended
--- precision by formulas that share nothing with Ambit's (tests/oracle/multibody.h) and must lie inside, at ends of
--- steps and between. Needs the test module `multibody` in LUA_CPATH. Full length: --mechanisms 200 --draws 500. Without
--- --solver each mechanism is run by the solver that suits. --seconds: CPU time after which a run is stopped; what it
--- proved until then is checked. --beyond 2: data are drawn from twice their tolerances, so that motions must be found
--- outside. --varying: much of what acts in joints varies in time; half of the torques are drawn as waves. Exit 1 if a
--- motion is outside.
+-- Trees, plane and spatial loops of 3 to 12 joints, ball joints as quaternions among them, some tied by gears or as
+-- mimic joints, some with given motions, friction or PD control, with 5 to 40 data of .01 to 5 % are simulated;
+-- motions of drawn mechanisms, half of them corners of the data, are integrated in extended precision by formulas that
+-- share nothing with Ambit's (tests/oracle/multibody.h) and must lie inside, at ends of steps and between. Needs the
+-- test module `multibody` in LUA_CPATH. Full length: --mechanisms 200 --draws 500. Without --solver each mechanism is
+-- run by the solver that suits. --seconds: CPU time after which a run is stopped; what it proved until then is
+-- checked. --beyond 2: data are drawn from twice their tolerances, so that motions must be found outside. --varying:
+-- much of what acts in joints varies in time; half of the torques are drawn as waves. Exit 1 if a motion is outside.
 local ambit = require "ambit"
 local core = require "ambit.core"
 local session = require "ambit.session"

@@ -75,21 +75,15 @@ function spatial.new(r, n, make, massless, drive)
   return plan
 end
 
-function spatial.close(m, frames, plan, value, initial)
-  local loop, free, middle = plan.loops[1], {}, {}
+function spatial.close(m, frames, plan, value, initial, angle)
+  local loop = plan.loops[1]
   local L, reach = value(loop.a_length, 1), value(loop.b_length, 1)
   m:close_point { a = m:rigid_link { from = frames[3], offset = { 0, 0, L } },
     b = m:rigid_link { from = frames[4], offset = { 0, reach, 0 } } }
   local at = plan.bodies[4].offset
   local ground = { value(at, 1), value(at, 2), value(at, 3) }
-  local q = angles(ambit, initial.crank, value(plan.bodies[2].offset, 1), ground, reach, L, loop.side)
+  local q = angles(ambit, angle, value(plan.bodies[2].offset, 1), ground, reach, L, loop.side)
   for k = 1, 3 do initial[plan.bodies[1 + k].state] = q[k] end
-  for i, b in ipairs(plan.bodies) do
-    if not plan.dependent[i] then free[#free + 1] = b.state end
-    middle[b.state] = plan.q[i]
-  end
-  m:reference(middle)
-  m:independent(free)
 end
 
 function spatial.resolve(plan, t)

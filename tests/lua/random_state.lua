@@ -18,9 +18,9 @@ function state.each(plan, i, f, x, v, put)
   local slides = b.compound == "free_quaternion" and 3 or b.compound == "spherical_quaternion" and 0
   if not slides then
     for k = i, i + (b.count or 1) - 1 do
-      local c = plan.bodies[k]
-      put(c.state, x(k))
-      if not (plan.dependent and plan.dependent[k]) then put(c.state .. "'", v(k)) end
+      local c, tied = plan.bodies[k], plan.tied[k]
+      if not tied or tied == "gear" then put(c.state, x(k)) end
+      if not tied and not (plan.dependent and plan.dependent[k]) then put(c.state .. "'", v(k)) end
     end
     return
   end

@@ -148,9 +148,10 @@ static void add_spatial(spatial *to, const spatial *s) {
 
 static real along(const twist *s, const twist *f) { return dot(s->w, f->w) + dot(s->u, f->u); }
 
+#define SYSTEM_MOST (MULTIBODY_MOST + 3 * MULTIBODY_LOOPS + MULTIBODY_TIES)
 typedef struct linear {
   int n;
-  real at[MULTIBODY_MOST + 3 * MULTIBODY_LOOPS][MULTIBODY_MOST + 3 * MULTIBODY_LOOPS + 1];
+  real at[SYSTEM_MOST][SYSTEM_MOST + 1];
 } linear;
 
 /* Gauss with row pivots; the answer in column n. */
@@ -178,6 +179,13 @@ static bool solve(linear *e) {
   return true;
 }
 
+static real torque_of(const multibody_body *b, real q, real v, real t) {
+  real sum = b->torque + b->amplitude * FN(sin)(b->rate * t) - b->stiffness * (q - b->rest) - b->damping * v;
+  if (b->friction != 0) sum -= b->friction * FN(tanh)(v / b->creep);
+  return sum + b->proportional * (b->goal + b->swing * FN(sin)(b->tempo * t) - q) +
+         b->derivative * (b->swing * b->tempo * FN(cos)(b->tempo * t) - v);
+}
+
 /* M a = torques - bias, into the first n rows */
 static void balance(const multibody *m, const real *q, const real *v, real t, state *z, linear *e) {
   int n = m->n;
@@ -190,8 +198,7 @@ static void balance(const multibody *m, const real *q, const real *v, real t, st
     twist h = momentum(&composite[i], &z->s[i]);
     for (int j = i; j >= 0; j = m->body[j].parent) e->at[i][j] = e->at[j][i] = along(&z->s[j], &h);
     e->at[i][i] += b->armature;
-    e->at[i][e->n] = b->torque + b->amplitude * FN(sin)(b->rate * t) - b->stiffness * (q[i] - b->rest) -
-                     b->damping * v[i] - along(&z->s[i], &f[i]);
+    e->at[i][e->n] = torque_of(b, q[i], v[i], t) - along(&z->s[i], &f[i]);
     if (p < 0) continue;
     add_spatial(&composite[p], &composite[i]);
     for (int k = 0; k < 3; k++) f[p].w[k] += f[i].w[k], f[p].u[k] += f[i].u[k];
@@ -253,6 +260,17 @@ static void close_rows(const multibody *m, const state *z, rows *out) {
   }
 }
 
+/* The accelerations' part of ties, from row `first` on. */
+static void tie_rows(const multibody *m, real t, int first, linear *e) {
+  for (int k = 0; k < m->ntie; k++) {
+    const multibody_tie *c = &m->tie[k];
+    int r = first + k;
+    e->at[r][c->follower] = e->at[c->follower][r] = 1;
+    if (c->leader >= 0) e->at[r][c->leader] = e->at[c->leader][r] = -c->ratio;
+    e->at[r][e->n] = -c->swing * c->tempo * c->tempo * FN(sin)(c->tempo * t);
+  }
+}
+
 bool multibody_accelerations(multibody *m, const real *q, const real *v, real t, real *a) {
   state z;
   linear e;
@@ -261,7 +279,7 @@ bool multibody_accelerations(multibody *m, const real *q, const real *v, real t,
   place(m, q, &z);
   move(m, v, &z);
   close_rows(m, &z, &c);
-  e.n = m->n + c.n;
+  e.n = m->n + c.n + m->ntie;
   for (int i = 0; i < e.n; i++)
     for (int j = 0; j <= e.n; j++) e.at[i][j] = 0;
   balance(m, q, v, t, &z, &e);
@@ -269,9 +287,21 @@ bool multibody_accelerations(multibody *m, const real *q, const real *v, real t,
     for (int j = 0; j < m->n; j++) e.at[m->n + r][j] = e.at[j][m->n + r] = c.G[r][j];
     e.at[m->n + r][e.n] = -c.bias[r];
   }
+  tie_rows(m, t, m->n + c.n, &e);
   if (!solve(&e)) return false;
   for (int i = 0; i < m->n; i++) a[i] = e.at[i][e.n];
   return true;
+}
+
+void multibody_follow(const multibody *m, real t, real *q, real *v) {
+  for (int k = 0; k < m->ntie; k++) {
+    const multibody_tie *c = &m->tie[k];
+    q[c->follower] = c->offset + c->swing * FN(sin)(c->tempo * t);
+    v[c->follower] = c->swing * c->tempo * FN(cos)(c->tempo * t);
+    if (c->leader < 0) continue;
+    q[c->follower] += c->ratio * q[c->leader];
+    v[c->follower] += c->ratio * v[c->leader];
+  }
 }
 
 /* The dependent part x of G x = right: as many unknowns as rows. */

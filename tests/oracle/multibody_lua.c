@@ -59,6 +59,13 @@ static void read_body(lua_State *L, int at, multibody_body *b) {
   b->rest = number(L, at, "rest");
   b->damping = number(L, at, "damping");
   b->armature = number(L, at, "armature");
+  b->friction = number(L, at, "friction");
+  b->creep = number(L, at, "creep");
+  b->proportional = number(L, at, "proportional");
+  b->derivative = number(L, at, "derivative");
+  b->goal = number(L, at, "goal");
+  b->swing = number(L, at, "swing");
+  b->tempo = number(L, at, "tempo");
 }
 
 static int count(lua_State *L, const char *key, int most) {
@@ -69,10 +76,27 @@ static int count(lua_State *L, const char *key, int most) {
   return n;
 }
 
+static void read_ties(lua_State *L, multibody *m) {
+  for (int k = 0; k < m->ntie; k++) {
+    lua_getfield(L, 1, "ties");
+    lua_geti(L, -1, k + 1);
+    int at = lua_gettop(L);
+    m->tie[k] = (multibody_tie) { .follower = integer(L, at, "follower") - 1,
+      .leader = integer(L, at, "leader") - 1,
+      .ratio = number(L, at, "ratio"),
+      .offset = number(L, at, "offset"),
+      .swing = number(L, at, "swing"),
+      .tempo = number(L, at, "tempo") };
+    lua_pop(L, 2);
+  }
+}
+
 static void read_mechanism(lua_State *L, multibody *m) {
   memset(m, 0, sizeof *m);
   m->n = count(L, "bodies", MULTIBODY_MOST);
   m->nloop = count(L, "loops", MULTIBODY_LOOPS);
+  m->ntie = count(L, "ties", MULTIBODY_TIES);
+  read_ties(L, m);
   numbers(L, 1, "gravity", 3, m->gravity);
   for (int i = 0; i < m->n; i++) {
     lua_getfield(L, 1, "bodies");
@@ -103,8 +127,8 @@ static void push_states(lua_State *L, int n, const multibody_real *q, const mult
   }
 }
 
-/* run { bodies, loops, gravity, dependent, q, v, t, times, tolerance } -> { { q..., v... }, ... } at the times, which
-** increase from t (0); nil, reason: there is no such motion. */
+/* run { bodies, loops, ties, gravity, dependent, q, v, t, times, tolerance } -> { { q..., v... }, ... } at the times,
+** which increase from t (0); nil, reason: there is no such motion. */
 static int run(lua_State *L) {
   static multibody m; /* half a megabyte is much for a stack of the interpreter */
   multibody_real q[MULTIBODY_MOST], v[MULTIBODY_MOST], t = number(L, 1, "t"), tolerance = number(L, 1, "tolerance");
@@ -113,6 +137,7 @@ static int run(lua_State *L) {
   numbers(L, 1, "q", m.n, q);
   numbers(L, 1, "v", m.n, v);
   flags(L, 1, "dependent", m.n, dependent);
+  multibody_follow(&m, t, q, v);
   if (m.nloop && !multibody_close(&m, dependent, q, v)) return lua_pushnil(L), lua_pushliteral(L, "not closed"), 2;
   lua_getfield(L, 1, "times");
   int times = lua_gettop(L), n = (int)luaL_len(L, times);
@@ -130,7 +155,7 @@ static int run(lua_State *L) {
   return 2;
 }
 
-/* accelerations { bodies, loops, gravity, q, v, t } -> { a... }; nil, reason: singular */
+/* accelerations { bodies, loops, ties, gravity, q, v, t } -> { a... }; nil, reason: singular */
 static int accelerations(lua_State *L) {
   static multibody m;
   multibody_real q[MULTIBODY_MOST], v[MULTIBODY_MOST], a[MULTIBODY_MOST];
