@@ -15,6 +15,7 @@ local commands = {
   { "new", "write the skeleton of a plugin" },
   { "test", "run scripted test suites (*_spec.lua)" },
   { "errors", "what the codes of outcomes mean" },
+  { "types", "the interface for editors (LuaCATS)" },
   { "repl", "calculate and build interactively" },
 }
 

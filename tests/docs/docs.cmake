@@ -8,6 +8,8 @@ add_test(NAME docs.examples COMMAND ${LUA_PROGRAM} tests/docs/examples.lua $<TAR
   WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
 add_test(NAME docs.codes COMMAND ${LUA_PROGRAM} tests/docs/codes.lua $<TARGET_FILE:ambit>
   WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+add_test(NAME docs.interface COMMAND ${LUA_PROGRAM} tests/docs/interface.lua $<TARGET_FILE:ambit> ${pages}
+  WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
 add_test(NAME docs.architecture COMMAND ${LUA_PROGRAM} tests/docs/architecture.lua WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
 set_tests_properties(docs.examples PROPERTIES TIMEOUT 900
   ENVIRONMENT "AMBIT_PATH=${PROJECT_BINARY_DIR}/tests/plugins:${PROJECT_BINARY_DIR}/plugins")

@@ -62,7 +62,7 @@ local function shown_settings(settings)
 end
 
 -- request: { verb = "evaluate", place, expressions, paths, leaves, values } or { verb = "simulate", place, question =
--- what simulate.request makes } -> the comparison (scripts/types/ambit.lua says what is in it). progress: of
+-- what simulate.request makes } -> the comparison (scripts/lab/interface/comparison.lua says). progress: of
 -- compare/engine.lua, or nil.
 function verb.run(request, settings, progress)
   local began = core.cpu()
