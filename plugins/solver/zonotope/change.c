@@ -18,9 +18,10 @@ int change_open(zono *z) {
   const ambit_host *h = z->host;
   change *c = z->proof->change = h->alloc(h, sizeof *c);
   size_t nx = z->nx, m = z->proof->depend->mixed, all = CROSSES * m * nx;
-  return c && doubles(h, z->proof->ntarget * nx * m, &c->slope) && doubles(h, all, &c->u) && doubles(h, all, &c->w) &&
+  if (!c || !(c->lump = h->alloc(h, (all + 1) * sizeof *c->lump))) return 0;
+  return doubles(h, z->proof->ntarget * nx * m, &c->slope) && doubles(h, all, &c->u) && doubles(h, all, &c->w) &&
          doubles(h, all, &c->mean) && doubles(h, all, &c->tilt) && doubles(h, CROSSES * m, &c->size) &&
-         doubles(h, nx * nx, &c->rest) && doubles(h, nx * nx, &c->work);
+         doubles(h, CROSSES * m, &c->flat) && doubles(h, nx * nx, &c->rest) && doubles(h, nx * nx, &c->work);
 }
 
 /* -- crosses */
@@ -91,7 +92,7 @@ void change_begin(zono *z) {
     for (size_t e = 0; e < square; e++) c->rest[e] += fabs(c->work[e]);
   }
   for (size_t e = 0; e < square; e++) c->rest[e] = fmax(c->rest[e], 0) + 1e-9 * p->dJ[e];
-  memset(c->size, 0, c->count * sizeof *c->size);
+  memset(c->size, 0, c->count * sizeof *c->size), memset(c->flat, 0, c->count * sizeof *c->flat);
 }
 
 /* -- sizes */
@@ -112,18 +113,26 @@ void change_end(zono *z, const double *centre, const double *width) {
   uint32_t n = z->nx;
   if (c->count == 0) return;
   for (uint32_t i = 0; i < n; i++) {
-    double left = 0;
+    double ramp = 0, flat = 0;
     for (uint32_t l = 0; l < n; l++) {
       double other = width[l], reach = p->reach[(size_t)i * n + l];
       for (uint32_t k = 0; k < n; k++) other += p->dJ[(size_t)l * n + k] * p->zeta[k];
-      left += reach * other + (p->wobble[(size_t)i * n + l] + 16 * (n + 8) * UNIT * reach) * centre[l];
+      ramp += reach * other, flat += (p->wobble[(size_t)i * n + l] + 16 * (n + 8) * UNIT * reach) * centre[l];
     }
-    for (uint32_t r = 0; r < c->count; r++) c->size[r] += fabs(c->w[(size_t)r * n + i]) * left;
+    for (uint32_t r = 0; r < c->count; r++) {
+      double w = fabs(c->w[(size_t)r * n + i]);
+      c->size[r] += w * ramp, c->flat[r] += w * flat;
+    }
   }
   for (uint32_t r = 0; r < c->count; r++) {
-    double single = 0;
-    for (uint32_t i = 0; i < n; i++) single += fabs(c->w[(size_t)r * n + i]) * p->zeta[i];
-    c->size[r] = fmin(c->size[r], single) * ABOVE;
+    double single = 0, ramp = 0;
+    for (uint32_t i = 0; i < n; i++) {
+      double w = fabs(c->w[(size_t)r * n + i]);
+      single += w * p->zeta[i], ramp += w * p->ramp[i];
+    }
+    double most = fmin(c->size[r] + c->flat[r], single) * ABOVE;
+    double mean = fmin(0.5 * c->size[r] + c->flat[r], fmin(0.5 * ramp, single)) * ABOVE;
+    c->lump[r] = (lump) { most, most, mean, mean, 0.5 * mean };
   }
   memcpy(p->dJ, c->rest, (size_t)n * n * sizeof *p->dJ);
 }

@@ -1,7 +1,7 @@
 /* change.h -- what the slopes' dependence on the data makes of the distance within a step: change.c. */
 #ifndef ZONOTOPE_CHANGE_H
 #define ZONOTOPE_CHANGE_H
-#include "zonotope.h"
+#include "quartic.h"
 
 #define CROSSES 2 /* of what a datum changes */
 
@@ -12,7 +12,8 @@ typedef struct change {
   uint32_t count;      /* of crosses; 0: dJ is all */
   double *u, *w;       /* [CROSSES m x nx] */
   double *mean, *tilt; /* [CROSSES m x nx] w' mean, w' tilt */
-  double *size;        /* [CROSSES m] at most |w' z(s)| */
+  double *size, *flat; /* [CROSSES m] at most |w' z(s)|: s / h times the one, and the other; */
+  lump *lump;          /* [CROSSES m] of it */
   double *rest, *work; /* [nx x nx] dJ without crosses; [nx x nx] */
 } change;
 

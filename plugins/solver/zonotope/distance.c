@@ -181,6 +181,7 @@ static void close_sums(zono *z, const sums *sum) {
 static void refine(zono *z, const sums *sum) {
   proof *p = z->proof;
   uint32_t nx = z->nx;
+  memcpy(p->ramp, p->zeta, nx * sizeof(double));
   for (int turn = 0; turn < 2; turn++) {
     for (uint32_t i = 0; i < nx; i++) {
       double rate = sum->width[i], turned = 0;
@@ -196,6 +197,7 @@ static void refine(zono *z, const sums *sum) {
         double reach = p->reach[(size_t)i * nx + l];
         most += reach * p->grow[l], path += reach * p->grow_path[l];
       }
+      p->ramp[i] = fmin(p->ramp[i], most * ABOVE);
       p->zeta_new[i] = fmin(p->zeta[i], fmin(most, path) * ABOVE);
     }
     memcpy(p->zeta, p->zeta_new, nx * sizeof(double));
@@ -208,8 +210,7 @@ static uint32_t add_changes(zono *z, uint32_t at, const sums *sum) {
   uint32_t count = c->count;
   change_end(z, sum->centre, sum->width);
   c->count = 0; /* no more is noted */
-  for (uint32_t r = 0; r < count; r++)
-    at = add_lump(z, at, quartic_none(c->size[r]), c->u + (size_t)r * z->nx, sum, FROM_JACOBIAN);
+  for (uint32_t r = 0; r < count; r++) at = add_lump(z, at, c->lump[r], c->u + (size_t)r * z->nx, sum, FROM_JACOBIAN);
   return at;
 }
 
@@ -229,7 +230,7 @@ uint32_t distance_add(zono *z, uint32_t at) {
   refine(z, &sum);
   at = add_changes(z, at, &sum);
   for (uint32_t i = 0; i < nx; i++)
-    for (uint32_t j = 0; j < nx; j++) square[i] += p->dJ[(size_t)i * nx + j] * p->zeta[j];
+    for (uint32_t j = 0; j < nx; j++) square[i] += p->dJ[(size_t)i * nx + j] * fmin(p->zeta[j], 0.5 * p->ramp[j]);
   for (uint32_t i = 0; i < nx; i++) {
     double kernel = 0, slope = 0, second = 0, size = 0;
     for (uint32_t l = 0; l < nx; l++) p->grow[l] = z->h * p->mean[(size_t)i * nx + l];

@@ -104,14 +104,14 @@ static int open_states(zono *z) {
     &p->size_new, &p->jacobian_size };
   for (size_t n = 0; n < sizeof matrix / sizeof *matrix; n++)
     if (!doubles(h, square, matrix[n])) return 0;
-  return doubles(h, nx, &p->zeta) && doubles(h, 2 * nx, &p->zeta_new) && doubles(h, z->na, &p->alpha) &&
-         doubles(h, z->na, &p->alpha_new) && doubles(h, nx, &p->grow) && doubles(h, nx, &p->grow_path) &&
-         doubles(h, ORIGINS * nx, &p->boxes) && doubles(h, nx, &p->spread) && doubles(h, nx, &p->largest) &&
-         doubles(h, nx, &p->budget) && doubles(h, nx, &p->natural) && doubles(h, 4 * nx, &p->worth) &&
-         doubles(h, nx, &p->unit) && doubles(h, 4 * (nx + z->na), &p->work) && doubles(h, columns * nx, &p->columns) &&
-         doubles(h, (z->ngen_max + nx) * (nx + 1), &p->turned) && doubles(h, nx * (nx + 3), &p->moves) &&
-         doubles(h, columns, &p->score) && (p->origin = h->alloc(h, columns + 1)) != NULL &&
-         (p->from = h->alloc(h, z->ngen_max + nx + 1)) != NULL &&
+  return doubles(h, nx, &p->zeta) && doubles(h, nx, &p->ramp) && doubles(h, 2 * nx, &p->zeta_new) &&
+         doubles(h, z->na, &p->alpha) && doubles(h, z->na, &p->alpha_new) && doubles(h, nx, &p->grow) &&
+         doubles(h, nx, &p->grow_path) && doubles(h, ORIGINS * nx, &p->boxes) && doubles(h, nx, &p->spread) &&
+         doubles(h, nx, &p->largest) && doubles(h, nx, &p->budget) && doubles(h, nx, &p->natural) &&
+         doubles(h, 4 * nx, &p->worth) && doubles(h, nx, &p->unit) && doubles(h, 4 * (nx + z->na), &p->work) &&
+         doubles(h, columns * nx, &p->columns) && doubles(h, (z->ngen_max + nx) * (nx + 1), &p->turned) &&
+         doubles(h, nx * (nx + 3), &p->moves) && doubles(h, columns, &p->score) &&
+         (p->origin = h->alloc(h, columns + 1)) != NULL && (p->from = h->alloc(h, z->ngen_max + nx + 1)) != NULL &&
          (p->source = h->alloc(h, (columns + 1) * sizeof *p->source)) != NULL &&
          (p->made_by = h->alloc(h, (z->ngen_max + nx + 1) * sizeof *p->made_by)) != NULL &&
          doubles(h, 2 * z->shape.m, &p->range) && doubles(h, columns, &p->sorted);

@@ -61,7 +61,8 @@ typedef struct proof {
   double *J, *dJ;                        /* [nx x nx] */
   double *weight;            /* [ntarget x nslot] C at the centre and the start: for the length of the step */
   double *weight_L;          /* [ntarget x na] */
-  double *zeta, *zeta_new;   /* [nx] bound of |z| over the step */
+  double *zeta, *zeta_new;   /* [nx] bound of |z| over the step; */
+  double *ramp;              /* [nx] |z(s)| is at most s / h times this, too */
   double *alpha, *alpha_new; /* [na] */
   double *input;             /* [nin] */
   double *mean, *tilt, *reach, *wobble;                        /* [nx x nx] of K(s) = e^(J (h - s)), see kernel.c */
