@@ -10,6 +10,7 @@ typedef struct product_case {
   int thin, squared; /* squared: y, too */
   int shared;        /* u is a term of the sum and a factor of the other one */
   int alone;         /* x' = (p q)^2 */
+  int far;           /* rows have triples of p only */
 } product_case;
 
 static double P0[2][400];
@@ -24,6 +25,7 @@ static void open_products(zono *z, maker *k, const product_case *c) {
   *z = (zono) { .host = &host, .nx = 2, .np = 2, .m = 2, .K = c->K, .K_max = c->K, .ngen_max = 120, .h = c->h };
   z->program = (program) { .tape = &k->tape, .nx = 2, .np = 2 };
   assert_true(shape_open(&host, &z->shape, z->m, 2));
+  if (c->far) z->shape.cubic = 1, shape_place(&z->shape);
   if (c->thin) thin_out(&z->shape);
   if (c->thin && pick(2)) leave_out(&z->shape, 7);
   z->P = lend(&host, 2 * z->shape.stride * 8), z->E = lend(&host, 16), z->G = lend(&host, 2 * 122 * 8);
@@ -53,7 +55,7 @@ static void solve(const zono *z, const product_case *c, const point *at, long do
   x[0] = P0[0][0] + 0.5L * c->old * rho + p * q * q * y * grown, x[1] = y * expl(p * s);
 }
 
-/* the terms of degree 4 of state i at a point */
+/* the terms of degree 4, and far triples, of state i at a point */
 static long double terms_at(const zono *z, uint32_t i, const point *at) {
   const quartic *q = z->proof->quartic;
   const double *term = q->term + (size_t)i * q->length;
@@ -64,6 +66,8 @@ static long double terms_at(const zono *z, uint32_t i, const point *at) {
         for (uint32_t d = c; d < q->n; d++)
           sum += *term++ * (long double)at->xi[q->datum[a]] * at->xi[q->datum[b]] * at->xi[q->datum[c]] *
                  at->xi[q->datum[d]];
+  for (const far_run *r = q->far.run; r < q->far.run + q->far.nrun; r++)
+    for (uint32_t k = r->from; k < r->to; k++) sum += *term++ * (long double)at->xi[r->i] * at->xi[r->j] * at->xi[k];
   return sum;
 }
 
@@ -90,20 +94,25 @@ static void what_products_leave_out_is_in_the_set(void **unused) {
   static const double scale[] = { 1e-3, 0.05, 0.2 }, old[] = { 0, 0.01 }, length[] = { 1e-3, 0.1, 0.4, -0.4 };
   static zono z;
   static maker k;
-  double most[3] = { 0 };
-  uint32_t found = 0;
-  for (uint32_t n = 0; n < 360; n++) {
-    const product_case c = { scale[n % 3], scale[pick(3)], old[n / 3 % 2], length[n / 6 % 4], 3 + pick(8), pick(4) == 0,
-      (int)pick(2), (int)pick(2), 0 };
+  double most[3] = { 0 }, most_far = 0;
+  uint32_t found = 0, far = 0;
+  for (uint32_t n = 0; n < 480; n++) {
+    product_case c = { scale[n % 3], scale[pick(3)], old[n / 3 % 2], length[n / 6 % 4], 3 + pick(8), pick(4) == 0,
+      (int)pick(2), (int)pick(2), 0, 0 };
+    c.far = !c.thin && n % 4 == 0;
     open_products(&z, &k, &c);
     if (zono_series(&z) && zono_defects(&z) && zono_prove(&z)) {
       zono_finish(&z);
-      for (int m = 0; m < 40; m++) most[n % 3] = fmax(most[n % 3], check(&z, &c));
+      double reached = 0;
+      for (int m = 0; m < 40; m++) reached = fmax(reached, check(&z, &c));
+      if (c.far && z.proof->quartic->far.nrun > 0) far++, most_far = fmax(most_far, reached);
+      if (!c.far) most[n % 3] = fmax(most[n % 3], reached);
       found++;
     }
     give_back();
   }
-  assert_true(found > 300);
+  assert_true(found > 400 && far > 40);
+  if (most_far < 0.5) fail_msg("only %.2g of the set is reached where far triples are known", most_far);
   for (int n = 1; n < 3; n++)
     if (most[n] < 0.5) fail_msg("only %.2g of the set is reached at scale %g", most[n], scale[n]);
 }
@@ -140,7 +149,7 @@ static void terms_that_are_small_go_into_the_box(void **unused) {
   static maker k;
   uint32_t found = 0;
   for (uint32_t n = 0; n < 60; n++) {
-    const product_case c = { 0.05, 0.05, 0, 0.1, 8, 0, (int)(n / 2 % 2), 0, 0 };
+    const product_case c = { 0.05, 0.05, 0, 0.1, 8, 0, (int)(n / 2 % 2), 0, 0, 0 };
     open_products(&z, &k, &c);
     if (zono_series(&z) && zono_defects(&z) && zono_prove(&z)) {
       zono_finish(&z);
@@ -172,11 +181,102 @@ static void known_terms_reach_their_bound(void **unused) {
   }
 }
 
+/* x' = (p q)^2, y' = r x, p and q around 0: the distance of x grows as s, which r's range makes half of its end's in
+** y */
+static void what_slopes_change_reaches_its_bound(void **unused) {
+  (void)unused;
+  static const double length[] = { 0.1, 0.4, -0.4 };
+  static zono z;
+  static maker k;
+  for (uint32_t n = 0; n < 9; n++) {
+    const double scale[3] = { draw(0.05, 0.3), draw(0.05, 0.3), draw(0.01, 0.2) }, h = length[n % 3];
+    make_empty(&k, 1, 2, 0, 3); /* constant 0; x, y, p, q, r, t */
+    k.out[0] = put(&k, AMBIT_OP_SQR, put(&k, AMBIT_OP_MUL, 3, 4), 0), k.out[1] = put(&k, AMBIT_OP_MUL, 5, 1);
+    k.tape.nslot = k.tape.nconst + k.tape.nin + k.tape.ninstr;
+    z = (zono) { .host = &host, .nx = 2, .np = 3, .m = 3, .K = 4, .K_max = 4, .ngen_max = 120, .h = h };
+    z.program = (program) { .tape = &k.tape, .nx = 2, .np = 3 };
+    assert_true(shape_open(&host, &z.shape, z.m, 2));
+    z.P = lend(&host, 2 * z.shape.stride * 8), z.E = lend(&host, 16), z.G = lend(&host, 2 * 122 * 8);
+    assert_true(zono_open_rows(&z) && zono_open_proof(&z));
+    z.proof->patience = 1, z.proof->spread[0] = z.proof->spread[1] = 1;
+    for (uint32_t j = 0; j < 3; j++) {
+      double *row = z.p_row + j * z.shape.stride;
+      row[1 + j] = scale[j], row[0] = j == 2 ? 0.7 : 0;
+      row_norms_all(&z.shape, row);
+    }
+    z.P[0] = 0.3;
+    assert_true(zono_series(&z) && zono_defects(&z) && zono_prove(&z));
+    zono_finish(&z);
+    long double size = (long double)scale[0] * scale[1], off = 0.5L * h * h * scale[2] * size * size;
+    double bound = *box(&z, FROM_JACOBIAN, 1);
+    if (!(off <= bound)) fail_msg("r makes %Lg of y's distance, the bound is less by %Lg of it", off, 1 - bound / off);
+    if (off < bound * (1 - 1e-6L)) fail_msg("r makes %Lg of y's distance, the bound is %g", off, bound);
+    give_back();
+  }
+}
+
+/* -- far triples of two operands */
+
+static void fill_operand(operand *o, uint32_t m) {
+  o->all_l = lend(&host, (m + 4) * 8), o->all_q = lend(&host, (m * (m + 1) / 2 + 4) * 8);
+  for (uint32_t i = 0; i < m; i++) o->all_l[i] = draw(-1, 1);
+  for (uint32_t i = 0; i < m * (m + 1) / 2; i++) o->all_q[i] = draw(-1, 1);
+}
+
+/* of xi_v times the pair of the other two */
+static long double part_of(const zono *z, const operand *l, const operand *q, const uint32_t of[3], int v) {
+  uint32_t i = of[v == 0], j = of[v == 2 ? 1 : 2];
+  return (long double)l->all_l[of[v]] * q->all_q[z->shape.pair[i] - z->shape.pair[0] + j - i];
+}
+
+static void check_triples(const zono *z, const quartic *q, const double *x) {
+  for (const far_run *r = q->far.run; r < q->far.run + q->far.nrun; r++)
+    for (uint32_t k = r->from; k < r->to; k++, x++) {
+      const uint32_t of[3] = { r->i, r->j, k };
+      long double sum = 0;
+      assert_true(r->i <= r->j && r->j <= k && k < z->m);
+      for (int v = 0; v < 3; v++)
+        if (v == 0 || of[v] != of[v - 1]) sum += part_of(z, &q->a, &q->b, of, v) + part_of(z, &q->b, &q->a, of, v);
+      assert_true(fabsl(*x - sum) <= 1e-14L);
+    }
+}
+
+static void far_triples_are_those_of_the_product(void **unused) {
+  (void)unused;
+  static zono z;
+  static proof p;
+  static quartic q;
+  for (uint32_t n = 0; n < 60; n++) {
+    uint32_t m = 4 + pick(20), count = 0;
+    z = (zono) { .host = &host, .nx = 2, .m = m }, p = (proof) { .quartic = &q }, q = (quartic) { .most = 1, .n = 1 };
+    z.proof = &p;
+    assert_true(shape_open(&host, &z.shape, m, 2));
+    z.shape.cubic = pick(m), shape_place(&z.shape);
+    assert_true(far_open(&z));
+    far_choose(&z);
+    assert_int_equal(q.far.nrun, 0); /* nothing is worth it */
+    fill_operand(&q.a, m), fill_operand(&q.b, m);
+    for (uint32_t i = 0; i < m; i++) /* with each two data some that come next */
+      for (uint32_t j = i; j < m; j++) {
+        uint32_t from = j < z.shape.cubic ? z.shape.cubic : j, at = from + pick(m - from);
+        if (at > from) q.far.run[q.far.nrun++] = (far_run) { i, j, from, at }, count += at - from;
+      }
+    double *x = lend(&host, (count + 4) * 8);
+    far_portable(&q, x), check_triples(&z, &q, x);
+#if defined(__x86_64__)
+    if (z.shape.sum == sum_avx2) memset(x, 0, count * 8), far_avx2(&q, x), check_triples(&z, &q, x);
+#endif
+    give_back();
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(what_products_leave_out_is_in_the_set),
     cmocka_unit_test(terms_that_are_small_go_into_the_box),
     cmocka_unit_test(known_terms_reach_their_bound),
+    cmocka_unit_test(what_slopes_change_reaches_its_bound),
+    cmocka_unit_test(far_triples_are_those_of_the_product),
   };
   return cmocka_run_group_tests_name("zonotope: products", tests, NULL, NULL);
 }

@@ -3,6 +3,7 @@
 #define VARIANT sum_avx2
 #include "sum.h"
 #define MULTIPLY quartic_avx2
+#define MULTIPLY_FAR far_avx2
 #define ADD add_avx2
 #define MEASURE measure_avx2
 #include "multiply.h"

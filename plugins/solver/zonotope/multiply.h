@@ -55,6 +55,31 @@ void MULTIPLY(const quartic *q, double *to) {
       }
 }
 
+/* far triples: sums of l_v q_rest over different data v */
+void MULTIPLY_FAR(const quartic *q, double *to) {
+  const uint32_t *pair = q->shape->pair;
+  const double *al = q->a.all_l, *bl = q->b.all_l, *aq = q->a.all_q, *bq = q->b.all_q;
+  for (const far_run *r = q->far.run; r < q->far.run + q->far.nrun; r++) {
+    uint32_t i = r->i, j = r->j, k = r->from, end = r->to, start = pair[0];
+    uint32_t ij = pair[i] - start + j - i, jk = pair[j] - start + k - j, ik = pair[i] - start + k - i;
+    double other = i != j, xa = other * al[j], xb = other * bl[j];
+    if (k == j) {
+      *to++ = al[i] * bq[jk] + bl[i] * aq[jk] + xa * bq[ij] + xb * aq[ij];
+      k++, jk++, ik++;
+    }
+    four ai = SPREAD(al[i]), bi = SPREAD(bl[i]), aj = SPREAD(xa), bj = SPREAD(xb);
+    four a_ij = SPREAD(aq[ij]), b_ij = SPREAD(bq[ij]);
+#define AT(x, at) (*(const four *)((x) + (at) + done))
+    for (uint32_t done = 0; k + done < end; done += 4) {
+      four sum = ai * AT(bq, jk) + bi * AT(aq, jk) + aj * AT(bq, ik) + bj * AT(aq, ik);
+      sum += b_ij * AT(al, k) + a_ij * AT(bl, k);
+      *(four *)(to + done) = sum;
+    }
+#undef AT
+    to += end - k;
+  }
+}
+
 void ADD(double *to, double scale, const double *x, size_t n) {
   size_t m = 0;
   for (; m + 4 <= n; m += 4) *(four *)(to + m) += SPREAD(scale) * *(const four *)(x + m);

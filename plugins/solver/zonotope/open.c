@@ -104,6 +104,7 @@ int zono_open_rows(zono *z) {
 static uint32_t highest_order(const zono *z) {
   const ambit_tape *t = z->program.tape;
   if (z->options.time_order) return z->options.time_order;
+  if (z->m > 0 || z->nvarying) return ORDER_DATA;
   double moving = 1, row = 8.0 * z->shape.cube;
   for (uint32_t i = 0; i < t->nslot; i++) moving += t->degree[i] != 0;
   double k = ROOM / (moving * row) - 1;

@@ -17,7 +17,6 @@
 #define SHARE 0.001    /* of its set: what a state may be widened by in a whole run without more ado; */
 #define MANY 20.0      /* data; of fewer, triples cost less, by the cube, and that much less is given away */
 #define FADED 0.1      /* of a set that was larger once, as if it still were so large */
-#define ORDER_DATA 8   /* in time, with data; */
 #define ORDER_EXACT 30 /* without, and least */
 #define ORDER_LEAST 10
 #define ORDER_SHORT 3  /* least between jumps; */

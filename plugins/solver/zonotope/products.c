@@ -22,9 +22,10 @@ static int numbers(const ambit_host *h, size_t n, uint32_t **to) {
 
 static size_t monomials(size_t n) { return n * (n + 1) * (n + 2) * (n + 3) / 24; }
 
-static int open_operand(const ambit_host *h, operand *o, size_t n, size_t nx) {
+static int open_operand(const ambit_host *h, operand *o, size_t n, size_t nx, size_t m) {
   return doubles(h, n, &o->l) && doubles(h, n * (n + 1) / 2, &o->q) && doubles(h, n * (n + 1) * (n + 2) / 6, &o->c) &&
-         doubles(h, nx, &o->r) && doubles(h, n * nx, &o->x);
+         doubles(h, nx, &o->r) && doubles(h, n * nx, &o->x) && doubles(h, m, &o->all_l) &&
+         doubles(h, m * (m + 1) / 2, &o->all_q);
 }
 
 static int is_product(uint32_t op) { return op == AMBIT_OP_MUL || op == AMBIT_OP_SQR; }
@@ -96,14 +97,15 @@ int quartic_open(zono *z) {
   q->nx = z->nx;
   q->most = z->K_max == 0 ? 0 : z->shape.cubic < MOST ? z->shape.cubic : MOST;
   while (q->most > 0 && (double)monomials(q->most) * z->nx > ROOM) q->most--;
-  size_t n = q->most, length = monomials(n);
-  q->multiply = quartic_portable, q->add = add_portable;
+  if (!far_open(z)) return 0;
+  size_t n = q->most, length = monomials(n) + q->far.most;
+  q->multiply = quartic_portable, q->multiply_far = far_portable, q->add = add_portable;
 #if defined(__x86_64__)
-  if (z->shape.sum == sum_avx2) q->multiply = quartic_avx2, q->add = add_avx2;
+  if (z->shape.sum == sum_avx2) q->multiply = quartic_avx2, q->multiply_far = far_avx2, q->add = add_avx2;
 #endif
   return numbers(h, n, &q->datum) && numbers(h, n, &q->pair) && numbers(h, n * n, &q->triple) &&
          numbers(h, n * (n + 1) / 2, &q->pair_at) && numbers(h, n * (n + 1) * (n + 2) / 6, &q->triple_at) &&
-         open_operand(h, &q->a, n, z->nx) && open_operand(h, &q->b, n, z->nx) &&
+         open_operand(h, &q->a, n, z->nx, z->m) && open_operand(h, &q->b, n, z->nx, z->m) &&
          doubles(h, n * (n + 1) / 2 * z->nx, &q->near) && doubles(h, n * (n + 1) / 2 * z->nx * z->nx, &q->near_sum) &&
          doubles(h, length, &q->product) && doubles(h, length * z->nx, &q->sum) &&
          doubles(h, length * z->nx, &q->term) && doubles(h, length * z->nx, &q->moved) &&
@@ -188,7 +190,7 @@ static void place(zono *z) {
       for (uint32_t k = j; k < n; k++) q->triple_at[triples++] = s->cube + at + q->datum[k] - v;
     }
   }
-  q->pairs = pairs, q->triples = triples, q->length = (uint32_t)monomials(n);
+  q->pairs = pairs, q->triples = triples, q->length = q->fourth = (uint32_t)monomials(n);
 }
 
 int quartic_begin(zono *z) {
@@ -196,6 +198,7 @@ int quartic_begin(zono *z) {
   if ((q->most == 0 && !q->squares) || !choose_slots(z)) return 0;
   if (q->n == 0) choose_data(z), place(z);
   if (q->n == 0 && !q->squares) return q->count = 0, 0;
+  if (!q->held) far_choose(z);
   if (!q->held) memset(q->moved, 0, (size_t)z->nx * q->length * sizeof(double));
   for (uint32_t i = 0; i < z->nx; i++) memset(q->sum + (size_t)i * q->length, 0, q->length * sizeof(double));
   memset(q->near_sum, 0, (size_t)z->nx * q->pairs * z->nx * sizeof(double));

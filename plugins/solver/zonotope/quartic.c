@@ -50,9 +50,9 @@ static double left_moment(uint32_t k) { return k / ((k + 1.0) * (k + 2.0)); }
 
 static double size_of(const quartic *q, uint32_t i, uint32_t j) {
   const operand *a = &q->a, *b = &q->b;
-  return q->squares * a->size_r[i] * b->size_r[j] + a->size_l[i] * b->size_c[j] + a->size_c[i] * b->size_l[j] +
-         a->size_q[i] * b->size_q[j] + a->size_l[i] * b->size_x[j] + a->size_x[i] * b->size_l[j] +
-         a->size_q[i] * b->size_r[j] + a->size_r[i] * b->size_q[j];
+  return far_size(q, i, j) + q->squares * a->size_r[i] * b->size_r[j] + a->size_l[i] * b->size_c[j] +
+         a->size_c[i] * b->size_l[j] + a->size_q[i] * b->size_q[j] + a->size_l[i] * b->size_x[j] +
+         a->size_x[i] * b->size_l[j] + a->size_q[i] * b->size_r[j] + a->size_r[i] * b->size_q[j];
 }
 
 /* the lump of slot j without what is known; whole: size of the known over the step */
@@ -108,10 +108,12 @@ static lump multiply(zono *z, uint32_t j, double sign, double *whole) {
   quartic *q = z->proof->quartic;
   uint32_t i = q->made[j], a = t->a[i], b = t->op[i] == AMBIT_OP_SQR ? a : t->b[i];
   take(z, &q->a, a, sign), take(z, &q->b, b, 1);
+  if (q->far.nrun) far_take(z, &q->a, a, sign), far_take(z, &q->b, b, 1);
   lump left = reduce(z, j, orders(z, a) - 1, orders(z, b) - 1, whole);
   if (*whole == 0) return left;
   if (q->n) {
     q->multiply(q, q->product);
+    if (q->far.nrun) q->multiply_far(q, q->product + q->fourth);
     multiply_near(q);
     q->add(q->group, 1, q->product, q->length);
     q->add(q->near_group, 1, q->near, (size_t)q->pairs * z->nx);

@@ -37,6 +37,7 @@
 #include <ambit/ends.h>
 #include <math.h>
 
+#define ORDER_DATA 8 /* in time, with data */
 #define FOLLOWED                                                                                                       \
   27 /* data: where there are more, they are numbered by how much they matter, and those that hardly do
                     ** are not followed */
