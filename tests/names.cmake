@@ -20,7 +20,7 @@ foreach(kind arithmetic element solver service)
     endif()
   endforeach()
 endforeach()
-list(FILTER names EXCLUDE REGEX "^(digest|eigen|elementary|quasi_random|sandbox|conformance_kit)$") # services are asked for by their interface
+list(FILTER names EXCLUDE REGEX "^(digest|eigen|elementary|quasi_random|rational|sandbox|conformance_kit)$") # services are asked for by their interface
 string(REPLACE ";" "|" any "${names}")
 string(REPLACE ";" "|" sure "${plain}")
 list(LENGTH names count)

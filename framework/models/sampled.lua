@@ -19,7 +19,8 @@ local MOST_DELAY = 100
 function sampled.is(value) return getmetatable(value) == Sampled end
 
 function Sampled.__tostring(self)
-  return ('sampled "%s": %s every %s s'):format(self.name, table.concat(self.outputs, ", "), tostring(self.period))
+  local period = tostring(core.interval(self.period))
+  return ('sampled "%s": %s every %s s'):format(self.name, table.concat(self.outputs, ", "), period)
 end
 
 -- -- what is said
@@ -29,7 +30,7 @@ local function read_time(value, what, default)
   if value == nil then check.fail("%s is missing: a time, such as \"1 ms\"", what) end
   local e = core.expression(value, "s", what)
   if not core.is_constant(e) then check.fail("%s: expected a known time, got %s", what, check.shown(value)) end
-  return core.interval(e)
+  return e, core.interval(e)
 end
 
 -- { "u" } or { u = "N m" } or { { "u", "N m" } } -> names, units by name
@@ -89,9 +90,11 @@ function sampled.new(t)
   local self = { name = t.name or t[1] or "sampled", law = t.law, delay = read_delay(t.delay),
     quantum = read_quantum(t.quantum) }
   check.text(self.name, "sampled: name")
-  self.period, self.start = read_time(t.period, "sampled: period"), read_time(t.start, "sampled: start", 0)
-  if not (self.period.lo > 0) then check.fail("sampled: period: expected more than 0 s, got %s", tostring(t.period)) end
-  if not (self.start.lo >= 0) then check.fail("sampled: start: expected 0 s or more, got %s", tostring(t.start)) end
+  local period, start
+  self.period, period = read_time(t.period, "sampled: period")
+  self.start, start = read_time(t.start, "sampled: start", 0)
+  if not (period.lo > 0) then check.fail("sampled: period: expected more than 0 s, got %s", tostring(t.period)) end
+  if not (start.lo >= 0) then check.fail("sampled: start: expected 0 s or more, got %s", tostring(t.start)) end
   self.outputs, self.units = read_outputs(t.outputs)
   self.memory, self.initial = read_memory(t.memory)
   return setmetatable(self, Sampled)
@@ -241,7 +244,7 @@ function sampled.step(system, law)
   for i, name in ipairs(system.states) do to[i] = values[name] end
   system.sampled, system.defaults, system.declaration = {}, {}, false
   for _, name in ipairs(system.states) do system.defaults[name] = {} end
-  core.system_jump(system.system, core.interval(1), core.interval(0), to)
+  core.system_jump(system.system, core.expression(1), core.expression(0), to)
 end
 
 -- All formulas of the laws, for who looks for data in them.

@@ -12,7 +12,11 @@ static void mark(ambit_holder *holder, ambit_graph *g) {
   if (s->state) ambit_graph_mark(g, s->nx, s->state);
   if (s->rate) ambit_graph_mark(g, s->nx, s->rate);
   if (s->invariant) ambit_graph_mark(g, s->ninvariant, s->invariant);
-  for (size_t i = 0; i < s->njump; i++) ambit_graph_mark(g, s->nx, s->jump[i].to);
+  for (size_t i = 0; i < s->njump; i++) {
+    ambit_graph_mark(g, s->nx, s->jump[i].to);
+    ambit_graph_mark(g, 1, &s->jump[i].period);
+    ambit_graph_mark(g, 1, &s->jump[i].first);
+  }
   const ambit_system_source *source = s->source;
   if (!source) return;
   if (source->mark) source->mark(source, g);
@@ -131,9 +135,9 @@ static int system_jump(lua_State *L) {
   if (!jump || !to) ambit_lua_error(L, "out of memory");
   if (system->njump) memcpy(jump, system->jump, system->njump * sizeof *jump);
   memcpy(to, ambit_lua_to_array(L, 4, system->nx), system->nx * sizeof *to);
-  jump[system->njump] = (ambit_jump) {
-    .period = ambit_lua_to_enclosure(L, 2, "period").x, .first = ambit_lua_to_enclosure(L, 3, "first").x, .to = to
-  };
+  jump[system->njump] = (ambit_jump) { .period = ambit_lua_to_expression(L, 2, NULL, "period").e,
+    .first = ambit_lua_to_expression(L, 3, NULL, "first").e,
+    .to = to };
   system->jump = jump, system->njump++;
   return 0;
 }
@@ -144,9 +148,9 @@ static int system_jumps(lua_State *L) {
   lua_createtable(L, (int)s->njump, 0);
   for (size_t i = 0; i < s->njump; i++) {
     lua_createtable(L, 3, 0);
-    ambit_lua_push_enclosure(L, s->jump[i].period, 0);
+    ambit_lua_push_expression(L, s->jump[i].period);
     lua_rawseti(L, -2, 1);
-    ambit_lua_push_enclosure(L, s->jump[i].first, 0);
+    ambit_lua_push_expression(L, s->jump[i].first);
     lua_rawseti(L, -2, 2);
     ambit_lua_push_expressions(L, s->nx, s->jump[i].to);
     lua_rawseti(L, -2, 3);

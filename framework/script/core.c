@@ -140,6 +140,7 @@ int luaopen_ambit_core(lua_State *L) {
   ambit_lua_open_source(L, core);
   ambit_lua_open_difference(L, core);
   ambit_lua_open_reduction(L, core);
+  ambit_lua_open_schedule(L, core);
   ambit_lua_open_watch(L, core);
   ambit_lua_open_events(L, core);
   ambit_lua_open_track(L, core);

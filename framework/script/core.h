@@ -50,6 +50,7 @@ void ambit_lua_push_function(lua_State *L, ambit_lua *core, lua_CFunction f, int
 #define AMBIT_TYPE_ENCLOSURE "ambit.enclosure"
 #define AMBIT_TYPE_MECHANISM "ambit.mechanism"
 #define AMBIT_TYPE_SYSTEM "ambit.system"
+#define AMBIT_TYPE_SCHEDULE "ambit.schedule"
 #define AMBIT_TYPE_TRACK "ambit.track"
 
 /* An expression and its dimension. Equal nodes may be of different dimension, so the graph does not know it. */
@@ -137,6 +138,7 @@ void ambit_lua_open_structure(lua_State *L, ambit_lua *core);  /* structure.c */
 void ambit_lua_open_source(lua_State *L, ambit_lua *core);     /* source.c */
 void ambit_lua_open_difference(lua_State *L, ambit_lua *core); /* difference.c */
 void ambit_lua_open_reduction(lua_State *L, ambit_lua *core);  /* reduction.c */
+void ambit_lua_open_schedule(lua_State *L, ambit_lua *core);   /* schedule.c: the samples of a run */
 void ambit_lua_open_watch(lua_State *L, ambit_lua *core);      /* watch.c: conditions along a run */
 void ambit_lua_open_events(lua_State *L, ambit_lua *core);     /* events.c: zero crossings along a run */
 void ambit_lua_open_track(lua_State *L, ambit_lua *core);      /* track.c: the recorded steps of a run */

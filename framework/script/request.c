@@ -69,7 +69,7 @@ ambit_evaluate_request ambit_lua_read_question(lua_State *L, int idx, const char
 
 typedef struct flow {
   ambit_simulate_request q;
-  size_t nx;
+  size_t nx, nfinal;
 } flow;
 
 static ambit_simulate_request read_flow(lua_State *L, int idx, const char *what, bool outline) {
@@ -80,13 +80,14 @@ static ambit_simulate_request read_flow(lua_State *L, int idx, const char *what,
     LIST("options", AMBIT_LUA_OPTIONS, 0, q.solver_option, q.nsolver_option),
     LIST("arithmetic_options", AMBIT_LUA_OPTIONS, 0, q.arithmetic_option, q.narithmetic_option),
     LIST("initial", AMBIT_LUA_EXPRESSIONS, AMBIT_LUA_NEEDED | AMBIT_LUA_SAME, q.initial, nx),
-    LIST("times", AMBIT_LUA_NUMBERS, AMBIT_LUA_NEEDED, q.time, q.ntime) };
+    LIST("times", AMBIT_LUA_NUMBERS, AMBIT_LUA_NEEDED, q.time, q.ntime),
+    LIST("final", AMBIT_LUA_EXPRESSIONS, AMBIT_LUA_SAME, q.final, nfinal) };
 #undef LIST
   static const ambit_lua_fields fields = AMBIT_LUA_FIELDS(flow, field);
   luaL_checktype(L, idx, LUA_TTABLE);
   lua_getfield(L, idx, "system");
   const ambit_lua_system *s = (outline ? ambit_lua_check_outline : ambit_lua_check_system)(L, lua_gettop(L));
-  flow f = { .q = { .system = &s->system, .registry = AMBIT_LUA(L)->registry }, .nx = s->system.nx };
+  flow f = { .q = { .system = &s->system, .registry = AMBIT_LUA(L)->registry }, .nx = s->system.nx, .nfinal = 1 };
   ambit_lua_read(L, idx, what, &fields, &f);
   return f.q;
 }

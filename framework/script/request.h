@@ -18,7 +18,8 @@ ambit_evaluate_request ambit_lua_read_question(lua_State *L, int idx, const char
 /* {enclosure, ...}; partial [n]: 1 where it holds for a part of the data only, or NULL */
 void ambit_lua_push_enclosures(lua_State *L, size_t n, const ambit_interval *x, const uint8_t *partial);
 
-/* What is run: { system, solver = "" (none), arithmetic, options, arithmetic_options, initial, times } at idx. */
+/* What is run: { system, solver = "" (none), arithmetic, options, arithmetic_options, initial, times, final = { e } }
+** at idx; final: the true end of a sampled system. */
 ambit_simulate_request ambit_lua_read_flow(lua_State *L, int idx, const char *what);
 /* the same; of the system the states are enough */
 ambit_simulate_request ambit_lua_read_outline(lua_State *L, int idx, const char *what);

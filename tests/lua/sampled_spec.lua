@@ -99,7 +99,7 @@ describe("a sampled controller", function()
     assert.is_true(seen:contains "0.1" and seen:width() < 1e-11, tostring(seen))
   end)
 
-  it("has not leapt yet at the instant of a sample, listed or not, text or number", function()
+  it("has not leapt yet at the instant of a sample, listed or not", function()
     for _, period in ipairs { { 1, 10 }, { 3, 10 }, { 1, 3 }, { 7, 100 } } do
       local function at(k) return ("%d/%d"):format(k * period[1], period[2]) end
       local count = ambit.sampled { period = at(1), outputs = { "u" }, memory = { n = 0 },
@@ -121,7 +121,6 @@ describe("a sampled controller", function()
       end
       for _, k in ipairs { 1, 3, 6, 7 } do
         holds(complete { plant, initial = { x = 0 }, t = { 0, at(k) } }.x, k)
-        holds(complete { plant, initial = { x = 0 }, t = { 0, k * period[1] / period[2] } }.x, k)
         local function verdict(limit)
           local g = function(s) return s.u - limit end
           return ambit.verify { plant, initial = { x = 0, u = 1 }, t = at(k), safe = g, at_end = g }.status
@@ -247,7 +246,7 @@ describe("random sampled loops", function()
     for _ = 1, 25 do
       local c, samples = random_loop(math.random), 40
       local t = { 0 }
-      for n = 1, samples do t[n + 1] = n * c.period end
+      for n = 1, samples do t[n + 1] = n * ambit.number(c.period) end -- exactly
       local run = complete { system_of(c), t = t,
         initial = { x = ambit.around(c.x0, c.wide), v = ambit.around(c.v0, c.wide) } }
       local least, most = math.huge, -math.huge
@@ -258,7 +257,7 @@ describe("random sampled loops", function()
           local at = run:at(t[n + 1])
           local slack = 1e-7 -- of the oracle
           assert.is_true(contains(at.x, x[1], slack) and contains(at.v, x[2], slack) and contains(at.u, x[3], slack)
-            and contains(at.sum, x[4], slack), ("t = %.17g: x %s %s, u %s %s"):format(t[n + 1], tostring(at.x), x[1],
+            and contains(at.sum, x[4], slack), ("t = %s: x %s %s, u %s %s"):format(tostring(t[n + 1]), tostring(at.x), x[1],
               tostring(at.u), x[3]))
           checks = checks + 4
           if n == samples then least, most = math.min(least, x[1]), math.max(most, x[1]) end

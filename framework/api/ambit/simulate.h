@@ -32,6 +32,9 @@ typedef struct ambit_simulate_request {
   size_t nnarrow; /* unknowns that have a narrower range in this run than their own, and that range */
   const ambit_expr *narrow;
   const ambit_interval *range;
+  /* of a sampled system: its true end, a constant expression not behind the last of `time`: no sample is taken then or
+  ** later; NULL: that double */
+  const ambit_expr *final;
   ambit_sink *sink; /* sees every record as it is made */
 } ambit_simulate_request;
 

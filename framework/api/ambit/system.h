@@ -35,9 +35,9 @@ struct ambit_system_source {
 };
 
 /* At `first` after the start of a run, and every `period` after that, the states become `to`, over states, data, what
-** varies, and time. Both are numbers that are known within the rounding of a decimal. */
+** varies, and time. Both are constant expressions, s. */
 typedef struct ambit_jump {
-  ambit_interval period, first;
+  ambit_expr period, first;
   const ambit_expr *to; /* [nx] */
 } ambit_jump;
 

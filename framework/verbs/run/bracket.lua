@@ -23,7 +23,7 @@ end
 
 -- The hull over all steps between the times, in the direction of the run; nil: the solver says nothing between steps.
 local function hull(run, first, from, to)
-  local list, direction, i = {}, to > from and 1 or -1, first
+  local list, direction, i = {}, to >= from and 1 or -1, first
   while i do
     local begins, ends = core.track_step(run.track, i)
     local a = (begins - from) * direction > 0 and begins or from
@@ -61,7 +61,7 @@ end
 local function rates_in_box(run, start, times, span)
   local guess, box = times_span(rates_over(run, start, times), span), {}
   for k, x in ipairs(guess and start or {}) do
-    local r = 2 * guess[k]:mag() + 0x1p-54 * x:mag() + 0x1p-1000
+    local r = 2 * guess[k]:mag() + 0x1p-51 * x:mag() + 0x1p-1000
     box[k] = x + core.interval(-r, r)
   end
   local rates = guess and rates_over(run, box, times)
@@ -76,7 +76,7 @@ end
 -- How far the states, which are in `start` at m, move from there to t, or to any time from `from` to `to` if t is nil;
 -- nil: not known. list: where they are all the time, as far as the solver says.
 local function moved(run, start, list, from, to, m, t)
-  local times = core.interval(math.min(from, to), math.max(from, to))
+  local times = core.interval(math.min(from, to, m), math.max(from, to, m))
   local span, exact = times - core.interval(m), t and instant.behind(t, m, run.times[1])
   local rates = rates_in_box(run, start, times, span) or list and rates_over(run, list, times)
   return times_span(rates, exact and exact:intersect(span) or span)
@@ -107,20 +107,51 @@ local function first_step(run, from)
   return i and number_of_step(run.track, is_end and i + 1 or i)
 end
 
--- The same where states may leap: at an instant that cannot be told from a sample's they are those before it, which the
--- steps that follow m know nothing of; at all times of a bracket, those on both sides.
-local function across_samples(run, start, from, to, m, t)
-  local way = t and start and moved(run, start, nil, from, to, m, t)
-  local first = not way and first_step(run, from)
-  local list, before = first and hull(run, first, from, to), known_at(run, from)
-  for k, x in ipairs(way and start or {}) do start[k] = x + way[k] end
-  for k, x in ipairs(list and before or {}) do list[k] = list[k]:hull(x) end
-  return way and start or list
+local function samples_around(run, t) return require "ambit.run.samples".around(run, t) end
+
+local function join(list, other)
+  for k, x in ipairs(list and other or {}) do list[k] = list[k]:hull(x) end
+  return list
+end
+
+-- Where states leap, at the instant t: between the same two samples, by a step that ends between these and the way from
+-- there, else by all that the solver says of the bracket there.
+local function between_samples(run, from, to, m, t)
+  local before, after = samples_around(run, instant.expression(t))
+  local a, b = math.max(from, before or from), math.max(to, before or to)
+  a, b = math.min(a, after or a), math.min(b, after or b)
+  for _, double in ipairs { m, from, to, b } do
+    local start = (not before or double > before) and (not after or double <= after) and known_at(run, double)
+    local way = start and moved(run, start, nil, from, to, double, t)
+    if start and not run.rigorous then return start end
+    for k, x in ipairs(way and start or {}) do start[k] = x + way[k] end
+    if way then return start end
+  end
+  local list = b == after and known_at(run, b) or nil -- behind it are the states after the leap
+  local first = not (list and a == b) and first_step(run, a)
+  local other = first and hull(run, first, a, b)
+  return list and other and join(list, other) or list or other
+end
+
+-- The same at all times from `from` to `to`: on both sides of each sample, also of those at the ends of which the
+-- double is on the other side.
+local function across_samples(run, from, to)
+  local first = first_step(run, from)
+  local list = join(first and hull(run, first, from, to), known_at(run, from))
+  local before, _, after = samples_around(run, core.expression(to)), samples_around(run, core.expression(from))
+  local next_first = before and before >= to and first_step(run, before)
+  if next_first then join(list, hull(run, next_first, before, before)) end
+  if after and after < from then join(list, known_at(run, after)) end
+  return list
 end
 
 -- { enclosure of each state }, or nil; from, to: on the clock, within the run, in its direction; m: in between, where
 -- the solver was asked to end a step; t: the instant whose bracket that is, nil: all times of it are meant.
 function bracket.values(run, from, to, m, t)
+  if run.system.sampled then
+    if t then return between_samples(run, from, to, m, t) end
+    return across_samples(run, from, to)
+  end
   local start
   for _, t in ipairs { m, from, to } do
     start = known_at(run, t)
@@ -128,7 +159,6 @@ function bracket.values(run, from, to, m, t)
     if start then break end
   end
   if not run.rigorous and start then return start end
-  if run.system.sampled then return across_samples(run, start, from, to, m, t) end
   local first = first_step(run, from)
   local list = first and hull(run, first, from, to)
   local way = start and moved(run, start, list, from, to, m, t)

@@ -8,5 +8,6 @@ return function(q, changes)
     flow[key] = changes and changes[key]
     if flow[key] == nil then flow[key] = q[key] end
   end
+  flow.final = flow.times.exact and { flow.times.exact }
   return flow
 end

@@ -78,6 +78,9 @@ local function order(a, b)
   return way.lo > 0 and 1 or way.hi < 0 and -1 or 0
 end
 
+-- Is b known to be later than a, both within a run?
+function instant.is_later(b, a) return order(a, b) == 1 end
+
 -- Are they surely the same?
 function instant.is_same(a, b)
   if a.value == nil or b.value == nil then return a.lo == a.hi and b.lo == b.hi and a.lo == b.lo end
@@ -119,8 +122,9 @@ end
 -- t = { t0, ..., t1 }, ascending or descending; t = 10 means { 0, 10 } -> the doubles that a solver steps on. Of an
 -- instant that is no double it is one next to it, of the last one both ends of the bracket. Besides: .said, for
 -- those who read; and, nil where all is double, .start, as read, .shift, as above, .final, the last bracket, on the
--- clock, and .last, its first end.
-function instant.list(t, what)
+-- clock, and .last, its first end. sides: of a sampled system (run/samples.lua), or nil; then there is .exact, too, the
+-- true end where it is no double.
+function instant.list(t, what, sides)
   if t == nil then check.fail("%s is missing: { start, ..., end } in seconds", what) end
   local list = read_all(type(t) == "table" and t or { 0, t }, what)
   local forward, start = check_order(list, what), list[1]
@@ -132,11 +136,13 @@ function instant.list(t, what)
   local function add(double)
     if (double > times[#times]) == forward and double ~= times[#times] then times[#times + 1] = double end
   end
-  for i = 2, #list - 1 do add(instant.on_clock(list[i], times).near) end
   local final = instant.on_clock(list[#list], times)
+  local near = sides and forward and not times.shift and sides(times[1], final)
+  for i = 2, #list - 1 do add(near and near(list[i]) or instant.on_clock(list[i], times).near) end
   if final.lo < final.hi then
     add(forward and final.lo or final.hi)
     times.last, times.final = times[#times], final
+    times.exact = sides and not times.shift and instant.expression(final) or nil
   end
   add(forward and final.hi or final.lo)
   return times
@@ -151,7 +157,8 @@ end
 
 -- Another list of doubles for the same horizon.
 function instant.like(times, list)
-  list.shift, list.start, list.final, list.last = times.shift, times.start, times.final, times.last
+  list.shift, list.start, list.final, list.last, list.exact =
+    times.shift, times.start, times.final, times.last, times.exact
   return list
 end
 

@@ -98,8 +98,9 @@ local function at_bracket(self, t, given)
   local forward = last >= first
   local least, most = math.min(first, last), math.max(first, last)
   if t.set then lo, hi = math.max(lo, least), math.min(hi, most) end
-  if lo < least or hi > most or lo > hi then not_within(self, given or t) end
-  if lo == hi then return at_double(self, { lo = lo, hi = lo }) end
+  local is_behind = self.times.exact and not t.set and instant.is_later(t, self.times.final)
+  if lo < least or hi > most or lo > hi or is_behind then not_within(self, given or t) end
+  if lo == hi and not self.system.sampled then return at_double(self, { lo = lo, hi = lo }) end
   local list = bracket.values(self, forward and lo or hi, forward and hi or lo, t.near, not t.set and t or nil)
   return list and by_name(self, list)
 end
@@ -110,8 +111,8 @@ function methods:at(t)
   local given, start = instant.read(t, "at: t", true), self.times.start
   if start and instant.is_same(given, start) then return strict(self.initial(), self.states) end
   local own = instant.on_clock(given, self.times)
-  local values
-  if own.lo == own.hi then values = at_double(self, own) else values = at_bracket(self, own, given) end
+  local is_double = own.lo == own.hi and not self.system.sampled
+  local values = (is_double and at_double or at_bracket)(self, own, given)
   if not values then
     check.fail('at: solver `%s` says nothing between its steps; put t into the list of times', self.solver)
   end

@@ -173,9 +173,9 @@ local function of_system(t)
   if plan.relative == 0 and (plan.absolute or 0) == 0 then
     check.fail("sample: one of relative and absolute must be greater than 0")
   end
-  if q.times.final then -- a double next to the end will do
+  if q.times.final then -- a double next to the end will do, behind all samples of a clock
     q.times[#q.times] = nil
-    q.times[math.max(2, #q.times)] = q.times.final.near
+    q.times[math.max(2, #q.times)] = q.times.exact and q.times.final.hi or q.times.final.near
   end
   local result, report = solve(q, plan)
   local k = #q.times
@@ -229,6 +229,7 @@ end
 
 local function inner_of_system(q, plan, times)
   times = times or dense_times(q.times)
+  times.exact = times[#times] == q.times[#q.times] and q.times.exact or nil
   local result = solve({ system = q.system, initial = q.initial, times = times }, plan)
   return inner_of(result, times, result.values, #q.system.states)
 end

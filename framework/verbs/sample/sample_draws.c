@@ -102,7 +102,9 @@ static ambit_status build(ambit_draws *d, uint32_t want, ambit_failure *f) {
     .initial = q->initial,
     .ntime = q->ntime,
     .time = q->time,
-    .want = want | AMBIT_WANT_INITIAL | AMBIT_WANT_INVARIANT };
+    .want = want | AMBIT_WANT_INITIAL | AMBIT_WANT_INVARIANT,
+    .final = q->final,
+    .registry = q->registry };
   ambit_status status = ambit_problem_build(&request, d->arena, &d->problem, f);
   if (status != AMBIT_OK) return status;
   d->initial = d->problem.initial;

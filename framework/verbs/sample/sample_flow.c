@@ -69,7 +69,9 @@ static ambit_status build(ambit_flow *flow, ambit_failure *f) {
     .ntime = q->ntime,
     .time = q->time,
     .want = AMBIT_WANT_RHS | AMBIT_WANT_INITIAL | AMBIT_WANT_INVARIANT | AMBIT_WANT_JUMP,
-    .unknown = &flow->unknown };
+    .unknown = &flow->unknown,
+    .final = q->final,
+    .registry = q->registry };
   ambit_status status = ambit_problem_build(&request, flow->arena, &flow->problem, f);
   return status == AMBIT_OK ? find_ranges(flow, f) : status;
 }

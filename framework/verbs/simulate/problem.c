@@ -6,6 +6,7 @@
 #include "graph/tape.h"
 #include "graph/hull.h"
 #include "num/interval.h"
+#include "verbs/run/schedule.h"
 #include "verbs/run/unknowns.h"
 #include <float.h>
 #include <math.h>
@@ -400,89 +401,18 @@ static ambit_status seal_implicit(build *b) {
 
 /* -- jumps */
 
-#define MOST_JUMPS 1e8
-
-typedef struct schedule {
-  double *time, error; /* by which one of them is off, at most */
-  uint32_t *number, n;
-  size_t listed; /* instants that are behind */
-} schedule;
-
-/* the instant of sample k of a jump */
-static ambit_interval instant_of(const build *b, const ambit_jump *j, double k) {
-  ambit_interval t = { k, k };
-  ambit_interval_op(AMBIT_OP_MUL, &t, t, j->period);
-  ambit_interval_op(AMBIT_OP_ADD, &t, t, j->first);
-  ambit_interval_op(AMBIT_OP_ADD, &t, t, (ambit_interval) { b->q->time[0], b->q->time[0] });
-  return t;
-}
-
-static bool meet(ambit_interval a, ambit_interval b) { return a.lo <= b.hi && b.lo <= a.hi; }
-
-/* A double for a sample in t: the last listed instant if there is one, for which the states are those before it, as for
-** all earlier ones; else the last of all. */
-static double choose_double(const build *b, ambit_interval t, size_t *listed) {
-  const double *time = b->q->time;
-  double last = t.hi;
-  for (; *listed < b->q->ntime && time[*listed] <= t.hi; ++*listed)
-    if (time[*listed] >= t.lo) last = time[*listed];
-  return last;
-}
-
-/* The next sample of each jump is at k[i]: puts the first of all in the schedule, of one instant if they are not told
-** apart. false: all are behind the end. */
-static bool put_next(const build *b, double *k, schedule *to) {
-  const ambit_system *s = b->q->system;
-  ambit_interval first = AMBIT_EMPTY;
-  size_t which = s->njump;
-  for (size_t i = 0; i < s->njump; i++) {
-    ambit_interval t = instant_of(b, &s->jump[i], k[i]);
-    if (which == s->njump || (t.lo < first.lo && !meet(t, first))) first = t, which = i;
-  }
-  double t = to->n && to->time[to->n - 1] >= first.lo ? to->time[to->n - 1] : choose_double(b, first, &to->listed);
-  if (!(t < b->q->time[b->q->ntime - 1])) return false;
-  ambit_interval off = { t, t };
-  ambit_interval_op(AMBIT_OP_SUB, &off, off, first);
-  to->error = fmax(to->error, ambit_interval_mag(off));
-  to->time[to->n] = t, to->number[to->n++] = (uint32_t)which;
-  k[which]++;
-  return true;
-}
-
-static ambit_status check_jumps(const build *b, double *samples) {
-  const ambit_system *s = b->q->system;
-  double from = b->q->time[0], end = b->q->time[b->q->ntime - 1];
-  *samples = 0;
-  if (!(b->q->want & AMBIT_WANT_JUMP))
+static ambit_status find_schedule(build *b) {
+  const ambit_problem_request *q = b->q;
+  ambit_problem *p = b->p;
+  if (!(q->want & AMBIT_WANT_JUMP))
     return ambit_fail_code(b->f, AMBIT_UNABLE, AMBIT_CODE_UNABLE_SAMPLED,
         "the system is sampled, and this solver takes states that never jump: leave out `solver`, or name one that "
         "takes sampled systems");
-  if (end < from) return ambit_fail(b->f, AMBIT_INVALID, "a sampled system has no time before its start");
-  for (size_t i = 0; i < s->njump; i++) {
-    double n = (end - from) / s->jump[i].period.lo + 2;
-    if (!(s->jump[i].period.lo > 0) || !(s->jump[i].first.lo >= 0) || !(n < MOST_JUMPS))
-      return ambit_fail(b->f, AMBIT_INVALID,
-          "sampled: a period of %g s is too short for a run of %g s: at most %g samples", s->jump[i].period.lo,
-          end - from, MOST_JUMPS);
-    *samples += n;
-  }
-  return AMBIT_OK;
-}
-
-static ambit_status find_schedule(build *b) {
-  ambit_problem *p = b->p;
-  double samples;
-  schedule to = { 0 };
-  ambit_status status = check_jumps(b, &samples);
-  if (status != AMBIT_OK) return status;
-  double *k = room(b, b->q->system->njump, sizeof *k);
-  to.time = room(b, (size_t)samples + 1, sizeof *to.time), to.number = room(b, (size_t)samples + 1, sizeof *to.number);
-  if (!k || !to.time || !to.number) return no_memory(b);
-  for (size_t i = 0; i < b->q->system->njump; i++) k[i] = 0;
-  while (to.n < samples && put_next(b, k, &to))
-    ;
-  p->njump_time = to.n, p->jump_time = to.time, p->jump_number = to.number, p->jump_error = to.error;
-  return AMBIT_OK;
+  ambit_schedule s;
+  ambit_status status =
+      ambit_schedule_build(q->system, q->registry, q->time[0], q->time[q->ntime - 1], q->final, b->arena, &s, b->f);
+  p->njump_time = s.n, p->jump_time = s.time, p->jump_number = s.number, p->jump_error = s.error;
+  return status;
 }
 
 static ambit_status seal_jumps(build *b) {

@@ -2,6 +2,7 @@
 ** else. */
 #ifndef AMBIT_PROBLEM_H
 #define AMBIT_PROBLEM_H
+#include <ambit/registry.h>
 #include <ambit/system.h>
 #include <ambit/solver.h>
 
@@ -16,6 +17,8 @@ typedef struct ambit_problem_request {
   size_t nnarrow;             /* unknowns that have a narrower range in this problem than their own, and that range */
   const ambit_expr *narrow;
   const ambit_interval *range;
+  const ambit_expr *final;  /* as in ambit_simulate_request */
+  ambit_registry *registry; /* for sampled systems */
 } ambit_problem_request;
 
 /* Fills everything but arithmetic and actx; all of it lives in the arena. Parameters are the unknowns that the

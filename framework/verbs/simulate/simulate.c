@@ -83,7 +83,7 @@ static ambit_status build(job *j, uint32_t want, uint32_t seal, ambit_failure *f
   if (!time) return ambit_no_memory(f);
   uint32_t all = j->splits ? want | AMBIT_WANT_INITIAL | AMBIT_WANT_RHS : want;
   ambit_problem_request request = { q->system, q->initial, ntime, time, all, seal, &unknown, q->nnarrow, q->narrow,
-    q->range };
+    q->range, q->final, q->registry };
   ambit_status status = ambit_problem_build(&request, j->arena, &j->problem, f);
   if (status != AMBIT_OK) return status;
   j->problem.extras = q->extras;

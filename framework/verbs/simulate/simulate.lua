@@ -114,7 +114,8 @@ function verb.request(t, what, default_solver, own_keys)
       check_options(t, q, known, what)
     end
   end
-  q.initial, q.times = verb.initial(t.initial, q.system, what), instant.list(t.t, what .. ": t")
+  local sides = q.system.sampled and require "ambit.run.samples".sides(q.system)
+  q.initial, q.times = verb.initial(t.initial, q.system, what), instant.list(t.t, what .. ": t", sides)
   q.initial = assemble_data.correlate(q.initial, t.initial, q.system, q.times)
   if q.system.sampled and q.times.shift then
     check.fail("%s: t: the start of a sampled system: expected a number that is a double, got %s", what,

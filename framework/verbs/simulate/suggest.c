@@ -124,7 +124,9 @@ ambit_status ambit_suggest_look(const ambit_simulate_request *q, ambit_suggest_f
     .want = AMBIT_WANT_RHS | AMBIT_WANT_INITIAL | AMBIT_WANT_VARYING,
     .nnarrow = q->nnarrow,
     .narrow = q->narrow,
-    .range = q->range };
+    .range = q->range,
+    .final = q->final,
+    .registry = q->registry };
   ambit_status status = ambit_problem_build(&request, l.arena, &l.problem, f);
   if (status == AMBIT_OK && !make_room(&l)) status = ambit_no_memory(f);
   if (status == AMBIT_OK) look(&l, q->system, facts);

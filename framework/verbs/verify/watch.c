@@ -5,7 +5,8 @@
 ** and of dg/dt is defined over the whole box (no flag), and off the cut of atan2, where g would jump. Points of
 ** time are doubles inside the step; the ends of a step take the record's own boxes. Where samples make states leap, the
 ** box at the end of one step says nothing of the next one, and the start, before the first sample, is looked at by
-** itself.
+** itself; solvers leap at doubles, so that where the clock shows t, the time is up to `off` away, but not before the
+** start.
 */
 #include "verbs/verify/watch_inside.h"
 #include "graph/hull.h"
@@ -13,9 +14,18 @@
 #include "verbs/run/dense.h"
 #include "verbs/run/unknowns.h"
 #include "num/interval.h"
+#include <math.h>
 #include <string.h>
 
 /* -- one part of a step */
+
+/* The times that `when` on the clock of the records may be. */
+static ambit_interval true_times(const ambit_watch *w, ambit_interval when) {
+  double off = w->q->off;
+  if (!(off > 0)) return when;
+  ambit_interval wide = ambit_interval_add(when, (ambit_interval) { -off, off });
+  return (ambit_interval) { fmax(wide.lo, w->q->start), wide.hi };
+}
 
 /* The states that c depends on while t is in `when`, in the inputs. */
 void ambit_watch_place(ambit_watch *w, const watched *c, const ambit_record *r, ambit_interval when) {
@@ -28,7 +38,7 @@ void ambit_watch_place(ambit_watch *w, const watched *c, const ambit_record *r, 
       x = w->before[i];
     w->in[i] = x;
   }
-  w->in[w->nin - 1] = when;
+  w->in[w->nin - 1] = true_times(w, when);
 }
 
 ambit_interval ambit_watch_run(ambit_watch *w, const ambit_tape *t) {
@@ -55,6 +65,7 @@ static void narrow_by_slope(ambit_watch *w, const watched *c, part *p) {
   for (int k = 0; k < 3; k++) {
     if (ambit_interval_is_empty(p->value[k])) continue;
     ambit_interval t = ambit_interval_sub(p->when, (ambit_interval) { p->time[k], p->time[k] });
+    t = ambit_interval_add(t, (ambit_interval) { -2 * w->q->off, 2 * w->q->off }); /* each of both may be off */
     ambit_interval form = ambit_interval_add(p->value[k], ambit_interval_mul(slope, t));
     ambit_interval both = ambit_interval_intersect(p->g, form);
     if (!ambit_interval_is_empty(both)) p->g = both;
@@ -85,7 +96,7 @@ static bool decides(const watched *c, ambit_interval g) {
   return c->condition->kind == AMBIT_WATCH_ONCE ? is_not_positive(g) : is_positive(g);
 }
 
-/* Every solution has g in `g` at all times of `when`. */
+/* Every solution has g in `g` at all times of `when` on the clock. */
 static void witness(const ambit_watch *w, watched *c, ambit_interval when, ambit_interval g) {
   ambit_watch_finding *to = &c->finding;
   if (ambit_interval_is_empty(g) || w->is_ending) return;
@@ -97,12 +108,12 @@ static void witness(const ambit_watch *w, watched *c, ambit_interval when, ambit
   if (!decides(c, g)) return;
   bool better = ambit_interval_is_empty(to->value) || (once ? g.hi < to->value.hi : g.lo > to->value.lo);
   if (!better) return;
-  to->when = when;
+  to->when = true_times(w, when);
   to->value = g;
 }
 
 /* A part that will not be cut any more. */
-static void conclude(watched *c, const part *p) {
+static void conclude(const ambit_watch *w, watched *c, const part *p) {
   ambit_watch_finding *to = &c->finding;
   bool known = !ambit_interval_is_empty(p->g), once = c->condition->kind == AMBIT_WATCH_ONCE;
   double far = known ? (once ? p->g.lo : p->g.hi) : once ? -INFINITY : INFINITY;
@@ -110,7 +121,7 @@ static void conclude(watched *c, const part *p) {
   c->open = c->open || !settles(c, p->g);
   bool worse = once ? far < to->bound.lo : far > to->bound.hi;
   if (!worse && !ambit_interval_is_empty(to->worst)) return;
-  to->worst = p->when;
+  to->worst = true_times(w, p->when);
   if (once)
     to->bound.lo = far;
   else
@@ -135,7 +146,7 @@ static void scan(ambit_watch *w, watched *c, const ambit_record *r) {
     witness(w, c, p.when, p.g);
     for (int k = 0; k < 3; k++) witness(w, c, (ambit_interval) { p.time[k], p.time[k] }, p.value[k]);
     if (settles(c, p.g) || !left || depth + 2 > STACK || !is_worth_cutting(&p)) {
-      conclude(c, &p);
+      conclude(w, c, &p);
       continue;
     }
     left--;
@@ -155,7 +166,7 @@ static part look_before(ambit_watch *w, const watched *c) {
 static void look_at_the_start(ambit_watch *w, watched *c) {
   part p = look_before(w, c);
   witness(w, c, p.when, p.g);
-  conclude(c, &p);
+  conclude(w, c, &p);
 }
 
 /* The end is somewhere in this step. */
@@ -227,7 +238,7 @@ static void look_at_the_end(ambit_watch *w, watched *c) {
   }
   w->is_ending = false;
   witness(w, c, p.when, p.g);
-  conclude(c, &p);
+  conclude(w, c, &p);
 }
 
 void ambit_watch_end(ambit_watch *w, bool complete, ambit_watch_finding *finding) {

@@ -11,12 +11,13 @@
 #include <ambit/code.h>
 #include <stdio.h>
 
-#define GRID 20       /* bits of a step's length that count */
-#define GROW 3.0      /* longest step, in multiples of the last one */
-#define TOO_FAR 1e6   /* steps to the end, at the present pace, that are too many ... */
-#define SHRUNK 0.0625 /* if steps are so much shorter than they have been, or ... */
-#define NEVER 1.7e10  /* steps, even if they shrink no more */
-#define CREEP_FOR 30  /* steps in a row */
+#define GRID 20        /* bits of a step's length that count */
+#define SLIVER 0x1p-10 /* of the step before: one between two instants that are next to each other */
+#define GROW 3.0       /* longest step, in multiples of the last one */
+#define TOO_FAR 1e6    /* steps to the end, at the present pace, that are too many ... */
+#define SHRUNK 0.0625  /* if steps are so much shorter than they have been, or ... */
+#define NEVER 1.7e10   /* steps, even if they shrink no more */
+#define CREEP_FOR 30   /* steps in a row */
 
 static int fails(zono *z, enum why why) {
   z->why = why;
@@ -122,7 +123,8 @@ static int advance(zono *z) {
   zono_finish(z);
   zono_hull(z);
   if (is_wide(z)) return fails(z, WHY_WIDE);
-  z->guess = fabs(z->h), z->t = z->t_next;
+  int is_sliver = z->t_next == ahead(z) && fabs(z->h) < SLIVER * z->guess; /* tells nothing about the next one */
+  z->guess = is_sliver ? z->guess : fabs(z->h), z->t = z->t_next;
   kinks_note(z);
   z->next += z->t == z->problem.time[z->next];
   r.t_to = z->t, r.order = z->K;

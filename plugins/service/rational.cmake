@@ -1,0 +1,2 @@
+pkg_check_modules(GMP REQUIRED IMPORTED_TARGET gmp)
+set(AMBIT_PLUGIN_LIBRARIES PkgConfig::GMP)
