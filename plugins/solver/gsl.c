@@ -178,8 +178,8 @@ static ambit_status open(const ambit_host *h, const ambit_problem *p, const doub
 /* -- the run */
 
 static ambit_status give_up(const solver *s, double t, int code) {
-  const char *what = code == GSL_EDOM ? "the right-hand side is not defined, or not finite, beyond here"
-                                      : "no step is short enough for the tolerances: the solution may escape here";
+  const char *what = code == GSL_EDOM ? "the right-hand side gave no finite value beyond here"
+                                      : "no step is short enough for the tolerances";
   return s->host->fail_code(s->host, AMBIT_UNABLE,
       code == GSL_EDOM ? AMBIT_CODE_UNABLE_UNDEFINED : AMBIT_CODE_UNABLE_STEP,
       "at t = %.9g s %s (GSL: %s); end before it, loosen `relative` or `absolute`, or try another `method`", t, what,
@@ -188,7 +188,7 @@ static ambit_status give_up(const solver *s, double t, int code) {
 
 static ambit_status too_many(const solver *s, double t) {
   return s->host->fail_code(s->host, AMBIT_UNABLE, AMBIT_CODE_UNABLE_STEPS_MAX,
-      "at t = %.9g s %.9g steps were taken: the right-hand side may jump here, or be stiff; take a `method` for stiff "
+      "at t = %.9g s %.9g steps were taken: the end was not reached; take a `method` for stiff "
       "problems, end before it, loosen `relative` or `absolute`, or allow more by `steps_max`",
       t, s->steps_max);
 }

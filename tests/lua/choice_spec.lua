@@ -127,6 +127,23 @@ describe("a run of the solver that suits", function()
     assert.is_nil(run.tried)
   end)
 
+  it("says that solutions may escape only where ordinary runs end there, too", function()
+    local function reason_of(rate, x0, t)
+      local system = ambit.ode { states = { "x" }, equations = function(s, _, time) return { x = rate(s.x, time) } end }
+      local run = ambit.simulate { system, initial = { x = x0 }, t = t }
+      assert.equal("unable", run.status)
+      return run.reason
+    end
+    for _, x0 in ipairs { ambit.number(1), ambit.around(1, "1%") } do
+      assert.matches("before t = 1%.0%d+ s, too: there solutions may escape",
+        reason_of(function(x) return x ^ 2 end, x0, { 0, 2 }))
+    end
+    assert.matches("before t = 0%.7 s, too", reason_of(function(x) return -1 / ambit.sqrt(x) end, 1, { 0, 2 }))
+    -- some of the starts escape, most do not: x = x0 / (x0 + (1 - x0) e^t)
+    local some = reason_of(function(x) return x * (x - 1) end, ambit.between("0.5", "1.01"), { 0, 10 })
+    assert.is_nil(some:find "escape", some)
+  end)
+
   it("that nobody completes says who was tried, and which narrower data would do", function()
     local system, initial = chain(2, "1%")
     local run = with_lohner_first({ system, initial = initial, t = { 0, 1.6 } }, "valencia")

@@ -331,7 +331,11 @@ function choice.solve(q, ask)
   local hull, first_seconds = {}, core.cpu() - began
   local ends = budget_after(first_seconds)
   if judge(first, q, hull, ends) or #others == 0 or not may_go_on(first) then return first end
-  if q.run_options.pieces or q.run_options.cuts or is_beyond(first, q) then return first end
+  if q.run_options.pieces or q.run_options.cuts then return first end
+  if is_beyond(first, q) then
+    require "ambit.simulate.choice_reason".say_beyond(q, first)
+    return first
+  end
   local state = { q = q, ask = ask, hull = hull, ends = ends, first_seconds = first_seconds,
     best = first, by = q.suggestion, untried = {},
     tried = { { solver = first.solver, outcome = describe(first), run = first } } }

@@ -6,6 +6,7 @@ local experiment = require "ambit.simulate.experiment"
 local reason = {}
 
 local PARTS = { { 0.01, "a hundredth" }, { 0.1, "a tenth" }, { 0.25, "a quarter" }, { 0.5, "half" } } -- of the width
+local NEAR = 0.05 -- of the time that a run reached: what ends so soon after it ends with it
 local LEAST, MORE = 2, 4 -- s of CPU time for all that is tried, and so many times what the run took
 
 -- The widest of a few narrower data with which `solver` completes, as a sentence; nil: none was found in time. Narrow
@@ -53,6 +54,20 @@ local function furthest(state, run)
     end
   end
   return best
+end
+
+-- Adds to the reason of a run that ended where no ordinary run comes to the end either: whether they end near there.
+function reason.say_beyond(q, run)
+  local first, last, reached = run.times[1], run.times[#run.times], run.t_reached
+  local ahead = reached + NEAR * (reached ~= first and reached - first or last - first)
+  local near = math.abs(ahead - first) < math.abs(last - first) and ahead or last
+  local inner = require "ambit.sample".inner(q, 1, 1, { t = { first, near }, cpu = math.max(1, run.cpu_seconds) })
+  if inner and inner.failed >= inner.draws then
+    run.reason = ("%s; an ordinary run of the same data ends before t = %.4g s, too: there solutions may "
+      .. "escape, or leave the domain of the equations"):format(run.reason, near)
+  else
+    run.reason = run.reason .. "; no ordinary run comes to the end either"
+  end
 end
 
 -- Adds to the reason of a run that ended early. state: tried and untried ways, and when the CPU time for them ends;

@@ -116,9 +116,9 @@ static ambit_status explain_apart(const lohner *s) {
 
 static ambit_status explain_kink(const lohner *s) {
   return s->host->fail_code(s->host, AMBIT_UNABLE, AMBIT_CODE_UNABLE_KINK,
-      "at t = %.9g s the enclosure, up to %.3g wide, comes to where %s is not smooth, and Taylor series end; end "
-      "before "
-      "it, or put a smooth law in its place",
+      "at t = %.9g s the enclosure, up to %.3g wide, comes to the kink of %s, where Taylor series end; end before it, "
+      "or "
+      "leave out `solver`, so that one that crosses kinks is taken",
       s->t, width(s), s->kink);
 }
 
@@ -135,13 +135,12 @@ static ambit_status explain(const lohner *s, enum why why) {
   switch (why) {
   case WHY_CENTRE:
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_UNDEFINED,
-        "at t = %.9g s the right-hand side is not defined, not smooth or too large at the midpoint of the enclosure%s; "
-        "end before it",
+        "at t = %.9g s the right-hand side could not be expanded at the midpoint of the enclosure%s; end before it",
         s->t, rank);
   case WHY_BOX:
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_UNDEFINED,
-        "at t = %.9g s the enclosure, up to %.3g wide, reaches a point where the right-hand side is not defined, not "
-        "smooth or too large%s; split the initial set, or end before it",
+        "at t = %.9g s the right-hand side could not be bounded over the enclosure, which is up to %.3g wide%s; split "
+        "the initial set, or end before it",
         s->t, width(s), rank);
   case WHY_WIDE:
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_WIDTH,
@@ -151,14 +150,12 @@ static ambit_status explain(const lohner *s, enum why why) {
   case WHY_SHORT_STEPS:
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_SHORT_STEPS,
         "at t = %.9g s steps over an enclosure up to %.3g wide, now of %.3g s, are so short that the end is out of "
-        "reach: a solution may escape near here%s; if not, split the initial set, raise `tolerance`, or give a "
-        "`step_min` to go on",
+        "reach%s; split the initial set, raise `tolerance`, or give a `step_min` to go on",
         s->t, width(s), s->guess, rank);
   default:
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_STEP,
-        "at t = %.9g s no step of at least %.3g s could be proved, with an enclosure up to %.3g wide: a solution may "
-        "escape or leave the domain of the right-hand side near here%s; if not, split the initial set, lower "
-        "`step_min` or raise `tolerance`",
+        "at t = %.9g s no step of at least %.3g s could be proved, with an enclosure up to %.3g wide%s; split the "
+        "initial set, lower `step_min` or raise `tolerance`",
         s->t, lohner_least_step(s), width(s), rank);
   }
 }

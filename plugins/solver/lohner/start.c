@@ -213,8 +213,8 @@ static ambit_status open_set(lohner *s, origin *o) {
   ambit_rounding_restore(old);
   if (flags)
     return s->host->fail_code(s->host, AMBIT_UNABLE, AMBIT_CODE_UNABLE_INITIAL,
-        "at t = %.9g s the initial values are not defined, or too large to compute with, for all values of their "
-        "uncertain data; narrow the ranges of the data in `initial`",
+        "at t = %.9g s the initial values could not be bounded for all values of their uncertain data; narrow the "
+        "ranges of the data in `initial`",
         s->problem.time[0]);
   s->nc = count_columns(s, o);
   s->ndir = s->nc + s->nx;

@@ -131,8 +131,8 @@ static enum why integrate(stiff *s, ambit_sink *sink) {
 static const char *reason(enum why why) {
   switch (why) {
   case WHY_NEWTON: return "Newton's method for the collocation polynomial does not converge";
-  case WHY_ROUGH: return "the solution is not smooth enough";
-  case WHY_UNDEFINED: return "the right-hand side is not defined, not smooth or too large on the enclosure";
+  case WHY_ROUGH: return "the collocation polynomial is too far off";
+  case WHY_UNDEFINED: return "the right-hand side could not be bounded over the enclosure";
   case WHY_SPLIT: return "fast and slow directions cannot be told apart";
   case WHY_FRAME: return "the directions of errors change too fast";
   default: return "errors grow too fast";
@@ -163,8 +163,8 @@ static ambit_status explain(const stiff *s, enum why why) {
         s->t, s->h.hi);
   default:
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_STEP,
-        "at t = %.9g s no step could be proved, the last try was %.3g s long, with an enclosure up to %.3g wide: %s; a "
-        "solution may escape near here; if not, split the uncertain data, lower `step_min` or change `tolerance`",
+        "at t = %.9g s no step could be proved, the last try was %.3g s long, with an enclosure up to %.3g wide: %s; "
+        "split the uncertain data, lower `step_min` or change `tolerance`",
         s->t, s->h.hi, width(s), reason(s->last_why));
   }
 }

@@ -60,8 +60,8 @@ static ambit_status read_middle(stiff *s) {
 
 static ambit_status undefined(const stiff *s) {
   return s->host->fail_code(s->host, AMBIT_UNABLE, AMBIT_CODE_UNABLE_INITIAL,
-      "at t = %.9g s the initial values are not defined, or too large to compute with, for all values of their "
-      "uncertain data; narrow the ranges of the data in `initial`",
+      "at t = %.9g s the initial values could not be bounded for all values of their uncertain data; narrow the "
+      "ranges of the data in `initial`",
       s->problem.time[0]);
 }
 

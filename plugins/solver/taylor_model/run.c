@@ -162,15 +162,15 @@ static ambit_status explain(const flow *f, enum why why) {
   if (why == WHY_STOPPED) return AMBIT_STOPPED;
   if (p->kink)
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_KINK,
-        "at t = %.9g s the set, up to %.3g wide%s, comes to where %s is not smooth, and Taylor series end; end before "
-        "it, or put a smooth law in its place",
+        "at t = %.9g s the set, up to %.3g wide%s, comes to the kink of %s, where Taylor series end; end before it, or "
+        "leave out `solver`, so that one that crosses kinks is taken",
         p->t, width, pieces, p->kink);
   switch (why) {
   case WHY_KINK:
   case WHY_SERIES:
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_UNDEFINED,
-        "at t = %.9g s the right-hand side is not defined, not smooth or too large somewhere in the set%s; narrow the "
-        "initial set, raise `order`, or end before it",
+        "at t = %.9g s the right-hand side could not be bounded over the set%s; narrow the initial set, raise `order`, "
+        "or end before it",
         p->t, pieces);
   case WHY_WIDE:
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_WIDTH,
@@ -179,9 +179,8 @@ static ambit_status explain(const flow *f, enum why why) {
         f->problem.name[p->blamed], f->limit[p->blamed], p->t, pieces);
   default:
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_STEP,
-        "at t = %.9g s no step of at least %.3g s could be proved, with a box up to %.3g wide%s: a solution may escape "
-        "or leave the domain of the right-hand side near here; if not, raise `pieces_max` (%u now) or `order`, or "
-        "lower `step_min`",
+        "at t = %.9g s no step of at least %.3g s could be proved, with a box up to %.3g wide%s; raise `pieces_max` "
+        "(%u now) or `order`, or lower `step_min`",
         p->t, flow_least_step(f, p->t), width, pieces, f->options.pieces_max);
   }
 }

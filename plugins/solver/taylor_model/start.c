@@ -95,9 +95,8 @@ static ambit_status evaluate_over(flow *f, uint32_t m, uint32_t order, uint32_t 
   f->jet->close(jet);
   if (flags)
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_INITIAL,
-        "at t = %.9g s the initial values are not defined, not smooth, or too large to compute with, for all values of "
-        "their "
-        "uncertain data; narrow the ranges of the data in `initial`",
+        "at t = %.9g s the initial values could not be bounded for all values of their uncertain data; narrow the "
+        "ranges of the data in `initial`",
         p->time[0]);
   return AMBIT_OK;
 }

@@ -99,8 +99,8 @@ static ambit_status open_origin(valencia *s) {
   ambit_lane_close(&lane);
   if (flags)
     return s->host->fail_code(s->host, AMBIT_UNABLE, AMBIT_CODE_UNABLE_INITIAL,
-        "at t = %.9g s the initial values are not defined, or too large to compute with, for all values of their "
-        "uncertain data; narrow the ranges of the data in `initial`",
+        "at t = %.9g s the initial values could not be bounded for all values of their uncertain data; narrow the "
+        "ranges of the data in `initial`",
         s->problem.time[0]);
   memcpy(s->start_p, s->p, s->nx * s->terms.n * sizeof *s->p);
   memcpy(s->start_w, s->w, s->nx * sizeof *s->w);

@@ -379,7 +379,7 @@ static double widest(const valencia *s) {
 
 static void say_kink(const valencia *s, size_t room, char *text) {
   text[0] = '\0';
-  if (s->kink_name) snprintf(text, room, ", where %s is not smooth, so that all is wide", s->kink_name);
+  if (s->kink_name) snprintf(text, room, ", on the kink of %s", s->kink_name);
 }
 
 static ambit_status explain(const valencia *s, enum why why) {
@@ -392,8 +392,9 @@ static ambit_status explain(const valencia *s, enum why why) {
   case WHY_DOMAIN:
   case WHY_CURVE:
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_UNDEFINED,
-        "at t = %.9g s the enclosure, up to %.3g wide, reaches a point where the right-hand side is not defined or not "
-        "bounded%s, however short the step; split the initial set, or end before it",
+        "at t = %.9g s the right-hand side could not be bounded over the enclosure, which is up to %.3g wide%s, "
+        "however "
+        "short the step; split the initial set, or end before it",
         s->t, widest(s), kink);
   case WHY_WIDE:
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_WIDTH,
@@ -403,8 +404,7 @@ static ambit_status explain(const valencia *s, enum why why) {
   default:
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_STEP,
         "at t = %.9g s no error bound of a step of at least %.3g s maps into itself, with an enclosure up to %.3g "
-        "wide%s: "
-        "a solution may escape near here; if not, split the initial set, lower `step_min` or raise `tolerance`",
+        "wide%s; split the initial set, lower `step_min` or raise `tolerance`",
         s->t, least_step(s), widest(s), kink);
   }
 }

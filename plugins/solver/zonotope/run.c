@@ -167,18 +167,18 @@ static ambit_status explain(const zono *z) {
   case WHY_STOPPED: return AMBIT_STOPPED;
   case WHY_KINK:
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_KINK,
-        "at t = %.9g s the enclosure, up to %.3g wide, comes to where %s is not smooth, and Taylor series end; end "
-        "before it, or put a smooth law in its place",
+        "at t = %.9g s the enclosure, up to %.3g wide, comes to the kink of %s, which this solver cannot cross here; "
+        "narrow the data, or end before it",
         z->t, width, z->detail ? z->detail : "an element's law");
   case WHY_UNDEFINED:
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_UNDEFINED,
-        "at t = %.9g s the enclosure, up to %.3g wide, reaches a point where the equations are not defined, not smooth "
-        "or too large; narrow the data, or end before it",
+        "at t = %.9g s the equations could not be bounded over the enclosure, which is up to %.3g wide; narrow the "
+        "data, or end before it",
         z->t, width);
   case WHY_PIVOT:
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_UNDEFINED,
-        "at t = %.9g s the equations for the accelerations may be singular somewhere in the enclosure, up to %.3g wide "
-        "(unknown %u); narrow the data, or end before it",
+        "at t = %.9g s the equations for the accelerations could not be solved over the enclosure, which is up to %.3g "
+        "wide (unknown %u); narrow the data, or end before it",
         z->t, width, z->blamed + 1);
   case WHY_WIDE:
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_WIDTH,
@@ -189,12 +189,13 @@ static ambit_status explain(const zono *z) {
   case WHY_SHORT_STEPS:
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_SHORT_STEPS,
         "at t = %.9g s steps over an enclosure up to %.3g wide%s, now of %.3g s, are so short that the end is out of "
-        "reach: a solution may escape near here; if not, narrow the data",
+        "reach; narrow the data, or end before it",
         z->t, width, from, z->guess);
   default:
     return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_STEP,
-        "at t = %.9g s no step of at least %.3g s could be proved, with an enclosure up to %.3g wide%s: a solution may "
-        "escape or leave the domain of the equations near here; if not, narrow the data or lower `step_min`",
+        "at t = %.9g s no step of at least %.3g s could be proved, with an enclosure up to %.3g wide%s; narrow the "
+        "data, "
+        "lower `step_min`, or end before it",
         z->t, least_step(z), width, from);
   }
 }

@@ -128,11 +128,11 @@ static void give_own_data(zono *z, uint32_t *own) {
 static ambit_status undefined(const zono *z, const zono *i) {
   if (i->why == WHY_KINK && i->detail)
     return z->host->fail_code(z->host, AMBIT_UNABLE, AMBIT_CODE_UNABLE_KINK,
-        "at t = %.9g s the initial values come to where %s is not smooth; narrow the ranges of the data in `initial`",
+        "at t = %.9g s the initial values come to the kink of %s; narrow the ranges of the data in `initial`",
         z->problem.time[0], i->detail);
   return z->host->fail_code(z->host, AMBIT_UNABLE, AMBIT_CODE_UNABLE_INITIAL,
-      "at t = %.9g s the initial values are not defined, not smooth, or too large to compute with, for all values of "
-      "their uncertain data; narrow the ranges of the data in `initial`",
+      "at t = %.9g s the initial values could not be bounded for all values of their uncertain data; narrow the ranges "
+      "of the data in `initial`",
       z->problem.time[0]);
 }
 
