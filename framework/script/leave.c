@@ -45,11 +45,13 @@ static void tell_limit(void) {
   fprintf(stderr, "ambit: %s: what was done until then holds (%s)\n", sentence, limit);
 }
 
+bool ambit_leave_flush(void) { return fflush(stdout) == 0 && !ferror(stdout); }
+
 int ambit_leave(int code) {
   guarded = 0;
   tell_limit();
   if (later >= 0) code = later;
-  if (fflush(stdout) == 0 && !ferror(stdout)) return code; /* the last flush, or one before it */
+  if (ambit_leave_flush()) return code;
   fprintf(stderr, "ambit: not everything could be written to standard output\n");
   return code == EXIT_SUCCESS ? EXIT_FAILURE : code;
 }

@@ -12,7 +12,9 @@
 bool ambit_leave_reserve_files(void);
 /* From here on, in this process but not in its children, exit() is an error. False: out of memory. */
 bool ambit_leave_guard(void);
-/* What was printed goes out; the exit code becomes that of an error if it cannot. The guard is off. */
+/* What was printed goes out. False: some of it could not be written, now or before. */
+bool ambit_leave_flush(void);
+/* The same; the exit code becomes that of an error if some could not. The guard is off. */
 int ambit_leave(int code);
 /* From here on ambit_leave takes this exit code instead of what it is given, for what happens while Lua closes. */
 void ambit_leave_with(int code);

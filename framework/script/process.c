@@ -153,6 +153,12 @@ static int leave_with(lua_State *L) {
   return 0;
 }
 
+/* flush() -> whether all that was printed could be written */
+static int flush(lua_State *L) {
+  lua_pushboolean(L, ambit_leave_flush());
+  return 1;
+}
+
 /* literal(x) -> the shortest text that reads back as x */
 static int literal(lua_State *L) {
   char text[AMBIT_DECIMAL_MAX];
@@ -185,8 +191,8 @@ void ambit_lua_open_process(lua_State *L, ambit_lua *core) {
   static const luaL_Reg functions[] = { { "libraries", libraries }, { "cpu", cpu }, { "deadline", deadline },
     { "terminal", terminal }, { "where", where }, { "fail", fail }, { "progress", progress }, { "notes", notes },
     { "interrupted", interrupted }, { "literal", literal }, { "codes", codes }, { "leave", leave },
-    { "leave_with", leave_with }, { "limit", limit }, { "blame_memory", blame_memory }, { "settle", settle },
-    { "heap", heap }, { NULL, NULL } };
+    { "leave_with", leave_with }, { "flush", flush }, { "limit", limit }, { "blame_memory", blame_memory },
+    { "settle", settle }, { "heap", heap }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
   lua_pushliteral(L, AMBIT_VERSION);
   lua_setfield(L, -2, "version");

@@ -51,6 +51,9 @@ local function finish(problem, asked)
   if stopped then exit = by_stop end
   if problem then complain(problem) end
   local reason = limit or problem and tostring(problem):match "^[^\n]*"
+  if not core.flush() and exit == 0 then
+    worst, exit, reason = "invalid", 1, "not everything could be written to standard output"
+  end
   pcall(core.record, "end", { "code", worst, "exit", exit, "reason", reason })
   if not close_records() then return 1 end
   if stopped and not limit then complain "interrupted: what was recorded up to there is kept" end

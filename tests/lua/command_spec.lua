@@ -44,11 +44,16 @@ describe("ambit", function()
     if not device then return print "there is no /dev/full: not tried" end
     device:close()
     local file, problems = write 'print "hello"', os.tmpname()
-    local _, _, code = os.execute(("%s run %s >/dev/full 2>%s"):format(quoted(command), file, problems))
-    assert.equal(1, code)
-    has(read(problems), "not everything could be written to standard output")
+    local records = os.tmpname()
+    for _, place in ipairs { ">/dev/full", ">&-" } do
+      local _, _, code = os.execute(("%s run --json %s %s %s 2>%s"):format(quoted(command), records, file, place, problems))
+      assert.equal(1, code)
+      has(read(problems), "not everything could be written to standard output")
+      has(read(records):match "[^\n]+\n$", '"exit":1', "not everything could be written to standard output")
+    end
     os.remove(file)
     os.remove(problems)
+    os.remove(records)
   end)
 
   it("says what it can do", function()
