@@ -22,7 +22,9 @@ check_runpaths(${BUILD}/lib FALSE)
 check_runpaths(${BUILD}/plugins FALSE)
 check_runpaths(${BUILD}/tests FALSE)
 check_runpaths(${WORK}/first TRUE)
-if(NOT C_FLAGS) # sanitizers write down where each source file is
+check_hardened(${WORK}/first)
+if(NOT C_FLAGS) # sanitizers have guards of their own; they write down where each source file is
+  check_guards(${WORK}/first/bin/ambit)
   check_names(${WORK}/first ${BUILD} ${TREE})
 endif()
 

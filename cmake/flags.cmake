@@ -8,6 +8,21 @@ target_compile_options(ambit_flags INTERFACE
 # No object holds the name of the folder it was built in: not in debug information, not in __FILE__.
 target_compile_options(ambit_flags INTERFACE
   -ffile-prefix-map=${PROJECT_SOURCE_DIR}/= -ffile-prefix-map=${PROJECT_BINARY_DIR}/=)
+# Hardening, checked in what is built by tests/install (cmake/check_objects.cmake). The sanitizers bring guards of their own.
+include(CheckPIESupported)
+check_pie_supported()
+include(CheckCCompilerFlag)
+foreach(flag -fstack-protector-strong -fstack-clash-protection -fcf-protection=full -mbranch-protection=standard)
+  string(MAKE_C_IDENTIFIER "AMBIT_HAS${flag}" known)
+  check_c_compiler_flag(${flag} ${known})
+  if(${known})
+    target_compile_options(ambit_flags INTERFACE ${flag})
+  endif()
+endforeach()
+target_link_options(ambit_flags INTERFACE -Wl,-z,relro -Wl,-z,now -Wl,-z,noexecstack)
+if(NOT AMBIT_SANITIZE)
+  target_compile_options(ambit_flags INTERFACE $<$<NOT:$<CONFIG:Debug>>:-U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2>)
+endif()
 if(AMBIT_WERROR)
   target_compile_options(ambit_flags INTERFACE -Werror)
 endif()
