@@ -27,6 +27,8 @@ local function explain(message)
     local meta = getmetatable(message)
     message = meta and meta.__tostring and tostring(message) or ("error object: " .. type(message))
   end
+  local found, hint = pcall(function() return require "ambit.command.hint"(message) end)
+  if found and hint then message = message:gsub("^[^\n]*", function(line) return line .. ": " .. hint end) end
   local trace = readable(debug.traceback("", 2))
   return trace and message .. "\n" .. trace or message
 end

@@ -70,6 +70,23 @@ describe("ambit", function()
     assert.truthy(stdout:find "^ambit %d+%.%d+%.%d+\n$")
   end)
 
+  it("hints at what is meant", function()
+    for scene, hint in pairs {
+      ["ambit.ode {}"] = ": a scene begins with: local ambit = require \"ambit\"",
+      ["require 'ambit'.simulat {}"] = ": is `ambit.simulate` meant?",
+      ["simulate {}"] = ": is `ambit.simulate` meant?",
+      ["local ambit = require 'ambit' math.sin(ambit.around(1, .1))"] = "; ambit.sin takes every value of Ambit's",
+      ["unheard_of()"] = "(global 'unheard_of')",
+      ["string.unheard_of()"] = "(field 'unheard_of')",
+    } do
+      local file = write(scene)
+      local code, _, stderr = run("run " .. file)
+      assert.equal(1, code)
+      assert.equal(hint, stderr:match("^[^\n]*"):sub(-#hint))
+      os.remove(file)
+    end
+  end)
+
   it("ends with 2 on wrong usage", function()
     for _, words in ipairs { "", "rnu", "--hlep", "run", "run --jsn x.lua", "run --json", "explain", "plugins a b",
       "repl x", "test --x" } do
