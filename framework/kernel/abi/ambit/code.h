@@ -37,7 +37,7 @@
   X(UNABLE_CONSTRAINT, "unable.constraint", "No state of the enclosure meets a constraint later on.",                  \
       "No initial state does, or the equations of motion do not keep it.")                                             \
   X(UNABLE_SHORT_STEPS, "unable.short_steps", "Steps became so short that the end is out of reach.",                   \
-      "A solution may escape; if not, split the initial set or raise `tolerance`.")                                    \
+      "Split the initial set, raise `tolerance`, or end before it.")                                                   \
   X(UNABLE_EIGENVALUES, "unable.eigenvalues", "No enclosure of the eigenvalues was found.", "Narrow the data.")        \
   X(UNABLE_EVENT, "unable.event",                                                                                      \
       "It could not be proved whether, or for all data, an event happens that the run depends on.",                    \
@@ -47,7 +47,7 @@
       "Leave out equations that follow from the others.")                                                              \
   X(UNABLE_INITIAL, "unable.initial", "The initial values are not defined for all their data, or too large.",          \
       "Narrow the ranges of the data in `initial`.")                                                                   \
-  X(UNABLE_KINK, "unable.kink", "The set reaches a point where an element's law is not smooth.",                       \
+  X(UNABLE_KINK, "unable.kink", "The set reaches the kink of an element's law.",                                       \
       "End before it, leave out `solver` so that one that crosses kinks is taken, or put a smooth law in its place.")  \
   X(UNABLE_VARYING, "unable.varying", "A datum varies in time, and the solver takes data for constants.",              \
       "Leave out `solver`, or name one that takes what varies.")                                                       \
@@ -66,7 +66,7 @@
   X(UNABLE_SEARCH_UNBOUNDED, "unable.search-unbounded", "Boxes that reach to infinity were left undecided.",           \
       "Search a bounded box.")                                                                                         \
   X(UNABLE_STEP, "unable.step", "No step of at least the least length could be proved.",                               \
-      "A solution may escape; if not, split the initial set, lower `step_min` or raise `tolerance`.")                  \
+      "Split the initial set, lower `step_min`, raise `tolerance`, or end before it.")                                 \
   X(UNABLE_STEPS_MAX, "unable.steps-max", "More steps were needed than `steps_max`.", "Raise `steps_max`.")            \
   X(UNABLE_SWITCH, "unable.switch", "It could not be proved which way a hybrid system goes at a guard.",               \
       "Narrow the data; see the reason.")                                                                              \
@@ -75,8 +75,7 @@
       "Lower `tolerance`, or narrow the data.")                                                                        \
   X(UNABLE_UNDECIDED_MAX, "unable.undecided-max", "More boxes were left undecided than are kept.",                     \
       "Narrow the data, or raise `tolerance` or `undecided_max`.")                                                     \
-  X(UNABLE_UNDEFINED, "unable.undefined",                                                                              \
-      "The set reaches a point where the right-hand side is not defined, not smooth or too large.",                    \
+  X(UNABLE_UNDEFINED, "unable.undefined", "The right-hand side could not be bounded over the set.",                    \
       "Split the initial set, or end before it.")                                                                      \
   X(UNABLE_WIDTH, "unable.width", "The enclosure grew wider than `width_max`.",                                        \
       "Split the initial set, or allow more by `width_max`.")                                                          \
