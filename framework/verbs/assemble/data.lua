@@ -16,33 +16,6 @@ local data = {}
 
 -- -- in numbers; they prove nothing
 
--- The inverse of a matrix by rows, by elimination with row pivots; nil: singular.
-local function inverse(n, a)
-  local rows = {}
-  for i = 1, n do
-    rows[i] = table.move(a, (i - 1) * n + 1, i * n, 1, {})
-    for j = 1, n do rows[i][n + j] = i == j and 1 or 0 end
-  end
-  for k = 1, n do
-    local best = k
-    for i = k + 1, n do
-      if math.abs(rows[i][k]) > math.abs(rows[best][k]) then best = i end
-    end
-    rows[k], rows[best] = rows[best], rows[k]
-    local pivot = rows[k][k]
-    if not (math.abs(pivot) > 0 and math.abs(pivot) < math.huge) then return nil end
-    for j = 1, 2 * n do rows[k][j] = rows[k][j] / pivot end
-    for i = 1, n do
-      local factor = rows[i][k]
-      if i ~= k and factor ~= 0 then
-        for j = 1, 2 * n do rows[i][j] = rows[i][j] - factor * rows[k][j] end
-      end
-    end
-  end
-  for i = 1, n do rows[i] = table.move(rows[i], n + 1, 2 * n, 1, {}) end
-  return rows
-end
-
 local function numbers(expressions, leaves, at)
   local values, out = {}, {}
   for i, x in ipairs(at) do values[i] = core.expression(x) end
@@ -67,12 +40,13 @@ end
 
 -- p: { list, symbols, unknowns, jacobian } -> x, C at the middle of the data; nil: none was found
 local function solve_in_the_middle(p, start)
+  local matrix = require "ambit.float_matrix"
   local n, x, leaves, c = #p.list, table.move(start, 1, #start, 1, {}), table.move(p.symbols, 1, #p.symbols, 1, {}), nil
   table.move(p.unknowns, 1, #p.unknowns, n + 1, leaves)
   for _ = 1, STEPS do
     local at = table.move(p.middle, 1, #p.middle, n + 1, table.move(x, 1, n, 1, {}))
     local f, a = numbers(p.list, leaves, at), numbers(p.jacobian, leaves, at)
-    c = f and a and inverse(n, a)
+    c = f and a and matrix.solve(matrix.rows(n, a))
     if not c then return nil end
     local step, longest = times(c, f), 0
     for i = 1, n do

@@ -2,6 +2,7 @@
 --
 -- Nothing here is believed: framework/verbs/forever/decay.lua proves what it needs of any matrix.
 local core = require "ambit.core"
+local matrix = require "ambit.float_matrix"
 
 local metric = {}
 
@@ -11,25 +12,9 @@ local FASTEST = 60 -- halvings in the search for the slowest decay
 
 local function at(a, n, i, j) return a[(i - 1) * n + j] end
 
-function metric.multiply(n, a, b)
-  local c = {}
-  for i = 1, n do
-    for j = 1, n do
-      local sum = 0
-      for k = 1, n do sum = sum + at(a, n, i, k) * at(b, n, k, j) end
-      c[(i - 1) * n + j] = sum
-    end
-  end
-  return c
-end
+function metric.multiply(n, a, b) return matrix.list(matrix.product(matrix.rows(n, a), matrix.rows(n, b))) end
 
-function metric.transposed(n, a)
-  local b = {}
-  for i = 1, n do
-    for j = 1, n do b[(j - 1) * n + i] = at(a, n, i, j) end
-  end
-  return b
-end
+function metric.transposed(n, a) return matrix.list(matrix.transposed(matrix.rows(n, a))) end
 
 -- Lower factor L of a = L L', or nil.
 local function cholesky(n, a)
@@ -46,35 +31,10 @@ local function cholesky(n, a)
   return l
 end
 
--- The inverse by Gauss and Jordan, with pivots; nil: singular.
+-- The inverse; nil: singular.
 function metric.inverse(n, a)
-  local m = {}
-  for i = 1, n do
-    m[i] = {}
-    for j = 1, n do m[i][j], m[i][n + j] = at(a, n, i, j), i == j and 1.0 or 0.0 end
-  end
-  for k = 1, n do
-    local pivot = k
-    for i = k + 1, n do if math.abs(m[i][k]) > math.abs(m[pivot][k]) then pivot = i end end
-    if not (math.abs(m[pivot][k]) > 0) then return nil end
-    m[k], m[pivot] = m[pivot], m[k]
-    local scale = 1 / m[k][k]
-    for j = k, 2 * n do m[k][j] = m[k][j] * scale end
-    for i = 1, n do
-      local factor = m[i][k]
-      if i ~= k and factor ~= 0 then
-        for j = k, 2 * n do m[i][j] = m[i][j] - factor * m[k][j] end
-      end
-    end
-  end
-  local b = {}
-  for i = 1, n do
-    for j = 1, n do
-      if not (math.abs(m[i][n + j]) < math.huge) then return nil end
-      b[(i - 1) * n + j] = m[i][n + j]
-    end
-  end
-  return b
+  local inverse = matrix.solve(matrix.rows(n, a))
+  return inverse and matrix.list(inverse)
 end
 
 -- One rotation of Jacobi's in the plane (p, q), of s and of the vectors' columns.
