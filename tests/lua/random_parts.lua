@@ -118,10 +118,12 @@ function parts.start(plan, value, initial)
   end
 end
 
--- Says which coordinates are independent, where there are loops or gears.
+-- Says which coordinates are independent, where there are loops or gears. With a ball joint as a quaternion, of which the
+-- speeds have no coordinates of their own, the choice is left to the mechanism.
 function parts.choose_independent(m, plan)
-  local closed, free, middle = #plan.loops > 0, {}, {}
+  local closed, free, middle, named = #plan.loops > 0, {}, {}, true
   for i, b in ipairs(plan.bodies) do
+    named = named and not (b.compound and b.compound:find "quaternion")
     local tied = plan.tied[i]
     closed = closed or tied == "gear"
     if parts.is_free(plan, i) then free[#free + 1] = b.state end
@@ -129,7 +131,7 @@ function parts.choose_independent(m, plan)
   end
   if not closed then return end
   m:reference(middle)
-  m:independent(free)
+  if named then m:independent(free) end
 end
 
 return parts
