@@ -12,7 +12,7 @@ typedef struct change {
   uint32_t count;      /* of crosses; 0: dJ is all */
   double *u, *w;       /* [CROSSES m x nx] */
   double *mean, *tilt; /* [CROSSES m x nx] w' mean, w' tilt */
-  double *size, *flat; /* [CROSSES m] at most |w' z(s)|: s / h times the one, and the other; */
+  double *size, *flat; /* [CROSSES m] for the mean, moment and end of |w' z(s)|: s / h times the one, and the other */
   lump *lump;          /* [CROSSES m] of it */
   double *rest, *work; /* [nx x nx] dJ without crosses; [nx x nx] */
 } change;

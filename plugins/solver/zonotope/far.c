@@ -9,6 +9,7 @@
 #include "proof.h"
 
 #define MOST 30000 /* triples */
+#define ROOM 1e6   /* doubles of sums by states and triples, at most */
 #define NEAR 3     /* groups of data that have triples in rows */
 #define OF_GROUP 8 /* data, about, in others */
 
@@ -33,7 +34,9 @@ int far_open(zono *z) {
   for (uint32_t g = 0; g <= parts; g++) f->from[NEAR + g] = near + g * others / parts;
   f->groups = NEAR + parts;
   size_t all = triples_of(m) - triples_of(near), runs = (size_t)m * (m + 1) / 2 * f->groups;
-  f->most = all < MOST ? (uint32_t)all : MOST;
+  size_t most = (size_t)(ROOM / z->nx);
+  if (most > MOST) most = MOST;
+  f->most = (uint32_t)(all < most ? all : most);
   f->run = z->host->alloc(z->host, runs * sizeof *f->run);
   return f->run != NULL;
 }

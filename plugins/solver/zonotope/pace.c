@@ -25,6 +25,7 @@
 #define FLOOR 1e-4     /* of the largest of these: states that are at rest for a while */
 #define DIGITS 0x1p-10 /* what rounding to doubles would add, times this: where there are no data */
 #define LEFT 0.7       /* of the length that was chosen: the proof bore less */
+#define SCALE 1e-8 /* of a state's size, the least that its errors are weighed by: it may be known but for rounding */
 #define TRIES 60
 #define REFINE 4
 #define BESIDE_SET 1e-5     /* share of the set that truncation may add in a step */
@@ -156,7 +157,7 @@ double zono_choose_step(zono *z, double h_most) {
   for (uint32_t i = 0; i < z->nx; i++) {
     double size, set;
     find_sizes(z, i, 0, &size, &set);
-    p->spread[i] = set > 0 ? set : size;
+    p->spread[i] = set > 0 ? fmax(set, SCALE * size) : size;
     p->largest[i] = fmax(fmax(p->largest[i], z->expected[i]), set);
     find_sizes(z, i, most, &size, &set);
     if (!(p->spread[i] > 0)) p->spread[i] = size > 0 ? size : 1;
