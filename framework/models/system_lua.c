@@ -223,6 +223,46 @@ static int system_implicit(lua_State *L) {
   return 1;
 }
 
+static uint32_t *numbers_at(lua_State *L, ambit_arena *arena, int idx, uint32_t first, size_t *n) {
+  *n = (size_t)luaL_len(L, idx);
+  uint32_t *list = ambit_arena_alloc(arena, (*n + 1) * sizeof *list);
+  if (!list) ambit_lua_error(L, "out of memory");
+  for (size_t i = 0; i < *n; i++) {
+    lua_rawgeti(L, idx, (lua_Integer)i + 1);
+    list[i] = (uint32_t)(luaL_checkinteger(L, -1) - first);
+    lua_pop(L, 1);
+  }
+  return list;
+}
+
+static ambit_status is_written(ambit_system_source *self, ambit_failure *f) {
+  (void)self, (void)f;
+  return AMBIT_OK;
+}
+
+/* system_give_implicit(system, form): the implicit form of a system that has none, as system_implicit has it */
+static int system_give_implicit(lua_State *L) {
+  static const char *const key[] = { "unknowns", "rates", "residuals", "stage_end", "pivot" };
+  ambit_lua_system *s = ambit_lua_check_outline(L, 1);
+  lua_settop(L, 2);
+  for (size_t k = 0; k < 5; k++) lua_getfield(L, 2, key[k]); /* at 3 .. 7 */
+  ambit_system_source *source = ambit_arena_alloc(s->arena, sizeof *source);
+  size_t na = (size_t)luaL_len(L, 3), nx = s->system.nx, nstage, npivot;
+  ambit_expr *all = ambit_arena_alloc(s->arena, (nx + 2 * na + 1) * sizeof *all);
+  if (!source || !all) ambit_lua_error(L, "out of memory");
+  const uint32_t *stage_end = numbers_at(L, s->arena, 6, 0, &nstage), *pivot = numbers_at(L, s->arena, 7, 1, &npivot);
+  luaL_argcheck(L, !s->system.source && (size_t)luaL_len(L, 4) == nx && (size_t)luaL_len(L, 5) == na && npivot == na, 2,
+      "does not fit");
+  memcpy(all, ambit_lua_to_array(L, 4, nx), nx * sizeof *all);
+  memcpy(all + nx, ambit_lua_to_array(L, 3, na), na * sizeof *all);
+  memcpy(all + nx + na, ambit_lua_to_array(L, 5, na), na * sizeof *all);
+  *source = (ambit_system_source) {
+    .written = true, .form = { na, nstage, all + nx, all, all + nx + na, stage_end, pivot }, .write = is_written
+  };
+  s->system.source = source;
+  return 0;
+}
+
 /* -- the rates over a box, without a trace in the graph */
 
 typedef struct over {
@@ -284,7 +324,7 @@ void ambit_lua_open_system(lua_State *L, ambit_lua *core) {
   static const luaL_Reg functions[] = { { "system", system_new }, { "system_parts", system_parts },
     { "system_right", system_right }, { "system_jump", system_jump }, { "system_jumps", system_jumps },
     { "system_invariants", system_invariants }, { "system_implicit", system_implicit },
-    { "system_rates", system_rates }, { NULL, NULL } };
+    { "system_give_implicit", system_give_implicit }, { "system_rates", system_rates }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
   ambit_lua_new_type(L, core, AMBIT_TYPE_SYSTEM, meta);
   lua_pop(L, 1);

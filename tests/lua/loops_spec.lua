@@ -283,6 +283,20 @@ describe("a slider-crank", function()
     end
   end)
 
+  it("goes on from the set of a run", function()
+    local closed, explicit = build(true), build(false)
+    closed:independent "crank"
+    local a = ambit.around("0.5", "0.1%")
+    local start = { crank = a, rod = -a - ambit.asin(ambit.sin(a) / 3), ["crank'"] = 10 }
+    local half = ambit.simulate { closed, initial = start, t = { 0, "0.2" }, solver = "zonotope" }
+    local x = ambit.simulate { closed, initial = half:set(), t = { "0.2", "0.4" }, solver = "zonotope" }
+    local y = ambit.simulate { explicit, initial = { crank = a, ["crank'"] = 10 }, t = { 0, "0.4" },
+      solver = "zonotope" }
+    assert.equal("complete", x.status)
+    local p, q = x.x.crank, y.x.crank
+    assert.is_true(p.lo <= q.hi and q.lo <= p.hi and p:width() < 1.05 * q:width() and q:width() < 1.05 * p:width())
+  end)
+
   it("takes an assembled configuration as its reference", function()
     local m = build(true)
     local found = m:assemble { crank = 2, box = { rod = { -4, -1 } } }

@@ -582,4 +582,39 @@ describe("reduce with elements", function()
     assert.is_false(good)
     assert.truthy(message:find("is no mechanism", 1, true), message)
   end)
+
+  -- Formulas for accelerations of six links with tolerances divide by what may be 0; balances do not. The error is held
+  -- against ordinary runs of both mechanisms at corners of the data.
+  it("proves chains by balances of forces", function()
+    local function chain(labelled, length, mass)
+      local m = ambit.mechanism { "chain", gravity = { 0, "-9.81", 0 } }
+      local at = m.world
+      for k = 1, 6 do
+        at = m:rigid_link { from = m:revolute { from = at, axis = "z", name = "q" .. k }, offset = { length, 0, 0 } }
+        m:point_mass { at = at, mass = mass, name = "mass" .. k }
+      end
+      if labelled then m:point_mass { at = at, mass = "0.01", name = "label" } end
+      return m
+    end
+    local initial, times, far = {}, {}, { q2 = 0, q6 = 0 }
+    for k = 1, 6 do initial["q" .. k], initial["q" .. k .. "'"] = k == 1 and "-0.5" or "0.1", 0 end
+    for k = 1, 11 do times[k] = (k - 1) / 50 end
+    local small = ambit.reduce { chain(true, ambit.around(1, "0.1%"), ambit.around(1, "0.1%")), t = { 0, "0.2" },
+      initial = initial, outputs = { "q2", "q6" }, error = { q2 = 1, q6 = 1 }, elements = { "label" }, reductions = {},
+      solver = "zonotope" }
+    assert.equal("complete", small.status)
+    for corner = 0, 3 do
+      local length, mass = corner & 1 == 0 and 0.999 or 1.001, corner & 2 == 0 and 0.999 or 1.001
+      local a = ambit.simulate { chain(true, length, mass), t = times, initial = initial, solver = "gsl" }
+      local b = ambit.simulate { chain(false, length, mass), t = times, initial = initial, solver = "gsl" }
+      for k = 2, #times do
+        for name in pairs(far) do
+          far[name] = math.max(far[name], math.abs(a:at(times[k])[name]:mid() - b:at(times[k])[name]:mid()))
+        end
+      end
+    end
+    for name, most in pairs(far) do
+      assert.is_true(most > 1e-5 and small.error[name] >= most * (1 - 1e-6) and small.error[name] <= 1.05 * most)
+    end
+  end)
 end)

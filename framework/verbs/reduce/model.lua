@@ -1,6 +1,7 @@
 -- reduce/model.lua -- what can be said of a model as ambit.reduce passes it around: { states = { name }, units,
 -- symbols, rates, outputs = { { name, unit, expression } }, starts = { [state] = number that it starts from in every
--- scenario } }; which equations its outputs reach, how large it is.
+-- scenario }, origin: the ambit.ode that it was made of, if known };
+-- which equations its outputs reach, how large it is.
 local core = require "ambit.core"
 
 local model = {}
@@ -64,7 +65,7 @@ end
 -- The model of the states in `keep`, { [number] = true }, only.
 local function part(m, keep)
   local n = { states = {}, units = {}, symbols = {}, rates = {}, outputs = m.outputs, initial = m.initial,
-    starts = m.starts }
+    starts = m.starts, origin = m.origin or m.system }
   for i in ipairs(m.states) do
     if keep[i] then
       local k = #n.states + 1

@@ -13,6 +13,9 @@ local SEEN = 0.5    -- part of the run up to which ordinary runs must come to te
 
 return function(f)
   if (f.varying or 0) > 0 then return 1, "what varies in time acts on all states in common" end
+  if f.task == "certify" and f.states >= LARGE and f.unknowns >= 1 and f.seen < SEEN then
+    return 0.9, ("%d states, balances of forces instead of formulas for accelerations"):format(f.states)
+  end
   if f.task == "certify" then return 0.05, "small errors are nearly linear in the data" end
   if f.kink then
     return 1, ("the solution crosses the kink of `%s`: a line takes its place meanwhile"):format(f.kink)

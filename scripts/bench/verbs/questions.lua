@@ -166,7 +166,7 @@ add("stability", "rest, and whether it is stable", function(scene, machine)
   local box = {}
   for name, value in pairs(scene.initial) do
     if not name:find "'$" then
-      local x = core.interval(core.expression(value))
+      local x = core.evaluate({ expressions = { core.expression(value) } })[1]
       box[name] = { x.lo - 1, x.hi + 1 }
     end
   end

@@ -7,6 +7,7 @@
 -- detailed model alone is x, a state of the reduced model alone is y; errors that vanish identically, and states that
 -- nothing depends on, are left out. Why: docs/numerics/reduction.md.
 local core = require "ambit.core"
+local form = require "ambit.reduce.certify.couple_form"
 local scenario = require "ambit.reduce.certify.scenario"
 
 local couple = {}
@@ -143,8 +144,9 @@ local function constraints_of(model, s, change)
   return at
 end
 
--- A part of `all`, ready to run: { system = { states, units, symbols, rates, system }, initial, times }
-local function request(all, wanted, constraints, s)
+-- A part of `all`, ready to run: { system = { states, units, symbols, rates, system }, initial, times }; implicit: of
+-- certify/couple_form.lua, or nil
+local function request(all, wanted, constraints, s, implicit)
   local system, initial = { states = {}, units = {}, symbols = {}, rates = {}, initial = {} }, nil
   for i, name in ipairs(all.states) do
     if wanted[i] then add(system, name, all.units[i], all.symbols[i], all.rates[i], all.initial[i]) end
@@ -156,6 +158,7 @@ local function request(all, wanted, constraints, s)
   local invariants, names = whole(constraints, system)
   system.parameters = {}
   system.system = core.system(system.states, system.units, system.symbols, system.rates, invariants, names)
+  if implicit then form.give(system, implicit) end
   return { system = system, initial = initial, times = s.times, split = s.split }
 end
 
@@ -166,7 +169,7 @@ function couple.alone(model, s)
   for i, rate in ipairs(scenario.apply(s, model.rates)) do
     add(all, model.states[i], model.units[i], model.symbols[i], rate, initial_of(model, s, model.states[i]))
   end
-  local q = request(all, needed(all, outputs), constraints_of(model, s), s)
+  local q = request(all, needed(all, outputs), constraints_of(model, s), s, form.of(model, s))
   q.outputs = outputs
   return q
 end
@@ -205,7 +208,8 @@ function couple.of(detailed, reduced, s, about)
   for j, rate in ipairs(at_y(own_rates)) do own[j].rate = rate end
   errors, outputs, f = at_x(errors), at_x(outputs), at_x(f)
   local all = everything(named_states(detailed, f, active, s, about), active, errors, own)
-  local q = request(all, needed(all, outputs), constraints_of(detailed, s, at_x), s)
+  local q = request(all, needed(all, outputs), constraints_of(detailed, s, at_x), s,
+    #own == 0 and form.of_pair(detailed, reduced, s, active, about) or nil)
   q.outputs = outputs
   return q
 end
