@@ -118,8 +118,8 @@ function parts.start(plan, value, initial)
   end
 end
 
--- Says which coordinates are independent, where there are loops or gears. With a ball joint as a quaternion, of which the
--- speeds have no coordinates of their own, the choice is left to the mechanism.
+-- Says which coordinates are independent, where there are loops or gears. With a ball joint as a quaternion, of which
+-- the speeds have no coordinates of their own, the choice is left to the mechanism.
 function parts.choose_independent(m, plan)
   local closed, free, middle, named = #plan.loops > 0, {}, {}, true
   for i, b in ipairs(plan.bodies) do
