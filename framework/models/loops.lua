@@ -185,7 +185,8 @@ function loops.check_speeds(self, states, values, what)
     if is_state[s.name] then speeds[#speeds + 1] = s.name end
   end
   for _, s in ipairs(core.speeds(self.handle)) do
-    if rawget(values, s.name) ~= nil and not is_state[s.name] then -- a set of a run refuses names that it has not
+    local found, value = pcall(function() return values[s.name] end) -- a set of a run refuses names that it has not
+    if found and value ~= nil and not is_state[s.name] then
       check.fail("%s: the speed `%s` follows from %s, because loops are closed; m:independent { ... } and m:reference "
         .. "{ ... } before m:dynamics() choose others", what, s.name, table.concat(speeds, ", "))
     end

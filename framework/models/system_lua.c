@@ -224,7 +224,8 @@ static int system_implicit(lua_State *L) {
 }
 
 static uint32_t *numbers_at(lua_State *L, ambit_arena *arena, int idx, uint32_t first, size_t *n) {
-  *n = (size_t)luaL_len(L, idx);
+  luaL_checktype(L, idx, LUA_TTABLE);
+  *n = (size_t)lua_rawlen(L, idx);
   uint32_t *list = ambit_arena_alloc(arena, (*n + 1) * sizeof *list);
   if (!list) ambit_lua_error(L, "out of memory");
   for (size_t i = 0; i < *n; i++) {
@@ -247,11 +248,13 @@ static int system_give_implicit(lua_State *L) {
   lua_settop(L, 2);
   for (size_t k = 0; k < 5; k++) lua_getfield(L, 2, key[k]); /* at 3 .. 7 */
   ambit_system_source *source = ambit_arena_alloc(s->arena, sizeof *source);
-  size_t na = (size_t)luaL_len(L, 3), nx = s->system.nx, nstage, npivot;
+  for (int i = 3; i <= 7; i++) luaL_checktype(L, i, LUA_TTABLE);
+  size_t na = (size_t)lua_rawlen(L, 3), nx = s->system.nx, nstage, npivot;
   ambit_expr *all = ambit_arena_alloc(s->arena, (nx + 2 * na + 1) * sizeof *all);
   if (!source || !all) ambit_lua_error(L, "out of memory");
   const uint32_t *stage_end = numbers_at(L, s->arena, 6, 0, &nstage), *pivot = numbers_at(L, s->arena, 7, 1, &npivot);
-  luaL_argcheck(L, !s->system.source && (size_t)luaL_len(L, 4) == nx && (size_t)luaL_len(L, 5) == na && npivot == na, 2,
+  luaL_argcheck(L,
+      !s->system.source && (size_t)lua_rawlen(L, 4) == nx && (size_t)lua_rawlen(L, 5) == na && npivot == na, 2,
       "does not fit");
   memcpy(all, ambit_lua_to_array(L, 4, nx), nx * sizeof *all);
   memcpy(all + nx, ambit_lua_to_array(L, 3, na), na * sizeof *all);

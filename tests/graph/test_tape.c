@@ -308,6 +308,17 @@ static void what_is_missing_is_named(void **unused) {
   refused("input 1", 1, &sum, x);
 }
 
+/* else one of two quantities would be taken for the other */
+static void what_is_given_twice_is_named(void **unused) {
+  (void)unused;
+  const ambit_tape *t;
+  ambit_failure f = { 0 };
+  ambit_expr x = ambit_graph_symbol(g, "x", "1"), twice[] = { x, ambit_graph_symbol(g, "x", "1") };
+  assert_int_equal(ambit_tape_seal(g, arena, 1, &x, 1, twice, 1, 0, &t, &f), AMBIT_OK);
+  assert_int_equal(ambit_tape_seal(g, arena, 1, &x, 2, twice, 1, 0, &t, &f), AMBIT_INVALID);
+  assert_non_null(strstr(f.message, "two quantities have the same name, `x`"));
+}
+
 static void large_tapes_seal_quickly(void **unused) {
   (void)unused;
   clock_t start = clock();
@@ -331,6 +342,7 @@ int main(void) {
     cmocka_unit_test_setup_teardown(series_form, open_graph, close_graph),
     cmocka_unit_test_setup_teardown(ranges_of_unknowns, open_graph, close_graph),
     cmocka_unit_test_setup_teardown(what_is_missing_is_named, open_graph, close_graph),
+    cmocka_unit_test_setup_teardown(what_is_given_twice_is_named, open_graph, close_graph),
     cmocka_unit_test_setup_teardown(large_tapes_seal_quickly, open_graph, close_graph),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

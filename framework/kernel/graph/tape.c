@@ -132,6 +132,9 @@ static ambit_status number_inputs(sealing *s, size_t nin, const ambit_expr *in) 
   for (size_t k = nin; k-- > 0;) {
     uint32_t i = ambit_walk_find(s->g, in[k]);
     if (i == UINT32_MAX) continue;
+    if (s->slot[i] != AMBIT_NO_SLOT)
+      return ambit_fail(s->failure, AMBIT_INVALID, "two quantities have the same name, `%s`: call one otherwise",
+          ambit_at(s->g, in[k])->text ? ambit_at(s->g, in[k])->text : "(no name)");
     s->slot[i] = s->tape->nconst + (uint32_t)k;
     s->level[i] = 0;
   }

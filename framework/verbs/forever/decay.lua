@@ -6,6 +6,7 @@
 -- |u| <= R and all data, then r = sqrt(z'W z) obeys r' <= -rate r + residual (docs/numerics/forever.md). Boxes of
 -- states and data are cut where the bounds need it.
 local core = require "ambit.core"
+local fresh = require "ambit.fresh"
 local metric = require "ambit.forever.metric"
 
 local decay = {}
@@ -50,8 +51,9 @@ function decay.new(system, weight, image, moving)
   local self = setmetatable({ n = #system.states, system = system, weight = weight, image = image, moving = moving },
     methods)
   self.elsewhere = {} -- states at which dW/dt is taken, apart from those of dg/dx
+  local used = fresh.set(system.states)
   for i, name in ipairs(moving and system.states or {}) do
-    self.elsewhere[i] = core.symbol(name .. " elsewhere", "1")
+    self.elsewhere[i] = core.symbol(fresh.name(name .. " elsewhere", used), "1")
   end
   if moving then self.moving = core.substitute(moving, system.symbols, self.elsewhere) end
   local why

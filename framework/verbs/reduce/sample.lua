@@ -6,6 +6,7 @@ local carry = require "ambit.verify.carry"
 local check = require "ambit.check"
 local compare_table = require "ambit.compare.table"
 local core = require "ambit.core"
+local fresh = require "ambit.fresh"
 local number = require "ambit.report.number"
 local reference = require "ambit.reduce.reference"
 local session = require "ambit.session"
@@ -19,10 +20,10 @@ local DRAWS, NODES = 200, 200
 local function append(list, more) table.move(more, 1, #more, #list + 1, list) end
 
 -- The reduced model on symbols of its own, so that both can be in one system.
-local function renamed(model)
+local function renamed(model, used)
   local names, symbols = {}, {}
   for i, name in ipairs(model.states) do
-    names[i] = name .. " of the reduced model"
+    names[i] = fresh.name(name .. " of the reduced model", used)
     symbols[i] = core.symbol(names[i], model.units[i])
   end
   local outputs = {}
@@ -48,6 +49,7 @@ local function add_quantity(system, name, g)
   table.move(system.initial, 1, system.count, 1, values)
   leaves[#leaves + 1], values[#values + 1] = core.time(), core.expression(system.t_start)
   local n = #system.states + 1
+  name = fresh.name(name, fresh.set(system.states))
   system.states[n], system.units[n], system.symbols[n] = name, "1", core.symbol(name, "1")
   system.rates[n], system.initial[n] = rate, core.substitute({ g }, leaves, values)[1]
   return n
@@ -55,7 +57,7 @@ end
 
 -- Both models in a scenario, with the places of what is asked of each output: { difference, detailed, reduced }.
 local function coupled(detailed, reduced, given, criterion)
-  local copy = renamed(reduced)
+  local copy = renamed(reduced, fresh.set(detailed.states, reduced.states))
   local system = { states = {}, units = {}, symbols = {}, rates = {}, initial = {}, t_start = given.times[1] }
   for _, part in ipairs { detailed, copy } do
     append(system.states, part.states)

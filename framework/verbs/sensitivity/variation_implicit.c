@@ -122,9 +122,9 @@ static ambit_status open_direction(writer *w, size_t j) {
   }
   for (size_t k = 0; k < b->form->na; k++) {
     if (!c->reached_unknown[k]) continue;
-    char name[128];
-    snprintf(
-        name, sizeof name, "d %.50s/d %.50s", ambit_graph_node(b->graph, b->form->unknown[k])->text, b->q->by[j].name);
+    char name[192]; /* the numbers tell apart what is the same up to there */
+    snprintf(name, sizeof name, "d %.50s/d %.50s (%zu, %zu)", ambit_graph_node(b->graph, b->form->unknown[k])->text,
+        b->q->by[j].name, k, j);
     ambit_expr alpha = ambit_graph_symbol(b->graph, name, "");
     if (alpha == AMBIT_NO_EXPR) return no_memory(b);
     point(w, b->form->unknown[k], alpha);

@@ -47,6 +47,18 @@ static ambit_status check(const ambit_implicit *p, uint32_t nx, ambit_arena *are
   return AMBIT_OK;
 }
 
+/* Stages follow each other up to the last unknown, and each eliminates its own. */
+static bool is_ordered(const ambit_implicit_form *form) {
+  size_t first = 0;
+  for (size_t s = 0; s < form->nstage; s++) {
+    if (form->stage_end[s] <= first || form->stage_end[s] > form->na) return false;
+    for (size_t k = first; k < form->stage_end[s]; k++)
+      if (form->pivot[k] < first || form->pivot[k] >= form->stage_end[s]) return false;
+    first = form->stage_end[s];
+  }
+  return first == form->na;
+}
+
 /* x, a, p, t */
 static ambit_expr *inputs(const ambit_implicit_request *q, size_t na, ambit_arena *arena) {
   ambit_expr *in = ambit_arena_alloc(arena, (q->nx + na + q->np + 1) * sizeof *in);
@@ -60,6 +72,8 @@ static ambit_expr *inputs(const ambit_implicit_request *q, size_t na, ambit_aren
 ambit_status ambit_implicit_seal(
     const ambit_implicit_request *q, ambit_arena *arena, const ambit_implicit **implicit, ambit_failure *f) {
   size_t na = q->form ? q->form->na : 0, nstage = q->form ? q->form->nstage : 0;
+  if (na && !is_ordered(q->form))
+    return ambit_fail(f, AMBIT_INVALID, "the stages of the implicit form do not fit its unknowns");
   ambit_implicit *p = ambit_arena_alloc(arena, sizeof *p);
   uint32_t *number = ambit_arena_alloc(arena, (na + nstage + 1) * sizeof *number);
   ambit_expr *in = inputs(q, na, arena);

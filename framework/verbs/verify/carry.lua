@@ -4,6 +4,7 @@
 -- (Lohner's set, a Taylor model) keeps it for y too. The first states are not touched: y is in nobody's right-hand
 -- side.
 local core = require "ambit.core"
+local fresh = require "ambit.fresh"
 
 local carry = {}
 
@@ -27,14 +28,14 @@ local function copy(list) return table.move(list, 1, #list, 1, {}) end
 function carry.of(q, conditions)
   local system, outputs = q.system, {}
   local names, units, symbols, rates = copy(system.states), copy(system.units), copy(system.symbols), copy(system.rates)
-  local further = {}
+  local further, used = {}, fresh.set(names)
   local leaves, values, initial = copy(system.symbols), copy(q.initial), copy(q.initial)
   leaves[#leaves + 1], values[#values + 1] = core.time(), core.expression(q.times[1])
   for k, condition in ipairs(conditions) do
     local rate = carry.rate_of(system, condition.g)
     if rate then
       local n = #names + 1
-      names[n], units[n] = ("condition %s"):format(condition.name), "1"
+      names[n], units[n] = fresh.name("condition " .. condition.name, used), "1"
       symbols[n], rates[n], further[#further + 1] = core.symbol(names[n], "1"), rate, condition.g
       initial[n] = core.substitute({ condition.g }, leaves, values)[1]
       outputs[k] = symbols[n]

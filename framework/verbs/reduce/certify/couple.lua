@@ -7,6 +7,7 @@
 -- detailed model alone is x, a state of the reduced model alone is y; errors that vanish identically, and states that
 -- nothing depends on, are left out. Why: docs/numerics/reduction.md.
 local core = require "ambit.core"
+local fresh = require "ambit.fresh"
 local form = require "ambit.reduce.certify.couple_form"
 local scenario = require "ambit.reduce.certify.scenario"
 
@@ -82,10 +83,11 @@ local function spread(shared)
   return list
 end
 
-local function errors_of(active)
+local function errors_of(active, used)
   local leaves, deltas, f, g = {}, {}, {}, {}
   for j, state in ipairs(active) do
-    state.error = core.symbol("error of " .. state.name, state.unit)
+    state.error_name = fresh.name("error of " .. state.name, used)
+    state.error = core.symbol(state.error_name, state.unit)
     leaves[j], deltas[j], f[j], g[j] = state.symbol, state.error, state.f, state.g
   end
   return leaves, deltas, f, g
@@ -104,7 +106,7 @@ local function everything(detailed, active, errors, own)
     for _, state in ipairs(list) do add(all, state.name, state.unit, state.symbol, state.rate, state.start) end
   end
   for j, state in ipairs(active) do
-    add(all, "error of " .. state.name, state.unit, state.error, errors[j], state.error_start)
+    add(all, state.error_name, state.unit, state.error, errors[j], state.error_start)
   end
   return all
 end
@@ -197,7 +199,7 @@ end
 function couple.of(detailed, reduced, s, about)
   local f, shared, own = compare(detailed, reduced, s)
   local active = spread(shared)
-  local leaves, deltas, u, w = errors_of(active)
+  local leaves, deltas, u, w = errors_of(active, fresh.set(detailed.states, reduced.states))
   local errors = core.difference(u, w, leaves, deltas)
   local outputs = core.difference(scenario.apply(s, expressions(detailed.outputs)),
     scenario.apply(s, expressions(reduced.outputs)), leaves, deltas, true)

@@ -4,6 +4,7 @@
 -- With R(x, a) = 0 of the detailed model and S(y, b) = 0 of the reduced one, x = y + e and a = b + c,
 -- R(x, a) - S(x - e, a - c) = 0 has c in it as S has b: affine, stage by stage. Why: docs/numerics/reduction.md.
 local core = require "ambit.core"
+local fresh = require "ambit.fresh"
 local scenario = require "ambit.reduce.certify.scenario"
 
 local form = {}
@@ -59,12 +60,14 @@ function form.of_pair(detailed, reduced, s, active, about)
   local d, r = form.of(detailed, s), form.of(reduced, s)
   if not d or not r or not are_equal(d.unknowns, r.unknowns) or not are_equal(d.stage_end, r.stage_end)
     or not are_equal(d.pivot, r.pivot) then return nil end
-  local leaves, deltas, f, g, errors = {}, {}, {}, {}, {}
+  local leaves, deltas, f, g, errors, used = {}, {}, {}, {}, {}, fresh.set(detailed.states, reduced.states)
+  for _, unknown in ipairs(d.unknowns) do used[core.leaves({ unknown })[1].name] = true end
   for j, state in ipairs(active) do
+    used[state.error_name] = true
     leaves[j], deltas[j], f[j], g[j] = state.symbol, state.error, d.rates[state.name], r.rates[state.name]
   end
   for k, unknown in ipairs(d.unknowns) do
-    errors[k] = core.symbol("error of " .. core.leaves({ unknown })[1].name, "")
+    errors[k] = core.symbol(fresh.name("error of " .. core.leaves({ unknown })[1].name, used), "")
     leaves[#active + k], deltas[#active + k] = unknown, errors[k]
   end
   local residuals = core.difference(append(append({}, d.residuals), f), append(append({}, r.residuals), g), leaves,
@@ -74,7 +77,7 @@ function form.of_pair(detailed, reduced, s, active, about)
   local rates, n = {}, #d.unknowns
   for name, rate in pairs(d.rates) do rates[name] = is_reduced and moved({ rate }, leaves, deltas)[1] or rate end
   for j, state in ipairs(active) do
-    rates["error of " .. state.name] = residuals[n + j]
+    rates[state.error_name] = residuals[n + j]
     if is_reduced then rates[state.name] = g[j] end
   end
   local own = is_reduced and r or d
