@@ -1,5 +1,5 @@
--- fresh.lua -- names for quantities that Ambit adds to a user's: a symbol is what its name says, so a name that the user
--- has given to something else would make one of two.
+-- fresh.lua -- names for quantities that Ambit adds to a user's: a symbol is what its name says, so a name that the
+-- user has given to something else would make one of two.
 
 -- name, with as many ' behind it as it takes to be none of `used`, { [name] = true }, where it is written down
 local function fresh(name, used)

@@ -145,16 +145,13 @@ end
 describe("two clocks", function()
   local cases = { -- texts of the periods, and what they are
     { "0.1", "3/30", { "0.1", 1 }, { "3", 30 } },
-    { "0.1", "0.100000000000000001", { "0.1", 1 }, { "0.100000000000000001", 1 } }, -- 1e-17 of it
-    { "0.1", "0.0999999999999999999", { "0.1", 1 }, { "0.0999999999999999999", 1 } },
-    { "0.1", 0.1, { "0.1", 1 }, { 0.1, 1 } },
-    { "1/3", "0.33333333333333333333", { "1", 3 }, { "0.33333333333333333333", 1 } },
     { "1/3", "1/3", { "1", 3 }, { "1", 3 } },
-    { "0.2", 0.1, { "0.2", 1 }, { 0.1, 1 } },
+    { "0.1", "0.15", { "0.1", 1 }, { "0.15", 1 } },
+    { "1/3", "0.25", { "1", 3 }, { "0.25", 1 } },
   }
 
   it("act in the order of their instants, and in that of the list at one instant only", function()
-    local crowded = 0 -- two samples and the end of the run beside one double
+    local crowded = 0 -- a sample and the end of the run beside one double
     for _, case in ipairs(cases) do
       for _, swapped in ipairs { false, true } do
         local plant = pair(case[1], case[2], swapped)
@@ -180,37 +177,28 @@ describe("two clocks", function()
     assert.is_true(crowded <= 4, tostring(crowded))
   end)
 
-  it("move the plant in between by as little as they are apart, and keep their order over many periods", function()
-    -- x' = a - b is 0 but for the time from a sample of the first to one of the second, k 1e-18 s later
-    local plant = pair("0.1", "0.100000000000000001")
-    local x = complete { plant, initial = { x = 0 }, t = { 0, 10.05 } }.x
-    assert.is_true(x.x:contains(1e-18 * 100 * 101 / 2) and x.x:width() < 1e-11, tostring(x.x))
-    assert.is_true(x.b:contains(101))
-  end)
-
   it("are refused with a sentence where nothing tells their order", function()
     local run = ambit.simulate { pair(ambit.sqrt(2) / 10, ambit.sqrt(2) * "0.1"), initial = { x = 0 }, t = 1,
       partial = true }
     assert.equal("unable", run.status)
     assert.is_truthy(run.reason:find("cannot be told whether two samples", 1, true))
     assert.equal("complete", ambit.simulate { pair(ambit.pi / 10, ambit.pi / 10), initial = { x = 0 }, t = 1 }.status)
-    -- between the sample at 0.1 s, one 1e-18 s later and an end right behind them there is no double left
-    run = ambit.simulate { pair("0.1", "0.100000000000000001"), initial = { x = 0 }, t = "0.100000000000000003" }
-    assert.equal("unable", run.status)
-    assert.is_truthy(run.reason:find("end the run earlier or later", 1, true))
+    for _, periods in ipairs { { "0.1", "0.100000000000000001" }, { "0.1", 0.1 }, { 0.1, "0.2" },
+      { "1/3", "0.33333333333333333333" } } do -- no double is between their instants
+      run = ambit.simulate { pair(table.unpack(periods)), initial = { x = 0 }, t = 1.5 }
+      assert.equal("unable", run.status)
+      assert.is_truthy(run.reason:find("nearer to each other than doubles can tell", 1, true))
+    end
   end)
 end)
 
 describe("a schedule of 10^6 samples", function()
   it("has them all, in order, each beside its instant", function()
-    local schedule = core.schedule(pair("0.1", "0.1000000000000000001").system, 0, 5e4)
+    local schedule = core.schedule(pair("0.1", "0.3").system, 0, 5e4)
     for _, k in ipairs { 1, 7, 12345, 250000, 499999 } do
       local low = ("%d.%d"):format(k // 10, k % 10)
       local from, till = core.schedule_around(schedule, core.expression(low))
       assert.is_true(from < till and compare(digits(till), digits(low)) <= 0 and tonumber(low) - till < 1e-11)
-      -- k 1e-19 s behind it, more than 1e-20, the second clock has its turn
-      local second, last = core.schedule_around(schedule, core.expression(low .. "0000000000000000001"))
-      assert.is_true(second == till and last > till and last - till < 1e-11)
     end
   end)
 end)

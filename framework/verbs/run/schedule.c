@@ -146,9 +146,7 @@ static ambit_status check(const ambit_system *s, double start, double end, doubl
 static double place(const build *b, const sample *x, bool is_same) {
   const ambit_schedule *to = b->to;
   if (is_same) return to->time[to->n - 1];
-  double t = x->near.lo < x->near.hi ? fmax(x->near.lo, nextafter(x->near.hi, -INFINITY)) : x->near.lo;
-  if (to->n && t <= to->time[to->n - 1]) t = nextafter(to->time[to->n - 1], INFINITY);
-  return t;
+  return x->near.lo < x->near.hi ? fmax(x->near.lo, nextafter(x->near.hi, -INFINITY)) : x->near.lo;
 }
 
 /* Puts the first of the next samples in the schedule; *done: it is not before the end. */
@@ -168,10 +166,11 @@ static ambit_status put_next(build *b, bool *done) {
   side = to->n ? order(&b->clocks, &b->last, &x) : -1;
   if (side == UNKNOWN) return not_ordered(&x, b->f);
   double t = place(b, &x, side == 0);
-  if (!(t < b->end_time))
+  if (!(t < b->end_time) || (side != 0 && to->n && t <= to->time[to->n - 1]))
     return ambit_fail(b->f, AMBIT_UNABLE,
-        "sampled: two samples at different instants and the end of the run lie nearer to each other than doubles can "
-        "tell, at t = %.17g s: end the run earlier or later",
+        "sampled: samples at different instants, or one and the end of the run, lie nearer to each other than doubles "
+        "can tell, at t = %.17g s: write periods and starts all as texts or all as numbers, and end the run earlier or "
+        "later",
         t);
   ambit_interval off = { t, t };
   ambit_interval_op(AMBIT_OP_SUB, &off, off, x.near);

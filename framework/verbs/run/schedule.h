@@ -17,8 +17,7 @@ typedef struct ambit_schedule {
   double error;
   uint32_t n;
   /* [n] for each sample a double beside its instant, before the end of the run: ascending, the same for samples of one
-  ** instant only. Unless samples of other instants lie as near, it is the last double that is not behind the instant.
-  */
+  ** instant only; the last double that is not behind the instant. */
   double *time;
   uint32_t *number; /* [n] of the jump; at one instant in the order of the system's jumps */
   uint32_t *count;  /* [n] which sample of this jump it is, from 0 on */
