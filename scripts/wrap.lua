@@ -5,7 +5,7 @@
 -- themselves, and what programs write.
 local WIDTH = 120
 
-local code = { "^tests/.*%.lua$", "^scripts/bench/", "^scripts/types/" } -- in these only comments are looked at
+local code = { "^tests/.*%.lua$", "^scripts/bench/" } -- in these only comments are looked at
 local generated = { "^docs/results", "elementary_tables", "%.svg$", "%.min%.", "^scripts/mutate/", "mutations%.txt$" }
 
 local function read(name)
