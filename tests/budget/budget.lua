@@ -94,7 +94,7 @@ return {
     steps = 0,
     coefficients = 0,
     operations = 0,
-    megabytes = 6,
+    megabytes = 7,
   },
   {
     scene = "scripts/expressions.lua",
@@ -202,7 +202,7 @@ return {
     steps = 587,
     coefficients = 234800,
     operations = 234800,
-    megabytes = 9,
+    megabytes = 10,
   },
   {
     scene = "scripts/van_der_pol.lua",
@@ -220,7 +220,7 @@ return {
     steps = 169,
     coefficients = 106724,
     operations = 106724,
-    megabytes = 19,
+    megabytes = 20,
   },
   {
     scene = "scripts/leg.lua",
@@ -238,7 +238,7 @@ return {
     steps = 53,
     coefficients = 0,
     operations = 320556,
-    megabytes = 16,
+    megabytes = 15,
   },
   {
     scene = "scripts/slider_crank.lua",
@@ -334,7 +334,7 @@ return {
     scene = "scripts/bouncing_ball.lua",
     plugins = 2,
     libraries = 5,
-    modules = 38,
+    modules = 39,
     quantities = 0,
     uncertain = 1,
     unknowns = 20,
@@ -346,7 +346,7 @@ return {
     steps = 13,
     coefficients = 61330,
     operations = 61330,
-    megabytes = 31,
+    megabytes = 32,
   },
   {
     scene = "scripts/inverse_kinematics.lua",
@@ -382,7 +382,7 @@ return {
     steps = 116,
     coefficients = 0,
     operations = 0,
-    megabytes = 12,
+    megabytes = 11,
   },
   {
     scene = "scripts/reduce_arm.lua",
