@@ -1,7 +1,7 @@
 /* schedule.h -- the samples of a run: when the states of a system jump, in the order of the true instants.
 **
 ** A clock's instants are start + first + k period, real numbers. Decimals and their quotients are compared as what they
-** are, however near to each other they lie; instants of other clocks (pi / 100) are compared as far as doubles tell.
+** are; instants of other clocks (pi / 100) are compared as far as doubles tell.
 ** docs/numerics/instants.md.
 */
 #ifndef AMBIT_SCHEDULE_H
