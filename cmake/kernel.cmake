@@ -9,10 +9,9 @@ foreach(room kernel functions algebra mechanics models verbs)
 endforeach()
 list(FILTER kernel_sources EXCLUDE REGEX "_lua\\.c$|/host/place\\.c$")
 pkg_check_modules(YAJL REQUIRED IMPORTED_TARGET yajl)
-pkg_check_modules(GMP REQUIRED IMPORTED_TARGET gmp)
 add_library(ambit_objects OBJECT ${kernel_sources})
 target_include_directories(ambit_objects PUBLIC ${framework}/api ${framework}/kernel/abi ${framework}/kernel ${framework})
-target_link_libraries(ambit_objects PRIVATE ambit_flags PkgConfig::YAJL PkgConfig::GMP)
+target_link_libraries(ambit_objects PRIVATE ambit_flags PkgConfig::YAJL)
 
 # What it is linked into says where Ambit's own plugins are, seen from there.
 function(ambit_from target folder)
@@ -27,11 +26,11 @@ ambit_from(libambit ${CMAKE_INSTALL_LIBDIR})
 set_target_properties(libambit PROPERTIES OUTPUT_NAME ambit SOVERSION 0 VERSION ${PROJECT_VERSION}
   LIBRARY_OUTPUT_DIRECTORY ${AMBIT_BUILD_LIBDIR})
 target_include_directories(libambit INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-target_link_libraries(libambit PRIVATE $<BUILD_INTERFACE:ambit_flags> PkgConfig::YAJL PkgConfig::GMP ${CMAKE_DL_LIBS} m)
+target_link_libraries(libambit PRIVATE $<BUILD_INTERFACE:ambit_flags> PkgConfig::YAJL ${CMAKE_DL_LIBS} m)
 
 add_library(ambit_inside STATIC $<TARGET_OBJECTS:ambit_objects>)
 target_include_directories(ambit_inside PUBLIC ${framework}/api ${framework}/kernel/abi ${framework}/kernel ${framework})
-target_link_libraries(ambit_inside PUBLIC PkgConfig::YAJL PkgConfig::GMP ${CMAKE_DL_LIBS} m)
+target_link_libraries(ambit_inside PUBLIC PkgConfig::YAJL ${CMAKE_DL_LIBS} m)
 set(keeper LINKER:--exclude-libs,ALL) # whoever has it keeps it to himself ...
 if(AMBIT_COUNT_ALLOCATIONS) # ... but a program's own malloc must be that of its plugins
   set(keeper "$<$<NOT:$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>>:${keeper}>")
