@@ -6,6 +6,7 @@
 #include "mechanics/loop_point.h"
 #include "graph/tape.h"
 #include "graph/hull.h"
+#include <ambit/matrix.h>
 #include <string.h>
 
 #define STEPS 200
@@ -70,28 +71,6 @@ bool ambit_loop_point_evaluate(ambit_loop_point *p, const double *q, double t) {
 
 /* -- assembly */
 
-/* x := A^-1 x for the symmetric positive definite A [n*n], by Cholesky; false: not positive. */
-static bool solve_positive(size_t n, double *a, double *x) {
-  for (size_t k = 0; k < n; k++) {
-    for (size_t i = 0; i < k; i++) a[k * n + k] -= a[k * n + i] * a[k * n + i];
-    if (!(a[k * n + k] > 0)) return false;
-    a[k * n + k] = sqrt(a[k * n + k]);
-    for (size_t j = k + 1; j < n; j++) {
-      for (size_t i = 0; i < k; i++) a[j * n + k] -= a[j * n + i] * a[k * n + i];
-      a[j * n + k] /= a[k * n + k];
-    }
-  }
-  for (size_t k = 0; k < n; k++) {
-    for (size_t i = 0; i < k; i++) x[k] -= a[k * n + i] * x[i];
-    x[k] /= a[k * n + k];
-  }
-  for (size_t k = n; k-- > 0;) {
-    for (size_t i = k + 1; i < n; i++) x[k] -= a[i * n + k] * x[i];
-    x[k] /= a[k * n + k];
-  }
-  return true;
-}
-
 /* Rows divided by their size at this point, so that metres and cosines weigh alike. */
 static double row_size(const ambit_loop_point *p, size_t k) {
   double size = 0;
@@ -120,7 +99,7 @@ static bool step(ambit_loop_point *p, double *q) {
     most = fmax(most, a[k * n + k]);
   }
   for (size_t k = 0; k < n; k++) a[k * n + k] += DAMPING * most + 1e-300;
-  if (!solve_positive(n, a, x)) return false;
+  if (!ambit_matrix_solve_definite(n, a, x)) return false;
   for (size_t j = 0; j < nq; j++) {
     dq[j] = 0;
     for (size_t k = 0; k < n; k++) dq[j] -= p->slope[k * nq + j] * x[k] / size[k];

@@ -1,37 +1,14 @@
 /* regular.c -- Neumann's test with the midpoint's inverse, and determinants by expansion. */
 #include "num/regular.h"
 #include "num/interval.h"
+#include <ambit/matrix.h>
 #include <math.h>
 #include <stdint.h>
 
 bool ambit_invert_middle(size_t n, const ambit_interval *b, double *c) {
   double *a = c + n * n;
-  for (size_t i = 0; i < n; i++)
-    for (size_t j = 0; j < n; j++) {
-      a[i * n + j] = ambit_interval_mid(b[i * n + j]);
-      c[i * n + j] = i == j;
-    }
-  for (size_t k = 0; k < n; k++) {
-    size_t best = k;
-    for (size_t i = k; i < n; i++)
-      if (fabs(a[i * n + k]) > fabs(a[best * n + k])) best = i;
-    if (!(fabs(a[best * n + k]) > 0)) return false;
-    for (size_t j = 0; j < n; j++) {
-      double x = a[k * n + j], y = c[k * n + j];
-      a[k * n + j] = a[best * n + j], c[k * n + j] = c[best * n + j];
-      a[best * n + j] = x, c[best * n + j] = y;
-    }
-    double pivot = a[k * n + k];
-    for (size_t j = 0; j < n; j++) a[k * n + j] /= pivot, c[k * n + j] /= pivot;
-    for (size_t i = 0; i < n; i++) {
-      double factor = i == k ? 0 : a[i * n + k];
-      for (size_t j = 0; factor != 0 && j < n; j++) {
-        a[i * n + j] -= factor * a[k * n + j];
-        c[i * n + j] -= factor * c[k * n + j];
-      }
-    }
-  }
-  return true;
+  for (size_t i = 0; i < n * n; i++) a[i] = ambit_interval_mid(b[i]);
+  return ambit_matrix_invert(n, a, c);
 }
 
 static ambit_interval point(double x) { return (ambit_interval) { x, x }; }

@@ -1,6 +1,7 @@
 /* approach.c -- Levenberg (1944), Marquardt (1963): (J^T J + lambda diag(J^T J)) step = -J^T f, lambda smaller after a
 ** step that helps, larger after one that does not. Ordinary floating point; finds a centre, proves nothing. */
 #include "verbs/roots/equations.h"
+#include <ambit/matrix.h>
 #include <math.h>
 #include <string.h>
 
@@ -43,27 +44,6 @@ static double squares(size_t n, const double *v) {
   return sum;
 }
 
-/* Cholesky's factor in place, then both substitutions; false: not positive definite */
-static bool solve(size_t n, double *A, double *b) {
-  for (size_t j = 0; j < n; j++) {
-    for (size_t i = j; i < n; i++) {
-      double s = A[i * n + j];
-      for (size_t k = 0; k < j; k++) s -= A[i * n + k] * A[j * n + k];
-      if (i == j && !(s > 0)) return false;
-      A[i * n + j] = i == j ? sqrt(s) : s / A[j * n + j];
-    }
-  }
-  for (size_t i = 0; i < n; i++) {
-    for (size_t k = 0; k < i; k++) b[i] -= A[i * n + k] * b[k];
-    b[i] /= A[i * n + i];
-  }
-  for (size_t i = n; i-- > 0;) {
-    for (size_t k = i + 1; k < n; k++) b[i] -= A[k * n + i] * b[k];
-    b[i] /= A[i * n + i];
-  }
-  return true;
-}
-
 static bool find_step(iteration *it) {
   size_t n = it->r->nx, ne = it->r->ne;
   for (size_t a = 0; a < n; a++) {
@@ -76,7 +56,7 @@ static bool find_step(iteration *it) {
       it->normal[a * n + b] = a == b ? s * (1 + it->damping) + it->damping * 1e-12 + 1e-290 : s;
     }
   }
-  return solve(n, it->normal, it->step);
+  return ambit_matrix_solve_definite(n, it->normal, it->step);
 }
 
 /* one accepted step; false: none helps any more */

@@ -1,6 +1,7 @@
 /* probe.c -- a Rosenbrock run in doubles. */
 #include "verbs/split/probe.h"
 #include "verbs/split/approximate.h"
+#include <ambit/matrix.h>
 #include <math.h>
 #include <string.h>
 
@@ -163,33 +164,13 @@ static bool factor(ambit_probe *b, double hd) {
     }
     b->pivot[k] = best;
     if (!(fabs(w[best * n + k]) > 0)) return false;
-    for (uint32_t j = 0; best != k && j < n; j++) {
-      double swap = w[k * n + j];
-      w[k * n + j] = w[best * n + j];
-      w[best * n + j] = swap;
-    }
+    if (best != k) ambit_matrix_swap(n, w + (size_t)k * n, w + (size_t)best * n);
     for (uint32_t i = k + 1; i < n; i++) {
       double l = w[i * n + k] /= w[k * n + k];
       for (uint32_t j = k + 1; l != 0 && j < n; j++) w[i * n + j] -= l * w[k * n + j];
     }
   }
   return true;
-}
-
-static void solve(const ambit_probe *b, double *x) {
-  uint32_t n = b->nx;
-  const double *w = b->w;
-  for (uint32_t k = 0; k < n; k++) {
-    double swap = x[k];
-    x[k] = x[b->pivot[k]];
-    x[b->pivot[k]] = swap;
-  }
-  for (uint32_t i = 0; i < n; i++)
-    for (uint32_t j = 0; j < i; j++) x[i] -= w[i * n + j] * x[j];
-  for (uint32_t i = n; i-- > 0;) {
-    for (uint32_t j = i + 1; j < n; j++) x[i] -= w[i * n + j] * x[j];
-    x[i] /= w[i * n + i];
-  }
 }
 
 static double dot(uint32_t n, const double *a, const double *b) {
@@ -244,11 +225,11 @@ static double try_step(ambit_probe *b, double h) {
   uint32_t n = b->nx;
   if (!factor(b, h * d)) return -1;
   for (uint32_t i = 0; i < n; i++) b->k1[i] = b->f0[i] + h * d * b->ft[i];
-  solve(b, b->k1);
+  ambit_matrix_solve(b->nx, b->w, b->pivot, 1, b->k1);
   for (uint32_t i = 0; i < n; i++) b->next[i] = b->x[i] + 0.5 * h * b->k1[i];
   if (!rate(b, b->t + 0.5 * h, b->next, b->f1)) return -1;
   for (uint32_t i = 0; i < n; i++) b->k2[i] = b->f1[i] - b->k1[i];
-  solve(b, b->k2);
+  ambit_matrix_solve(b->nx, b->w, b->pivot, 1, b->k2);
   for (uint32_t i = 0; i < n; i++) {
     b->k2[i] += b->k1[i];
     b->next[i] = b->x[i] + h * b->k2[i];
@@ -256,7 +237,7 @@ static double try_step(ambit_probe *b, double h) {
   if (!rate(b, b->t + h, b->next, b->f2)) return -1;
   for (uint32_t i = 0; i < n; i++)
     b->k3[i] = b->f2[i] - e * (b->k2[i] - b->f1[i]) - 2 * (b->k1[i] - b->f0[i]) + h * d * b->ft[i];
-  solve(b, b->k3);
+  ambit_matrix_solve(b->nx, b->w, b->pivot, 1, b->k3);
   double worst = 0, most = 0;
   for (uint32_t i = 0; i < n; i++) most = fmax(most, fabs(b->next[i]));
   for (uint32_t i = 0; i < n; i++) {

@@ -8,6 +8,7 @@
 ** because <A> times the right-hand side is >= I, <A> times the left-hand side is <= I, and G >= 0.
 */
 #include "krawczyk.h"
+#include <ambit/matrix.h>
 #include <ambit/rounding.h>
 #include <math.h>
 
@@ -80,7 +81,7 @@ void krawczyk_hull_solution(krawczyk *k, span *z) {
   krawczyk_bound_solution(k, z);
   for (uint32_t i = 0; i < k->n; i++)
     for (uint32_t j = 0; j < k->n; j++) k->work[(size_t)i * k->n + j] = comparison(k, i, j);
-  if (!krawczyk_invert(k->n, k->work, k->B)) return;
+  if (!ambit_matrix_invert(k->n, k->work, k->B)) return;
   ambit_rounding old = ambit_round_up();
   bound_inverse(k, k->best, k->hull);
   int good = set_quotients(k, k->best, k->hull);

@@ -103,9 +103,6 @@ typedef struct krawczyk {
 ambit_status krawczyk_open(const ambit_host *h, const ambit_root_problem *p, const double *option, void **self);
 void krawczyk_close(void *self);
 
-/* inverse.c: C := roughly the inverse of M [n x n], which is destroyed; 0: M seems singular. */
-int krawczyk_invert(uint32_t n, double *M, double *C);
-
 /* evaluate.c: tapes over boxes x [m], and products; 0: not defined everywhere, or not bounded */
 int krawczyk_matrix(const krawczyk *k, ambit_lane *lane, const span *x, matrix M);
 int krawczyk_vector(krawczyk *k, const span *x, span *f);

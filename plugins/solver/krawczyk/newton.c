@@ -10,6 +10,7 @@
 ** Before all that f's ranges by its slopes and signs of slopes are looked at: if one has no 0, there is no root.
 */
 #include "krawczyk.h"
+#include <ambit/matrix.h>
 #include <math.h>
 #include <string.h>
 
@@ -38,7 +39,7 @@ static int set_matrix(krawczyk *k, matrix M) {
 /* C and A := C J; 0: no inverse */
 static int precondition(krawczyk *k) {
   for (size_t i = 0; i < (size_t)k->n * k->n; i++) k->work[i] = 0.5 * k->J.lo[i] + 0.5 * k->J.hi[i];
-  return krawczyk_invert(k->n, k->work, k->C) && set_matrix(k, k->J);
+  return ambit_matrix_invert(k->n, k->work, k->C) && set_matrix(k, k->J);
 }
 
 /* A := C H with slopes H inside J: column j over the first j components of the box and the midpoints of the others

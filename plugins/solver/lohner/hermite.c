@@ -11,6 +11,7 @@
 ** not matter that they are coarse. Proof: docs/numerics/lohner.md.
 */
 #include "lohner.h"
+#include <ambit/matrix.h>
 #include <string.h>
 
 static size_t at(const lohner *s, uint32_t i, uint32_t j) { return (size_t)i * s->ndir + j; }
@@ -127,40 +128,14 @@ static void bound_error(lohner *s, double gamma) {
 
 /* -- the linear system */
 
-static void swap_rows(uint32_t n, double *a, double *b) {
-  for (uint32_t j = 0; j < n; j++) {
-    double x = a[j];
-    a[j] = b[j], b[j] = x;
-  }
-}
-
-/* inverse := about that of the middle of Q, by elimination with row pivots; a matrix of NaN if it is singular */
+/* inverse := about that of the middle of Q; a matrix of NaN if it is singular */
 static void invert(lohner *s) {
   corrector *c = &s->corrector;
   uint32_t n = s->nx;
   for (uint32_t i = 0; i < n; i++)
-    for (uint32_t j = 0; j < n; j++) {
-      c->work[(size_t)i * n + j] = c->to_mid[at(s, i, s->nc + j)];
-      c->inverse[(size_t)i * n + j] = i == j;
-    }
-  for (uint32_t k = 0; k < n; k++) {
-    uint32_t p = k;
-    for (uint32_t i = k + 1; i < n; i++)
-      if (fabs(c->work[(size_t)i * n + k]) > fabs(c->work[(size_t)p * n + k])) p = i;
-    if (p != k) {
-      swap_rows(n, c->work + (size_t)p * n, c->work + (size_t)k * n);
-      swap_rows(n, c->inverse + (size_t)p * n, c->inverse + (size_t)k * n);
-    }
-    double pivot = c->work[(size_t)k * n + k];
-    for (uint32_t j = 0; j < n; j++) c->work[(size_t)k * n + j] /= pivot, c->inverse[(size_t)k * n + j] /= pivot;
-    for (uint32_t i = 0; i < n; i++) {
-      double factor = c->work[(size_t)i * n + k];
-      for (uint32_t j = 0; j < n && i != k; j++) {
-        c->work[(size_t)i * n + j] -= factor * c->work[(size_t)k * n + j];
-        c->inverse[(size_t)i * n + j] -= factor * c->inverse[(size_t)k * n + j];
-      }
-    }
-  }
+    for (uint32_t j = 0; j < n; j++) c->work[(size_t)i * n + j] = c->to_mid[at(s, i, s->nc + j)];
+  if (ambit_matrix_invert(n, c->work, c->inverse)) return;
+  for (size_t k = 0; k < (size_t)n * n; k++) c->inverse[k] = NAN;
 }
 
 /* defect := |I - A Q| */

@@ -121,7 +121,7 @@ typedef struct lohner {
   double *rest, *radius; /* [nx] bounds of |G e|, and of |C xi + G e + low| */
   double *size;          /* [nx] how large each state is, for tolerances */
   double *unit, *grown;  /* [nx] sizes of states, and of the set, in a step, also of what is zero (size.c) */
-  double *euler;         /* [nx x (nx + 1)] scratch of these */
+  double *euler;         /* [nx x (nx + 2)] scratch of these */
   double *limit;         /* [nx] widest that each state may be */
 
   /* -- the step */

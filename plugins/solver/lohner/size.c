@@ -9,6 +9,7 @@
 **        only be followed by a series of as many orders as it has links to the source.
 */
 #include "lohner.h"
+#include <ambit/matrix.h>
 
 #define FAR_SHARE 0x1p-10 /* of what the set grows to in the end, that counts now */
 #define FILLED 2.0        /* times its size, that a state counts as */
@@ -68,49 +69,18 @@ static void fill_near(const lohner *s, double *size) {
 
 /* -- far */
 
-static void subtract(size_t n, double *restrict x, double factor, const double *restrict y) {
-  for (size_t k = 0; k < n; k++) x[k] -= factor * y[k];
-}
-
-static void swap(uint32_t n, double *a, double *b) {
-  for (uint32_t k = 0; k < n; k++) {
-    double keep = a[k];
-    a[k] = b[k], b[k] = keep;
-  }
-}
-
-/* A x = b by elimination with row exchanges; A [n x (n + 1)] has b as its last column, which becomes x */
-static void eliminate(uint32_t n, double *A) {
-  size_t pitch = n + 1u;
-  for (uint32_t k = 0; k < n; k++) {
-    uint32_t best = k;
-    for (uint32_t i = k + 1; i < n; i++)
-      if (fabs(A[i * pitch + k]) > fabs(A[best * pitch + k])) best = i;
-    if (best != k) swap(n + 1, A + k * pitch, A + best * pitch);
-    for (uint32_t i = k + 1; i < n; i++)
-      if (A[i * pitch + k] != 0)
-        subtract(pitch - k, A + i * pitch + k, A[i * pitch + k] / A[k * pitch + k], A + k * pitch + k);
-  }
-  for (uint32_t k = n; k-- > 0;) {
-    double *x = A + k * pitch + n;
-    *x /= A[k * pitch + k];
-    for (uint32_t i = 0; i < k; i++) A[i * pitch + n] -= A[i * pitch + k] * *x;
-  }
-}
-
 static void fill_far(const lohner *s, double share, double *size) {
   uint32_t n = s->nx;
-  size_t pitch = n + 1u;
-  double *A = s->euler, time = fabs(s->problem.time[s->problem.ntime - 1] - s->t);
+  double *A = s->euler, *x = A + (size_t)n * n, time = fabs(s->problem.time[s->problem.ntime - 1] - s->t);
+  uint32_t *row = (uint32_t *)(x + n);
   for (uint32_t i = 0; i < n; i++) {
-    for (uint32_t j = 0; j < n; j++) A[i * pitch + j] = (i == j) - time * rates(s, i)[j];
-    A[i * pitch + n] = size[i];
+    for (uint32_t j = 0; j < n; j++) A[(size_t)i * n + j] = (i == j) - time * rates(s, i)[j];
+    x[i] = size[i];
   }
-  eliminate(n, A);
-  for (uint32_t i = 0; i < n; i++) {
-    double x = share * fabs(A[i * pitch + n]);
-    if (x > size[i] && x < INFINITY) size[i] = x;
-  }
+  if (!ambit_matrix_factor(n, A, row)) return;
+  ambit_matrix_solve(n, A, row, 1, x);
+  for (uint32_t i = 0; i < n; i++)
+    if (share * fabs(x[i]) > size[i] && share * fabs(x[i]) < INFINITY) size[i] = share * fabs(x[i]);
 }
 
 /* States that only second derivatives reach (a product of two that start at zero) count as the smallest of the

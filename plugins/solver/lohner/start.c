@@ -180,7 +180,7 @@ static int allocate_vectors(lohner *s) {
   } list[] = { { &s->start, nx }, { &s->start_rest, nx }, { &s->start_column, nx * nc }, { &s->fixed, np },
     { &s->fixed_column, np * nc }, { &s->centre, nx }, { &s->low, nx }, { &s->column, nx * nc }, { &s->new_centre, nx },
     { &s->new_low, nx }, { &s->rest, nx }, { &s->radius, nx }, { &s->size, nx }, { &s->unit, nx }, { &s->grown, nx },
-    { &s->euler, nx * (nx + 1) }, { &s->limit, nx }, { &s->series_mid, nx * (p + 1) }, { &s->series_rad, nx * (p + 1) },
+    { &s->euler, nx * (nx + 2) }, { &s->limit, nx }, { &s->series_mid, nx * (p + 1) }, { &s->series_rad, nx * (p + 1) },
     { &s->slope_mid, nx * (q + 1) * nd }, { &s->slope_rad, nx * (q + 1) * nd }, { &s->excess, nx },
     { &s->box_excess, nx }, { &s->slope_excess, nx * nd }, { &s->slope_guess, nx * nd }, { &s->tail_in, nin },
     { &s->dtail_in, nin * nd }, { &s->tail_out, nx }, { &s->dtail_out, nx * nd }, { &s->transfer_mid, m * nx * nd },

@@ -5,6 +5,7 @@
 ** as corrections do not shrink fast.
 */
 #include "collocation.h"
+#include <ambit/matrix.h>
 #include <float.h>
 #include <string.h>
 
@@ -68,8 +69,8 @@ static int predict(collocation *q, double t, double half) {
     slope(q, y, at, q->J);
     for (uint32_t k = 0; k < n * n; k++) A[k] = (k % (n + 1) == 0) - dt * q->J[k];
     for (uint32_t k = 0; k < n; k++) b[k] = dt * (double)q->f[k];
-    if (!lu_factor(n, A, row)) return 0;
-    lu_solve(n, A, row, 1, b);
+    if (!ambit_matrix_factor(n, A, row)) return 0;
+    ambit_matrix_solve(n, A, row, 1, b);
     for (uint32_t k = 0; k < n; k++) {
       y[k] += b[k];
       q->Z[i * n + k] = y[k] - q->x[k];
@@ -121,14 +122,14 @@ static int factor(collocation *q, double half) {
       for (uint32_t b = 0; b < n; b++)
         line[i * n + b] -= half * q->J[((size_t)i * n + a) * n + b] * (q->unit[b] / q->unit[a]);
     }
-  return lu_factor(m, q->A, q->row);
+  return ambit_matrix_factor(m, q->A, q->row);
 }
 
 /* the largest correction, relative */
 static double correct(collocation *q) {
   uint32_t n = q->nx, N = q->N;
   double most = 0;
-  lu_solve((size_t)n * N, q->A, q->row, 1, q->residual);
+  ambit_matrix_solve((size_t)n * N, q->A, q->row, 1, q->residual);
   for (uint32_t i = 0; i < N; i++)
     for (uint32_t a = 0; a < n; a++) {
       double step = q->residual[i * n + a];

@@ -1,47 +1,8 @@
 /* linear.c -- unverified linear algebra (linear.h). */
 #include "linear.h"
+#include <ambit/matrix.h>
 #include <math.h>
 #include <string.h>
-
-/* x -= factor y */
-static inline void subtract(size_t n, double *restrict x, double factor, const double *restrict y) {
-  for (size_t k = 0; k < n; k++) x[k] -= factor * y[k];
-}
-
-int lu_factor(size_t n, double *A, uint32_t *row) {
-  for (size_t k = 0; k < n; k++) {
-    size_t best = k;
-    for (size_t i = k + 1; i < n; i++)
-      if (fabs(A[i * n + k]) > fabs(A[best * n + k])) best = i;
-    row[k] = (uint32_t)best;
-    double pivot = A[best * n + k];
-    if (!(fabs(pivot) > 0 && fabs(pivot) < INFINITY)) return 0;
-    for (size_t j = 0; best != k && j < n; j++) {
-      double swap = A[k * n + j];
-      A[k * n + j] = A[best * n + j], A[best * n + j] = swap;
-    }
-    for (size_t i = k + 1; i < n; i++) {
-      if (A[i * n + k] == 0) continue;
-      A[i * n + k] /= pivot;
-      subtract(n - k - 1, A + i * n + k + 1, A[i * n + k], A + k * n + k + 1);
-    }
-  }
-  return 1;
-}
-
-void lu_solve(size_t n, const double *A, const uint32_t *row, size_t m, double *b) {
-  for (size_t k = 0; k < n; k++)
-    for (size_t j = 0; row[k] != k && j < m; j++) {
-      double swap = b[k * m + j];
-      b[k * m + j] = b[row[k] * m + j], b[row[k] * m + j] = swap;
-    }
-  for (size_t i = 1; i < n; i++)
-    for (size_t k = 0; k < i; k++) subtract(m, b + i * m, A[i * n + k], b + k * m);
-  for (size_t i = n; i-- > 0;) {
-    for (size_t k = i + 1; k < n; k++) subtract(m, b + i * m, A[i * n + k], b + k * m);
-    for (size_t j = 0; j < m; j++) b[i * m + j] /= A[i * n + i];
-  }
-}
 
 /* the power of two near 1 / the largest entry of a row; 0: there is none */
 static double row_unit(size_t n, const double *row) {
@@ -64,8 +25,8 @@ int matrix_inverse(size_t n, const double *A, double *inverse) {
       inverse[i * n + j] = i == j ? unit : 0;
     }
   }
-  if (!lu_factor(n, factors, row)) return 0;
-  lu_solve(n, factors, row, n, inverse);
+  if (!ambit_matrix_factor(n, factors, row)) return 0;
+  ambit_matrix_solve(n, factors, row, n, inverse);
   return 1;
 }
 
@@ -82,7 +43,7 @@ void matrix_multiply(size_t rows, size_t inner, size_t cols, const double *a, co
     for (; k + 4 <= inner; k += 4)
       if (x[k] != 0 || x[k + 1] != 0 || x[k + 2] != 0 || x[k + 3] != 0)
         add_four(cols, r + i * cols, x + k, b + k * cols);
-    for (; k < inner; k++) subtract(cols, r + i * cols, -x[k], b + k * cols);
+    for (; k < inner; k++) ambit_matrix_subtract(cols, r + i * cols, -x[k], b + k * cols);
   }
 }
 

@@ -9,10 +9,6 @@
 
 typedef double square[N_MAX * N_MAX]; /* any matrix of at most N_MAX rows and columns; the pitch is what is stated */
 
-/* In-place LU factors with row exchanges of A [n x n]; 0: singular. */
-int lu_factor(size_t n, double *A, uint32_t *row);
-/* b := A^-1 b for factors of A, m columns: b [n x m] */
-void lu_solve(size_t n, const double *A, const uint32_t *row, size_t m, double *b);
 int matrix_inverse(size_t n, const double *A, double *inverse);
 /* r [rows x cols] := a [rows x inner] b [inner x cols] */
 void matrix_multiply(size_t rows, size_t inner, size_t cols, const double *a, const double *b, double *r);

@@ -5,6 +5,7 @@
 ** Round-to-nearest.
 */
 #include "stiff.h"
+#include <ambit/matrix.h>
 #include <string.h>
 
 #define SLACK (1 + 0x1p-40)
@@ -159,7 +160,7 @@ int spread_solve(stiff *s) {
   for (uint32_t turn = 0; turn < s->terms.degree + MORE_TURNS; turn++) {
     double most = 0;
     if (!judge(s)) return 0;
-    lu_solve((size_t)N * nx, q->A, q->row, count, s->residual_row);
+    ambit_matrix_solve((size_t)N * nx, q->A, q->row, count, s->residual_row);
     for (uint32_t i = 0; i < N * nx; i++)
       for (uint32_t t = 1; t < count; t++)
         s->Z_row[(size_t)i * count + t] += s->residual_row[(size_t)i * count + t] * q->unit[i % nx];

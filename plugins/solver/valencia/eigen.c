@@ -6,6 +6,7 @@
 */
 #include "shared/real_schur.h"
 #include "valencia.h"
+#include <ambit/matrix.h>
 
 #define CONDITION_MAX 1e5
 #define CLOSE_MAX 1e-4 /* of e */
@@ -19,31 +20,6 @@ static void collect(valencia *s, const double *im, const double *vector) {
     if (im[k] >= 0) z->first[z->nblock++] = k;
   z->first[z->nblock] = n;
   for (size_t k = 0; k < (size_t)n * n; k++) z->v[k] = vector[k] * s->size[k / n];
-}
-
-/* w := approximate inverse of v, by Gauss and Jordan; a is destroyed */
-static int invert(uint32_t n, double *a, double *w) {
-  for (uint32_t i = 0; i < n; i++)
-    for (uint32_t j = 0; j < n; j++) w[(size_t)i * n + j] = i == j;
-  for (uint32_t k = 0; k < n; k++) {
-    uint32_t best = k;
-    for (uint32_t i = k; i < n; i++)
-      if (fabs(a[(size_t)i * n + k]) > fabs(a[(size_t)best * n + k])) best = i;
-    double pivot = a[(size_t)best * n + k];
-    if (!(fabs(pivot) > 0)) return 0;
-    for (uint32_t j = 0; j < n; j++) {
-      double x = a[(size_t)best * n + j], y = w[(size_t)best * n + j];
-      a[(size_t)best * n + j] = a[(size_t)k * n + j], w[(size_t)best * n + j] = w[(size_t)k * n + j];
-      a[(size_t)k * n + j] = x / pivot, w[(size_t)k * n + j] = y / pivot;
-    }
-    for (uint32_t i = 0; i < n; i++) {
-      double f = a[(size_t)i * n + k];
-      for (uint32_t j = 0; j < n && i != k; j++) {
-        a[(size_t)i * n + j] -= f * a[(size_t)k * n + j], w[(size_t)i * n + j] -= f * w[(size_t)k * n + j];
-      }
-    }
-  }
-  return 1;
 }
 
 static int enclose_inverse(basis *z, uint32_t n, const double *w) {
@@ -94,7 +70,7 @@ int valencia_eigenbasis(valencia *s, const double *a) {
   real_schur_vectors(n, t, q, re, im, vector, work);
   collect(s, im, vector);
   for (size_t k = 0; k < square; k++) t[k] = s->basis.v[k];
-  return invert(n, t, q) && is_well_conditioned(s, q) && enclose_inverse(&s->basis, n, q);
+  return ambit_matrix_invert(n, t, q) && is_well_conditioned(s, q) && enclose_inverse(&s->basis, n, q);
 }
 
 void valencia_unit_basis(valencia *s) {
