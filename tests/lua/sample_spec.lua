@@ -117,6 +117,20 @@ describe("sample of a system", function()
     end
   end)
 
+  it("ends where doubles are seconds apart", function()
+    local from = -2^53 - 64
+    local slow = ambit.ode { states = { "x" }, equations = function(s) return { x = s.x / -1000 } end }
+    local question = { slow, initial = { x = between(1, 2) }, t = { from, from + 66, from + 1000 }, n = 100 }
+    local s = ambit.sample(question)
+    assert.equal("complete", s.status)
+    local x, off = s.x.x, 1e-15 + s:error_at(from + 1000).x
+    assert.truthy(math.abs(x.lo - math.exp(-1)) <= 2 * off and math.abs(x.hi - 2 * math.exp(-1)) <= 2 * off)
+    assert.truthy(off < 1e-8)
+    question[1], question.t, question.partial = decay, { from, from + 64 }, true
+    local lost = ambit.sample(question)
+    assert.equal("unable", lost.status) -- no step is short enough
+  end)
+
   it("goes backwards in time, takes tolerances, and options of gsl", function()
     local back = draw { t = { 2, 0 } }
     assert.truthy(math.abs(back.x.x.hi - 2 * math.exp(3)) <= 2 * back.error.x)

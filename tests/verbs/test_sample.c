@@ -255,6 +255,33 @@ static void stops_a_system(void **state) {
   }
 }
 
+static int32_t stop_behind_the_draws(ambit_sink *sink, double done, const char *message) {
+  (void)sink, (void)message;
+  return done == 1;
+}
+
+/* also while it estimates the error, and within a draw of a solver */
+static void stops_a_system_everywhere(void **state) {
+  scene *s = *state;
+  static const double time[] = { 0, 0.5, 2 };
+  make_decay(s);
+  ambit_sink late = { sizeof late, NULL, stop_behind_the_draws }, soon = { sizeof soon, NULL, stop_at_once };
+  static const char *const solver[] = { NULL, "gsl" };
+  for (size_t way = 0; way < 4; way++) {
+    ambit_simulate_request q = scene_request(s, solver[way % 2], 3, time);
+    ambit_interval hull[3];
+    double error[3];
+    ambit_sample_result result;
+    ambit_sample_plan plan = plan_for(200, 3);
+    plan.sink = way < 2 ? &late : &soon, plan.threads = way == 3 ? 1 : 2; /* a pool may be faster than its caller */
+    sample_flow(&q, plan, hull, error, &result);
+    assert_int_equal(result.status, AMBIT_STOPPED);
+    assert_int_equal(result.draws, way < 2 ? 200 : 0);
+    assert_int_equal(result.failed, 0);
+    assert_true(isnan(error[2]));
+  }
+}
+
 /* backwards in time, x(t) = x0 exp(-k t) from t = 2 to 0 */
 static void goes_backwards(void **state) {
   scene *s = *state;
@@ -395,6 +422,7 @@ int main(void) {
     cmocka_unit_test_setup_teardown(keeps_what_was_drawn, set_up, tear_down),
     cmocka_unit_test_setup_teardown(samples_a_system, set_up, tear_down),
     cmocka_unit_test_setup_teardown(stops_a_system, set_up, tear_down),
+    cmocka_unit_test_setup_teardown(stops_a_system_everywhere, set_up, tear_down),
     cmocka_unit_test_setup_teardown(goes_backwards, set_up, tear_down),
     cmocka_unit_test_setup_teardown(drops_what_escapes, set_up, tear_down),
     cmocka_unit_test_setup_teardown(leaves_stiff_systems_to_gsl, set_up, tear_down),

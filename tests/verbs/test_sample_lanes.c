@@ -101,6 +101,17 @@ static const double times[] = { 0, 0.3, 5 };
 #define NX 3u
 #define WIDTH 32u
 
+static void open_lanes(bench *b, const double *time) {
+  ambit_failure f = { 0 };
+  ambit_problem_request q = {
+    .system = &b->s->system, .initial = b->s->initial, .ntime = 3, .time = time, .want = AMBIT_WANT_RHS
+  };
+  if (ambit_problem_build(&q, b->arena, &b->problem, &f) != AMBIT_OK) fail_msg("%s", f.message);
+  if (ambit_context_open(b->s->registry, "real", 0, NULL, 0, &b->context, &f) != AMBIT_OK) fail_msg("%s", f.message);
+  if (ambit_lanes_open(&b->problem, b->context.arithmetic, b->context.ctx, WIDTH, &b->lanes, &f) != AMBIT_OK)
+    fail_msg("%s", f.message);
+}
+
 static void open_bench(bench *b) {
   *b = (bench) { .s = scene_open(), .arena = ambit_arena_open() };
   ambit_graph *g = b->s->graph;
@@ -111,14 +122,7 @@ static void open_bench(bench *b) {
   b->s->rate[x] = b->s->state[v];
   b->s->rate[v] = ambit_graph_op(g, AMBIT_OP_NEG, ambit_graph_op(g, AMBIT_OP_MUL, k, b->s->state[x]), 0);
   b->s->rate[y] = ambit_graph_op(g, AMBIT_OP_COS, t, t);
-  ambit_failure f = { 0 };
-  ambit_problem_request q = {
-    .system = &b->s->system, .initial = b->s->initial, .ntime = 3, .time = times, .want = AMBIT_WANT_RHS
-  };
-  if (ambit_problem_build(&q, b->arena, &b->problem, &f) != AMBIT_OK) fail_msg("%s", f.message);
-  if (ambit_context_open(b->s->registry, "real", 0, NULL, 0, &b->context, &f) != AMBIT_OK) fail_msg("%s", f.message);
-  if (ambit_lanes_open(&b->problem, b->context.arithmetic, b->context.ctx, WIDTH, &b->lanes, &f) != AMBIT_OK)
-    fail_msg("%s", f.message);
+  open_lanes(b, times);
 }
 
 static void close_bench(bench *b) {
@@ -177,8 +181,47 @@ static void lanes_follow_closed_forms(void **state) {
   close_bench(&b);
 }
 
+/* -- where doubles are 2 or 1 s apart: x' = 1 counts them, x' = -x / 1000 */
+
+static const double far[] = { -0x1p53 - 64, -0x1p53 + 2, -0x1p53 + 936 };
+
+static void take_far(void *user, uint32_t k, size_t n, const double *x, const bool *lost) {
+  double *error = user, gone = far[k] - far[0];
+  assert_true(n == 1 && !lost[0]);
+  *error = fmax(*error, fmax(fabs(x[0] - gone), fabs(x[1] - exp(-gone / 1000))));
+}
+
+static void lanes_go_from_double_to_double(void **state) {
+  (void)state;
+  bench b = { .s = scene_open(), .arena = ambit_arena_open() };
+  ambit_graph *g = b.s->graph;
+  size_t c = scene_state(b.s, "c", ambit_graph_number(g, 0)), x = scene_state(b.s, "x", ambit_graph_number(g, 1));
+  b.s->rate[c] = ambit_graph_number(g, 1);
+  b.s->rate[x] = ambit_graph_op(g, AMBIT_OP_DIV, b.s->state[x], ambit_graph_number(g, -1000));
+  open_lanes(&b, far);
+  static const double longest[] = { 0, 0.5, 3 }; /* the second is no step, the third none of theirs */
+  for (size_t i = 0; i < sizeof longest / sizeof *longest; i++) {
+    const double x0[] = { 0, 1 };
+    bool lost = false;
+    double error = 0;
+    size_t steps;
+    const ambit_lanes_run q = { .n = 1,
+      .x0 = x0,
+      .relative = 1e-10,
+      .absolute = 1e-12,
+      .longest = longest[i],
+      .take = take_far,
+      .user = &error,
+      .lost = &lost };
+    assert_int_equal(ambit_lanes_integrate(b.lanes, &q, &steps), AMBIT_LANES_DONE);
+    assert_true(!lost && error < 1e-8);
+    if (longest[i] == 0.5) assert_int_equal(steps, 32 + 936); /* below -2^53 doubles are 2 apart */
+  }
+  close_bench(&b);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = { cmocka_unit_test(tableau_has_its_orders),
-    cmocka_unit_test(lanes_follow_closed_forms) };
+    cmocka_unit_test(lanes_follow_closed_forms), cmocka_unit_test(lanes_go_from_double_to_double) };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

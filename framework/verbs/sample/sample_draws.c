@@ -198,13 +198,16 @@ static bool collect(collector *c, uint32_t k, const double *lo, const double *hi
 
 static int32_t emit(ambit_sink *s, const ambit_record *r) {
   collector *c = (collector *)(void *)s;
-  if (r->kind != AMBIT_REC_STEP || c->next >= c->p->ntime || r->t_to != c->p->time[c->next]) return 0;
-  return !collect(c, c->next++, r->lo, r->hi);
+  if (r->kind == AMBIT_REC_STEP && c->next < c->p->ntime && r->t_to == c->p->time[c->next] &&
+      !collect(c, c->next++, r->lo, r->hi))
+    return 1;
+  return c->one->pause(c->one->user);
 }
 
-static int32_t ignore_progress(ambit_sink *s, double done, const char *message) {
-  (void)s, (void)done, (void)message;
-  return 0;
+static int32_t progress(ambit_sink *s, double done, const char *message) {
+  (void)done, (void)message;
+  const ambit_draws_one *one = ((collector *)(void *)s)->one;
+  return one->pause(one->user);
 }
 
 static void place_data(const ambit_draws *draws, drawer *d, const ambit_draws_one *one) {
@@ -230,7 +233,7 @@ static void tell_reason(const ambit_draws_one *one, bool reached, ambit_status s
 
 static ambit_status integrate(
     const ambit_draws *draws, drawer *d, const ambit_draws_one *one, ambit_scope *scope, bool *reached) {
-  collector c = { { sizeof(ambit_sink), emit, ignore_progress }, &d->problem, one, d->middle, 1 };
+  collector c = { { sizeof(ambit_sink), emit, progress }, &d->problem, one, d->middle, 1 };
   void *self = NULL;
   *reached = false;
   collect(&c, 0, d->lo, d->hi);

@@ -31,6 +31,7 @@ typedef struct ambit_draws_one {
   size_t stride;
   /* the middle of the states x [nx] at time[k] */
   void (*see)(void *user, uint32_t k, const double *x);
+  int32_t (*pause)(void *user); /* nonzero: stop */
   void *user;
   char *reason; /* [room] why it did not reach the end, or "" */
   size_t room;

@@ -9,6 +9,7 @@
 #define MOST_KEPT 4000000 /* numbers of the first run */
 
 typedef struct keeping {
+  const ambit_sample_error *q;
   const ambit_problem *problem;
   ambit_flow_block block;
   size_t n;
@@ -59,16 +60,26 @@ static size_t choose_witnesses(const ambit_sample_error *q, double *point) {
   return n;
 }
 
+static int32_t pause(void *user) {
+  const keeping *kept = user;
+  return kept->q->pause(kept->q->user);
+}
+
+/* All the way, or not. */
+static bool make(const ambit_sample_error *q, keeping *kept, bool alone) {
+  kept->block.alone = alone;
+  return ambit_flow_make(q->flow, 0, &kept->block) == AMBIT_OK && !kept->block.stopped;
+}
+
 static bool run(const ambit_sample_error *q, keeping *kept, const double *point) {
   kept->block.n = kept->n;
   kept->block.point = point;
   kept->block.see = keep;
+  kept->block.pause = pause;
   kept->block.user = kept;
-  kept->block.alone = false;
-  bool good = ambit_flow_make(q->flow, 0, &kept->block) == AMBIT_OK;
-  kept->block.alone = true;
+  bool good = make(q, kept, false);
   if (ambit_flow_is_one_by_one(q->flow) || !ambit_flow_has_draws(q->flow)) return good;
-  return good && ambit_flow_make(q->flow, 0, &kept->block) == AMBIT_OK;
+  return good && make(q, kept, true);
 }
 
 ambit_status ambit_sample_estimate_error(const ambit_sample_error *q, ambit_arena *arena, double *error) {
@@ -77,7 +88,7 @@ ambit_status ambit_sample_estimate_error(const ambit_sample_error *q, ambit_aren
   double *point = ambit_arena_alloc(arena, ((size_t)p->nu * AMBIT_FLOW_LANES + 1) * sizeof *point);
   keeping *kept = ambit_arena_alloc(arena, sizeof *kept);
   if (!point || !kept) return AMBIT_NOMEM;
-  kept->problem = p;
+  kept->q = q, kept->problem = p;
   kept->n = choose_witnesses(q, point);
   kept->x = ambit_arena_alloc(arena, values * kept->n * sizeof *kept->x);
   if (!kept->x) return AMBIT_NOMEM;
@@ -91,7 +102,7 @@ ambit_status ambit_sample_estimate_error(const ambit_sample_error *q, ambit_aren
     double rounding = ambit_interval_is_empty(q->hull[i]) ? 0 : 0x1p-50 * ambit_interval_mag(q->hull[i]);
     error[i] = done ? CAUTION * error[i] + rounding : NAN;
   }
-  return AMBIT_OK;
+  return kept->block.stopped ? AMBIT_STOPPED : AMBIT_OK;
 }
 
 ambit_interval ambit_sample_sure(ambit_interval hull, double *error) {

@@ -16,11 +16,14 @@ typedef struct ambit_sample_error {
   size_t draws;                   /* of the sample: no more than these are made again, one by one a tenth of them */
   const ambit_extremes *extremes; /* the last ones count first */
   const ambit_interval *hull;     /* [ntime * nx] of the sample */
+  int32_t (*pause)(void *user);   /* nonzero: stop */
+  void *user;
 } ambit_sample_error;
 
 /* The part of a hull that its error leaves, rounded inward; if it leaves nothing, the middle, and *error becomes how
 ** far it may be from all that was drawn. An error that is not known leaves all. */
 ambit_interval ambit_sample_sure(ambit_interval hull, double *error);
-/* error [ntime * nx]: of state i at time[k] at k * nx + i; NaN where nothing is known. OK or NOMEM. */
+/* error [ntime * nx]: of state i at time[k] at k * nx + i; NaN where nothing is known. OK, NOMEM, or STOPPED by
+** `pause`: then it is NaN. */
 ambit_status ambit_sample_estimate_error(const ambit_sample_error *q, ambit_arena *arena, double *error);
 #endif

@@ -281,6 +281,7 @@ static void go_in_lanes(const ambit_flow *flow, drawer *d, ambit_flow_block *blo
 typedef struct alone {
   const ambit_flow_block *block;
   size_t lane;
+  bool stopped;
 } alone;
 
 static void see_alone(void *user, uint32_t k, const double *x) {
@@ -288,27 +289,33 @@ static void see_alone(void *user, uint32_t k, const double *x) {
   one->block->see(one->block->user, k, one->lane, x, 1);
 }
 
+static int32_t pause_alone(void *user) {
+  alone *one = user;
+  one->stopped = one->stopped || (one->block->pause && one->block->pause(one->block->user));
+  return one->stopped;
+}
+
 static ambit_status go_alone(ambit_flow *flow, uint32_t worker, ambit_flow_block *block) {
   for (size_t lane = 0; lane < block->n; lane++) {
     char reason[sizeof block->reason];
-    alone here = { block, lane };
+    alone here = { block, lane, false };
     const ambit_draws_one one = { .point = block->point + lane,
       .stride = block->n,
       .see = see_alone,
+      .pause = pause_alone,
       .user = &here,
       .reason = reason,
       .room = sizeof reason };
     bool reached;
     if (block->fate[lane] != AMBIT_FATE_REACHED) continue;
     ambit_status status = ambit_draws_make(flow->draws, worker, &one, &reached);
+    if (here.stopped || (lane + 1 < block->n && pause_alone(&here))) {
+      block->stopped = true;
+      break;
+    }
     if (!reached && !block->reason[0]) memcpy(block->reason, reason, sizeof reason);
     if (status != AMBIT_OK) return status;
     if (!reached) block->fate[lane] = AMBIT_FATE_FAILED;
-    if (block->pause && block->pause(block->user)) {
-      block->stopped = lane + 1 < block->n;
-      for (size_t rest = lane + 1; rest < block->n; rest++) block->fate[rest] = AMBIT_FATE_LOST;
-      break;
-    }
   }
   return AMBIT_OK;
 }

@@ -41,6 +41,7 @@ typedef struct ambit_sample_job {
   uint32_t ninstant, *instant; /* followed ones; [ntime] number among them, or ninstant */
   ambit_sample_drawer *drawer; /* [threads] */
   const double *candidates;    /* of a search, [nu][count] */
+  pthread_t caller;            /* the thread on which the sink is asked */
   atomic_bool stopping;
   atomic_bool stiff; /* a block was */
   pthread_mutex_t lock;
@@ -57,6 +58,8 @@ typedef struct ambit_sample_job {
 size_t ambit_sample_lanes_of_block(const ambit_sample_job *job);
 /* The drawer's block: n points at its `point`, from which `see` goes into its hull and extremes, or its `value`. */
 void ambit_sample_begin_block(ambit_sample_drawer *drawer, size_t n, bool alone);
+/* Between steps, of a job: nonzero if the sink wants to stop, which the caller asks and others hear of. */
+int32_t ambit_sample_pause(void *job);
 /* Items on the threads of the pool; STOPPED if the sink said so. */
 ambit_status ambit_sample_run_pool(ambit_sample_job *job, size_t items, ambit_pool_job each);
 /* All draws, then those that the lanes lost once more one by one. The extremes of all drawers are then the first's. */

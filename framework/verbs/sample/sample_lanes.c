@@ -309,20 +309,30 @@ static bool is_stiff(stepper *s, pace *p) {
   return false;
 }
 
+/* The end of the step to be tried, another double than now. Far from 0 these are few: the step is what lies between
+** them, else states would go another way than time. */
+static double aim(stepper *s, pace *p, double to, double span) {
+  if (s->run->longest > 0 && fabs(p->next) > s->run->longest) p->next = copysign(s->run->longest, span);
+  double t = s->t + p->next;
+  if (fabs(p->next) * 1.01 >= fabs(to - s->t)) t = to;
+  if (t == s->t) t = nextafter(t, to);
+  s->h = t - s->t;
+  return t;
+}
+
 /* From one instant to the next. */
 static ambit_lanes_outcome advance(stepper *s, pace *p, double to, double span, size_t *steps) {
   while (s->t != to && find_good(s) < s->n) {
-    double left = to - s->t;
-    if (s->run->longest > 0 && fabs(p->next) > s->run->longest) p->next = copysign(s->run->longest, span);
-    bool lands = fabs(p->next) * 1.01 >= fabs(left);
-    s->h = lands ? left : p->next;
+    if (s->run->pause && s->run->pause(s->run->user)) return AMBIT_LANES_STOPPED;
+    double t = aim(s, p, to, span);
+    bool lands = t == to;
     try_step(s);
     double worst = find_errors(s);
     if (!(worst <= 1)) {
       reject(s, p, worst, span);
       continue;
     }
-    double t = lands ? to : s->t + s->h, grow = worst > 0 ? SAFETY * pow(worst, -1.0 / 8) : GROW_MOST;
+    double grow = worst > 0 ? SAFETY * pow(worst, -1.0 / 8) : GROW_MOST;
     rates_at(s, t, s->l->new_x, s->l->new_k);
     bool stiff = is_stiff(s, p);
     double longer = s->h * fmin(GROW_MOST, fmax(SHRINK_MOST, p->rejects ? fmin(grow, 1) : grow));
@@ -332,7 +342,6 @@ static ambit_lanes_outcome advance(stepper *s, pace *p, double to, double span, 
     ++*steps;
     if (stiff && fabs(span) * (1 - fabs((s->t - s->l->problem->time[0]) / span)) > FEW_STEPS * fabs(p->good))
       return AMBIT_LANES_STIFF;
-    if (s->run->pause && s->run->pause(s->run->user)) return AMBIT_LANES_STOPPED;
   }
   return AMBIT_LANES_DONE;
 }

@@ -34,7 +34,7 @@ typedef struct ambit_lanes_run {
   double longest;            /* step; 0: any */
   /* the states x [nx][n] at time[k], k = 1, ...; of the lanes that are not lost */
   void (*take)(void *user, uint32_t k, size_t n, const double *x, const bool *lost);
-  int32_t (*pause)(void *user); /* after each step; nonzero: stop. May be NULL */
+  int32_t (*pause)(void *user); /* before each step; nonzero: stop. May be NULL */
   void *user;
   bool *lost; /* [n] false at first; which lanes did not reach the end */
 } ambit_lanes_run;

@@ -65,10 +65,14 @@ static ambit_status estimate_error(ambit_sample_job *j, const ambit_interval *hu
   const ambit_problem *p = j->problem;
   for (size_t i = 0; i < (size_t)p->ntime * p->nx; i++) error[i] = NAN;
   if (j->result->status != AMBIT_OK || ambit_flow_is_vague(j->flow)) return AMBIT_OK;
-  const ambit_sample_error q = {
-    .flow = j->flow, .draws = j->plan.draws, .extremes = &j->drawer[0].extremes, .hull = hull
-  };
+  const ambit_sample_error q = { .flow = j->flow,
+    .draws = j->plan.draws,
+    .extremes = &j->drawer[0].extremes,
+    .hull = hull,
+    .pause = ambit_sample_pause,
+    .user = j };
   ambit_status status = ambit_sample_estimate_error(&q, j->arena, error);
+  if (status == AMBIT_STOPPED) j->result->status = status;
   return status == AMBIT_NOMEM ? ambit_no_memory(f) : AMBIT_OK;
 }
 
@@ -137,9 +141,12 @@ ambit_status ambit_sample_system(const ambit_simulate_request *q, const ambit_sa
     double *error, ambit_sample_result *result, ambit_report *report, ambit_failure *f) {
   *result = (ambit_sample_result) { 0 };
   if (plan->draws == 0) return ambit_fail(f, AMBIT_INVALID, "sample needs at least one draw");
-  ambit_sample_job j = {
-    .q = q, .plan = *plan, .arena = ambit_arena_open(), .result = result, .first_failed = SIZE_MAX
-  };
+  ambit_sample_job j = { .q = q,
+    .plan = *plan,
+    .arena = ambit_arena_open(),
+    .result = result,
+    .first_failed = SIZE_MAX,
+    .caller = pthread_self() };
   if (!j.arena) return ambit_no_memory(f);
   pthread_mutex_init(&j.lock, NULL);
   double start = ambit_context_seconds(), wall = ambit_sample_wall();

@@ -35,11 +35,15 @@ static int32_t tell_progress(void *user) {
   return stop;
 }
 
-/* Between steps: on a thread of its own the caller can't ask. */
+int32_t ambit_sample_pause(void *user) {
+  ambit_sample_job *j = user;
+  if (pthread_equal(pthread_self(), j->caller)) tell_progress(j);
+  return atomic_load(&j->stopping);
+}
+
 static int32_t pause(void *user) {
-  ambit_sample_drawer *d = user;
-  if (d->job->plan.threads == 1) tell_progress(d->job);
-  return atomic_load(&d->job->stopping);
+  const ambit_sample_drawer *d = user;
+  return ambit_sample_pause(d->job);
 }
 
 size_t ambit_sample_lanes_of_block(const ambit_sample_job *j) {
