@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 #include <cmocka.h>
 
 #define PATH "/nowhere/at/all:" AMBIT_BROKEN_DIR
@@ -162,6 +163,21 @@ static void takes_the_path_from_the_environment(void **state) {
   free(kept);
 }
 
+static void stays_where_it_was_opened(void **state) {
+  (void)state;
+  char *here = getcwd(NULL, 0);
+  const ambit_solver *s;
+  assert_int_equal(chdir(AMBIT_BROKEN_DIR), 0);
+  ambit_registry *r = ambit_registry_open("."), *up = ambit_registry_open("../nowhere:./.");
+  assert_int_equal(chdir("/"), 0);
+  assert_int_equal(ambit_registry_solver(r, "mock", &s, NULL), AMBIT_OK);
+  assert_int_equal(ambit_registry_solver(up, "mock", &s, NULL), AMBIT_OK);
+  ambit_registry_close(r);
+  ambit_registry_close(up);
+  assert_int_equal(chdir(here), 0);
+  free(here);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test_setup_teardown(loads_a_good_plugin_once, set_up, tear_down),
@@ -176,6 +192,7 @@ int main(void) {
     cmocka_unit_test_setup_teardown(lists_without_loading, set_up, tear_down),
     cmocka_unit_test_setup_teardown(shows_exports, set_up, tear_down),
     cmocka_unit_test(takes_the_path_from_the_environment),
+    cmocka_unit_test(stays_where_it_was_opened),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,9 @@
 -- provenance_spec.lua -- every stream of records and every report begins with whence it comes. The SHA-256 are held
 -- against those of the program sha256sum.
-local command = os.getenv "AMBIT_COMMAND"
-local build = (os.getenv "AMBIT_PATH" or ""):match "([^:]*)/tests/plugins"
+local function absolute(name) return name:find "^/" and name or os.getenv "PWD" .. "/" .. name end
+local command = absolute(assert(os.getenv "AMBIT_COMMAND", "AMBIT_COMMAND: the command to test"))
+local build = absolute(assert((os.getenv "AMBIT_PATH" or ""):match "([^:]*)/tests/plugins",
+  "AMBIT_PATH needs tests/plugins of the build"))
 
 local function read(name)
   local file = assert(io.open(name, "rb"))
@@ -148,6 +150,13 @@ E]]):format(picture))
     assert.truthy(text:find '"trusted":"/tmp"')
     assert.truthy(text:find('"name":"interval","version":"6.66","file":"' .. build:gsub("%p", "%%%0")
       .. '/tests/shadow/arithmetic/interval.so","sha256":"%x+","shadows":"yes"}'))
+  end)
+
+  it("names files as they are called everywhere", function()
+    local text = shell(("cd '%s/tests' && AMBIT_PATH=shadow '%s' --allow-shadow run --quiet --json - %s"):format(build,
+      command, scene))
+    assert.truthy(text:find(build .. '/tests/shadow/arithmetic/interval.so","sha256":"', 1, true), text)
+    assert.truthy(check_hashes(text, in_json) >= 6)
   end)
 
   it("is refused for a plugin whose file was changed after it was loaded", function()

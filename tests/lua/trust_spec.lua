@@ -1,7 +1,9 @@
 -- trust_spec.lua -- what may speak (findings S5 and section 5): shipped names, folders that others may write, modules
 -- of others in the current folder.
-local command = os.getenv "AMBIT_COMMAND"
-local build = (os.getenv "AMBIT_PATH" or ""):match "([^:]*)/tests/plugins"
+local function absolute(name) return name:find "^/" and name or os.getenv "PWD" .. "/" .. name end
+local command = absolute(assert(os.getenv "AMBIT_COMMAND", "AMBIT_COMMAND: the command to test"))
+local build = absolute(assert((os.getenv "AMBIT_PATH" or ""):match "([^:]*)/tests/plugins",
+  "AMBIT_PATH needs tests/plugins of the build"))
 
 local function write(name, text)
   local file = assert(io.open(name, "w"))

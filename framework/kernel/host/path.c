@@ -2,11 +2,13 @@
 #include "host/path.h"
 #include "base/names.h"
 #include "host/trust.h"
+#include <limits.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #define LONGEST_NAME 63
 
@@ -29,12 +31,24 @@ static size_t count_parts(const char *list) {
   return n;
 }
 
-/* Appends the nonempty parts of a colon-separated list, which is cut up in place. */
-static void append_list(ambit_path *path, char *list) {
+/* The same folder wherever the process goes, and in records that are read elsewhere. */
+static const char *absolute(ambit_arena *arena, const char *directory) {
+  char here[PATH_MAX];
+  if (directory[0] == '/' || !getcwd(here, sizeof here)) return directory;
+  size_t bytes = strlen(here) + strlen(directory) + sizeof "/";
+  char *text = ambit_arena_alloc(arena, bytes);
+  if (text) snprintf(text, bytes, "%s/%s", strcmp(here, "/") == 0 ? "" : here, directory);
+  return text;
+}
+
+/* Appends the nonempty parts of a colon-separated list, which is cut up in place; false: out of memory. */
+static bool append_list(ambit_arena *arena, ambit_path *path, char *list) {
   for (char *rest = list; rest;) {
-    char *part = strsep(&rest, ":");
-    if (*part) append(path, part);
+    const char *part = strsep(&rest, ":"), *directory = *part ? absolute(arena, part) : part;
+    if (!directory) return false;
+    if (*directory) append(path, directory);
   }
+  return true;
 }
 
 /* The folder of Ambit's own plugins, or NULL. */
@@ -58,7 +72,7 @@ ambit_status ambit_path_open(ambit_arena *arena, const char *given, ambit_path *
   path->count = 0, path->own = NULL;
   path->directory = ambit_arena_alloc(arena, (count_parts(given) + 3) * sizeof *path->directory);
   if (!list || !path->directory) return AMBIT_NOMEM;
-  append_list(path, list);
+  if (!append_list(arena, path, list)) return AMBIT_NOMEM;
   const char *own = find_own(arena);
   if (own && is_directory(own)) append(path, path->own = own);
   return AMBIT_OK;
