@@ -15,6 +15,7 @@ struct ambit_rational {
 #define MOST_EXPONENT 5000 /* of ten */
 #define MOST_BITS 100000
 #define MOST_POWER 1000
+#define FAR 1000000L /* an exponent that no number of digits makes small enough again */
 
 /* The digits of [s, end) without the point in memory that the caller frees; *fraction of them stand behind it. */
 static char *digits_of(const char *s, const char *end, long *fraction) {
@@ -58,12 +59,13 @@ static const char *read_decimal(const char *s, mpq_t q) {
   const char *after = end;
   if (*end == 'e' || *end == 'E') {
     char *stop;
-    exponent = strtol(end + 1, &stop, 10);
-    if (stop == end + 1) return NULL;
+    exponent = strtol(end + 1, &stop, 10); /* saturates */
+    if (stop == end + 1 || isspace((unsigned char)end[1])) return NULL;
     after = stop;
   }
   char *digits = digits_of(s, end, &fraction);
-  if (labs(exponent) > 10L * MOST_BITS) exponent = 10L * MOST_BITS;
+  if (exponent > FAR) exponent = FAR; /* LONG_MIN has no absolute value */
+  if (exponent < -FAR) exponent = -FAR;
   bool good = digits && set_decimal(q, digits, exponent - fraction);
   free(digits);
   return good ? after : NULL;

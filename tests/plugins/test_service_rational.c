@@ -108,6 +108,7 @@ static void computes(void **state) {
   assert_true(isfinite(lo) && hi == INFINITY);
   assert_false(s->apply(x, AMBIT_OP_DIV, zero, 0));
   static const char *const bad[] = { "", "-", "pi", ".", "1..2", "1.2.3", "1/0", "1/", "/3", "0x1p3", "1e", "1e99999",
+    "1e 5", "1.25e9223372036854775807", "1.25e-9223372036854775808", "1.25e-99999999999999999999", "1/1e-999999999999",
     "[1, 2]", "1 2", "inf" };
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
     if (s->read(x, bad[i])) fail_msg("`%s` is read", bad[i]);
