@@ -10,7 +10,7 @@ local PLACES = 70
 -- of a decimal text or a double, times a whole number
 local function digits(x, factor)
   local whole, part = (type(x) == "number" and ("%.70f"):format(x) or x):match "^(%d+)%.?(%d*)$"
-  assert(#part <= PLACES)
+  assert(part and #part <= PLACES, tostring(x))
   local text, carry, list = whole .. part .. ("0"):rep(PLACES - #part), 0, {}
   for i = #text, 1, -1 do
     local v = tonumber(text:sub(i, i)) * (factor or 1) + carry
@@ -120,11 +120,11 @@ end)
 
 -- -- two clocks: a counts the samples of the first, b has what a was at the last sample of the second
 
-local function pair(first, second, swapped)
+local function pair(first, second, swapped, equations)
   local a = ambit.sampled { "a", period = first, outputs = { "a" }, law = function(s) return s.a + 1 end }
   local b = ambit.sampled { "b", period = second, outputs = { "b" }, law = function(s) return s.a end }
   return ambit.ode { states = { "x" }, sampled = swapped and { b, a } or { a, b },
-    equations = function(s) return { x = s.a - s.b } end }
+    equations = equations or function(s) return { x = s.a - s.b } end }
 end
 
 -- a and b after all samples before t; periods { p, q } as in `before`
@@ -188,6 +188,93 @@ describe("two clocks", function()
       run = ambit.simulate { pair(table.unpack(periods)), initial = { x = 0 }, t = 1.5 }
       assert.equal("unable", run.status)
       assert.is_truthy(run.reason:find("nearer to each other than doubles can tell", 1, true))
+    end
+  end)
+end)
+
+-- -- events: the zero of each g is at a sample, or some 1e-22 s before or behind
+
+-- whole + n 1e-22 as a decimal text; |n| < 10^8
+local function beside(whole, n)
+  if n < 0 then return ("%d.%s%08d"):format(whole - 1, ("9"):rep(14), 100000000 + n) end
+  return ("%d.%s%08d"):format(whole, ("0"):rep(14), n)
+end
+
+-- Does the event hold (whole + n 1e-22) / q?
+local function check_time(e, whole, n, q, what)
+  local t = digits(beside(whole, n))
+  what = ("%s: %s misses %s / %d"):format(what, e and tostring(e.t), beside(whole, n), q)
+  assert.is_true(e and compare(digits(e.t.lo, q), t) <= 0 and compare(t, digits(e.t.hi, q)) <= 0, what)
+  assert.is_true(e.t:width() < 1e-13, what)
+end
+
+local offs = { -300000, -1, 0, 1, 300000 }
+
+-- Events of x' = rate(s): the zeros of x and of x + t and of t beside the instants k p / q. x_of: k -> x there, as
+-- text; rates: k -> x' before and behind.
+local function check_events(plant, p, q, most, x_of, rates, what)
+  local list, wanted = {}, {}
+  for k = 1, most do
+    local before_it, behind_it = rates(k)
+    for _, off in ipairs(offs) do
+      local t = ("%d/%d"):format(k * p, q) + ambit.number("1e-22") * off
+      local x = ambit.number(x_of(k)) + ambit.number("1e-22") * off * (off > 0 and behind_it or before_it)
+      for _, g in ipairs { function(s) return s.x - x end, function(s, _, time) return s.x + time - x - t end,
+        function(_, _, time) return time - t end } do
+        list[#list + 1], wanted[#wanted + 1] = { g = g, name = ("%d"):format(#list + 1) }, { k * p, off * q }
+      end
+    end
+  end
+  local run = complete { plant, initial = { x = 0 }, t = { 0, (most + 1) * p / q }, events = list }
+  assert.equal(#list, #run.events)
+  for _, e in ipairs(run.events) do
+    assert.is_true(e.certain, e.reason)
+    check_time(e, wanted[e.index][1], wanted[e.index][2], q, what .. ", event " .. e.name)
+  end
+  return #list
+end
+
+describe("events at samples", function()
+  it("are at their true instants, whatever doubles the solver leaps on", function()
+    local count = 0
+    for _, clock in ipairs { { 1, 10 }, { 3, 10 }, { 1, 3 }, { 2, 7 }, { 7, 30 }, { 1, 8 } } do
+      local p, q = clock[1], clock[2]
+      local counter = ambit.sampled { period = ("%d/%d"):format(p, q), outputs = { "n" },
+        law = function(s) return s.n + 1 end }
+      local plant = ambit.ode { states = { "x" }, sampled = counter, equations = function(s) return { x = s.n } end }
+      count = count + check_events(plant, p, q, 6, function(k) return ("%d/%d"):format(p * k * (k + 1) // 2, q) end,
+        function(k) return k, k + 1 end, ("%d/%d"):format(p, q))
+    end
+    assert.equal(6 * 6 * #offs * 3, count)
+  end)
+
+  it("are at those of two clocks", function()
+    for _, swapped in ipairs { false, true } do
+      local plant = pair("0.1", "0.15", swapped, function(s) return { x = 1 + s.a + s.b } end)
+      local function rate(text)
+        local a, b = follow(text, { "0.1", 1 }, { "0.15", 1 }, swapped)
+        return 1 + a + b
+      end
+      local x, rates = { 0 }, {}
+      for k = 1, 14 do
+        rates[k] = rate(("%d.%02d"):format(k * 5 // 100, k * 5 % 100))
+        x[k + 1] = x[k] + rates[k]
+      end
+      check_events(plant, 1, 20, 13, function(k) return ("%d/20"):format(x[k + 1]) end,
+        function(k) return rates[k], rates[k + 1] end, "two clocks")
+    end
+  end)
+
+  it("are not certain where g turns round at a sample", function()
+    local turn = ambit.sampled { period = "0.3", outputs = { "u" }, law = function() return 1 end, start = "0.3" }
+    local plant = ambit.ode { states = { "x" }, sampled = turn, equations = function(s) return { x = 2 * s.u - 1 } end }
+    for _, off in ipairs { 0, 1, 300000 } do -- zeros at 0.3 -+ off 1e-22: one, or two
+      local run = ambit.simulate { plant, initial = { x = 0 }, t = { 0, 0.5 }, partial = true,
+        events = { { g = function(s) return s.x + "0.3" - ambit.number("1e-22") * off end } } }
+      assert.equal(1, #run.events)
+      assert.is_false(run.events[1].certain)
+      check_time(run.events[1], 3, -10 * off, 10, "turns")
+      check_time(run.events[1], 3, 10 * off, 10, "turns")
     end
   end)
 end)

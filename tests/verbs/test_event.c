@@ -21,6 +21,7 @@ typedef struct line { /* x' = 1 with x0 in centre +- radius, watched */
   ambit_event event[EVENTS_MAX];
   bool dense, tube;
   double overlap; /* each step begins so much before the last one ended */
+  double off;     /* of the records' clock */
   double spoil;   /* added to what the records say of x */
   ambit_sink sink;
   size_t steps, events; /* passed on */
@@ -121,6 +122,7 @@ static size_t run(line *l, double start, double end, double h, size_t room) {
       .t_to = next,
       .nx = 1,
       .rigorous = 1,
+      .clock_error = l->off,
       .lo = &lo,
       .hi = &hi };
     if (l->tube) record.tube_lo = &tube_lo, record.tube_hi = &tube_hi;
@@ -483,6 +485,34 @@ static void more_events_than_room(void **state) {
   for (size_t i = 0; i < 5; i++) assert_crossed(l, i, 3.141592653589793 * (double)(i + 1), i % 2 ? 1 : -1, 1e-11);
 }
 
+/* Solutions and their times are beside those of the records: zeros may be so much earlier or later, and g that reads
+** the time is taken at all of it, but not before the start. */
+static void a_clock_that_is_off(void **state) {
+  for (double way = -1; way <= 1; way += 2) {
+    line *l = *state;
+    l->off = 0.01, l->radius = 0.02;
+    add(l, minus(l, 1), 0);
+    run(l, 1 - way, 1 + way, 0.3, 8);
+    assert_crossed(l, 0, 1, 1, 0.07);
+    assert_true(found(l, 0)->t_lo <= 1 - 0.03 && found(l, 0)->t_hi >= 1 + 0.03);
+    tear_down(state);
+    set_up(state);
+    l = *state;
+    l->off = 0.01;
+    ambit_expr ahead = op(l, AMBIT_OP_SUB, ambit_graph_time(l->graph), l->x); /* 0 by the records' clock */
+    add(l, op(l, AMBIT_OP_ADD, ahead, number(l, 0.005)), 0);
+    add(l, op(l, AMBIT_OP_ADD, ahead, number(l, 0.011)), 0);
+    add(l, op(l, AMBIT_OP_SUB, ambit_graph_time(l->graph), number(l, 1 - 1.005 * way)), 0);
+    run(l, 1 - way, 1 + way, 0.3, 8);
+    assert_int_equal(ambit_event_watch_count(l->watch), 1);
+    assert_int_equal(found(l, 0)->event, 0);
+    assert_true(found(l, 0)->outcome != AMBIT_EVENT_CROSSED);
+    assert_true(way < 0 ? found(l, 0)->t_hi <= 2 : found(l, 0)->t_lo >= 0);
+    tear_down(state);
+    set_up(state);
+  }
+}
+
 static void says_whether_one_is_open(void **state) {
   line *l = *state;
   l->radius = 0.1;
@@ -515,7 +545,7 @@ int main(void) {
     T(near_misses_are_decided), T(a_set_on_both_sides_at_the_start), T(a_start_on_the_surface_is_no_event),
     T(a_start_that_must_be_left), T(are_in_the_order_of_their_beginnings), T(a_run_that_ends_in_the_middle),
     T(a_jump_is_no_crossing), T(stops_behind_the_first), T(events_that_overlap), T(more_events_than_room),
-    T(says_whether_one_is_open), T(zeros_without_a_derivative), T(zeros_beside_a_kink_are_certain),
-    T(edges_without_a_zero), T(refuses_foreign_variables) };
+    T(a_clock_that_is_off), T(says_whether_one_is_open), T(zeros_without_a_derivative),
+    T(zeros_beside_a_kink_are_certain), T(edges_without_a_zero), T(refuses_foreign_variables) };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

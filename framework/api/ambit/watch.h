@@ -41,8 +41,6 @@ typedef struct ambit_watch_request {
   /* unless NULL: the end is some instant between this time and that of the last record, s; `last` is an end of a
   ** step */
   const double *last;
-  /* of a sampled system: how far the clock of the records may be off the true time, s; what is found says so, too */
-  double off;
   uint32_t cuts;  /* in time, for each condition in each step */
   size_t nnarrow; /* unknowns with a narrower range than their own: those of the run */
   const ambit_expr *narrow;
@@ -55,8 +53,8 @@ typedef struct ambit_watch_finding {
   bool holds, fails;    /* for all of them */
   bool undefined;       /* g is not known to be defined everywhere it is needed */
   ambit_interval bound; /* encloses max g over time (ALWAYS), |g| (MOST), g at the end, min g over time (ONCE) */
-  /* where `fails` (ALWAYS, END) or `holds` (ONCE) was seen: g is in `value` at all times of `when`, s, or with `off` at
-  ** one at least; else empty */
+  /* where `fails` (ALWAYS, END) or `holds` (ONCE) was seen: g is in `value` at all times of `when`, s, or where states
+  ** leap at samples at one at least; else empty */
   ambit_interval when, value;
   ambit_interval worst; /* the part of time with the bound that is worst for a proof, s; empty: nothing was seen */
 } ambit_watch_finding;

@@ -10,8 +10,9 @@ typedef struct ambit_path {
   const char *own;        /* Ambit's own, the last of them; NULL: there is none */
 } ambit_path;
 
-/* given (NULL: $AMBIT_PATH), from where the process is now if not absolute, then Ambit's own: the directory at `ambit_place`, seen from the file that the kernel is
-** in, wherever that was moved. No other place is compiled in. The texts live in the arena. */
+/* given (NULL: $AMBIT_PATH), from where the process is now if not absolute, then Ambit's own: the directory at
+** `ambit_place`, seen from the file that the kernel is in, wherever that was moved. No other place is compiled in. The
+** texts live in the arena. */
 ambit_status ambit_path_open(ambit_arena *arena, const char *given, ambit_path *path);
 /* What lies there by file name, without loading: one entry a name (the first directory wins), sorted. Returns how
 ** many; the list lives in the arena (NULL if there are none or memory is out). */

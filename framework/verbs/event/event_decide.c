@@ -65,15 +65,16 @@ void ambit_event_watch_note_sign(ambit_event_watch *w, watched *e, int sign) {
 void ambit_event_watch_note_end(ambit_event_watch *w, watched *e) { close(w, e, 0); }
 
 void ambit_event_watch_note_zero(ambit_event_watch *w, watched *e, double a, double b, int way, bool torn) {
+  ambit_interval times = ambit_event_watch_times(w, a < b ? (ambit_interval) { a, b } : (ambit_interval) { b, a });
   if (!e->open) {
     e->open = true;
     e->mixed = e->torn = e->seen = false;
     e->way = way;
-    e->from = a;
+    e->from = w->way < 0 ? times.hi : times.lo;
   }
   e->mixed = e->mixed || !way || way != e->way;
   e->torn = e->torn || torn;
-  e->until = b;
+  e->until = w->way < 0 ? times.lo : times.hi;
   if (!ambit_event_watch_zeros(w, e, a, b)) return;
   for (uint32_t i = 0; i < w->nx; i++) {
     e->lo[i] = e->seen ? fmin(e->lo[i], w->lo[i]) : w->lo[i];

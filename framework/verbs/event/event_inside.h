@@ -37,6 +37,7 @@ struct ambit_event_watch {
   double *lo, *hi;        /* [nin] */
   const ambit_record *r;  /* the step */
   int way;                /* of the run: 1, or -1 backwards */
+  double t_first;         /* the start of the run */
   double t_before, start; /* end of the step before; where this one is taken up (steps may overlap) */
   bool rigorous, has_speed;
   bool leaps;      /* samples make states leap: the end of one step says nothing of the next one */
@@ -54,6 +55,8 @@ typedef struct ambit_event_values {
   bool torn;           /* g is not known to be defined and continuous all over the piece */
 } ambit_event_values;
 
+/* The times that the clock of the records may mean when it shows `when`: true samples are beside its doubles. */
+ambit_interval ambit_event_watch_times(const ambit_event_watch *w, ambit_interval when);
 /* -- event_value.c: over the piece (a, b) of the step */
 void ambit_event_watch_step(ambit_event_watch *w, const ambit_record *r); /* takes up the next step */
 ambit_event_values ambit_event_watch_value(ambit_event_watch *w, const watched *e, double a, double b);

@@ -178,7 +178,7 @@ static ambit_event_watch *make(const ambit_event_watch_request *q) {
   w->nx = (uint32_t)q->system->nx;
   w->n = q->n;
   w->room = q->room;
-  w->t_before = q->t_start;
+  w->t_first = w->t_before = q->t_start;
   w->leaps = q->system->njump > 0;
   w->stopped_by = SIZE_MAX;
   return w;

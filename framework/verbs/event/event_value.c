@@ -45,9 +45,17 @@ static ambit_interval state(const ambit_event_watch *w, uint32_t i, double a, do
   return x;
 }
 
+ambit_interval ambit_event_watch_times(const ambit_event_watch *w, ambit_interval when) {
+  double off = w->r->clock_error;
+  if (!(off > 0)) return when;
+  ambit_interval wide = ambit_interval_add(when, (ambit_interval) { -off, off });
+  return w->way < 0 ? (ambit_interval) { wide.lo, fmin(wide.hi, w->t_first) }
+                    : (ambit_interval) { fmax(wide.lo, w->t_first), wide.hi };
+}
+
 static void set_inputs(ambit_event_watch *w, double a, double b) {
   for (uint32_t i = 0; i < w->nx; i++) w->in[i] = state(w, i, a, b);
-  w->in[w->nin - 1] = part(a, b);
+  w->in[w->nin - 1] = ambit_event_watch_times(w, part(a, b));
 }
 
 void ambit_event_watch_step(ambit_event_watch *w, const ambit_record *r) {

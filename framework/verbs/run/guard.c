@@ -80,6 +80,7 @@ static int32_t emit(ambit_sink *s, const ambit_record *given) {
   ambit_allocation_forbid(0);              /* what the receiver does is its own affair */
   ambit_record whole = { 0 }, *r = &whole; /* a solver may be older than this kernel, and its records shorter */
   memcpy(r, given, given->size < sizeof *r ? given->size : sizeof *r);
+  r->clock_error = g->clock_error;
   const char *code, *fault = find_fault(g, r, &code);
   if (fault) {
     snprintf(g->broken, sizeof g->broken, "%s", fault);
@@ -112,6 +113,7 @@ ambit_guard ambit_guard_make(const ambit_problem *p, ambit_sink *outer) {
     .sink = { sizeof(ambit_sink), emit, progress },
     .outer = outer,
     .nx = p->nx,
+    .clock_error = p->jump_error,
     .direction = p->time[p->ntime - 1] < p->time[0] ? -1 : 1,
     .reached = p->time[0],
     .end = p->time[p->ntime - 1],

@@ -13,6 +13,7 @@ typedef struct ambit_guard {
   ambit_sink sink; /* first: what the solver sees */
   ambit_sink *outer;
   uint32_t nx, steps;
+  double clock_error;
   double direction, reached, end; /* +1 or -1; end of the last step, where the run shall end, s */
   bool stopped;
   char broken[160];        /* what was wrong with a record, or "" */

@@ -5,8 +5,8 @@
 ** and of dg/dt is defined over the whole box (no flag), and off the cut of atan2, where g would jump. Points of
 ** time are doubles inside the step; the ends of a step take the record's own boxes. Where samples make states leap, the
 ** box at the end of one step says nothing of the next one, and the start, before the first sample, is looked at by
-** itself; solvers leap at doubles, so that where the clock shows t, the time is up to `off` away, but not before the
-** start.
+** itself; solvers leap at doubles, so that where the clock shows t, the time is up to `clock_error` away, but not
+** before the start.
 */
 #include "verbs/verify/watch_inside.h"
 #include "graph/hull.h"
@@ -21,7 +21,7 @@
 
 /* The times that `when` on the clock of the records may be. */
 static ambit_interval true_times(const ambit_watch *w, ambit_interval when) {
-  double off = w->q->off;
+  double off = w->clock_error;
   if (!(off > 0)) return when;
   ambit_interval wide = ambit_interval_add(when, (ambit_interval) { -off, off });
   return (ambit_interval) { fmax(wide.lo, w->q->start), wide.hi };
@@ -65,7 +65,8 @@ static void narrow_by_slope(ambit_watch *w, const watched *c, part *p) {
   for (int k = 0; k < 3; k++) {
     if (ambit_interval_is_empty(p->value[k])) continue;
     ambit_interval t = ambit_interval_sub(p->when, (ambit_interval) { p->time[k], p->time[k] });
-    t = ambit_interval_add(t, (ambit_interval) { -2 * w->q->off, 2 * w->q->off }); /* each of both may be off */
+    t = ambit_interval_add(
+        t, (ambit_interval) { -2 * w->clock_error, 2 * w->clock_error }); /* each of both may be off */
     ambit_interval form = ambit_interval_add(p->value[k], ambit_interval_mul(slope, t));
     ambit_interval both = ambit_interval_intersect(p->g, form);
     if (!ambit_interval_is_empty(both)) p->g = both;
@@ -201,6 +202,7 @@ static int32_t emit(ambit_sink *s, const ambit_record *r) {
   ambit_watch *w = (ambit_watch *)(void *)s;
   if (r->kind != AMBIT_REC_STEP) return 0;
   w->is_ending = is_ending(w, r);
+  w->clock_error = r->clock_error;
   bool leaps_first = w->q->system->njump && w->started && w->reached == w->q->start;
   for (size_t k = 0; k < w->n; k++) {
     uint32_t kind = w->watched[k].condition->kind;

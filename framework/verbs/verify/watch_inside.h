@@ -26,7 +26,7 @@ struct ambit_watch {
   ambit_interval *in, *slot; /* inputs of the tapes: states, unknowns, time */
   size_t nx, nin;
   ambit_interval *before; /* [nx] the box at the end of the last step */
-  double reached;
+  double reached, clock_error;
   bool started, gave_up;
   bool is_ending; /* the step at hand may be beyond the end: what is seen in it need not happen */
 };

@@ -5,7 +5,6 @@
 #include "script/receiver.h"
 #include "script/request.h"
 #include "models/system_lua.h"
-#include "verbs/run/schedule.h"
 #include <math.h>
 
 /* What is watched for: { conditions = { { g, kind, name, limit, rivals } }, cuts, unknowns, lo, hi: the box of data;
@@ -79,18 +78,6 @@ static void push_outcome(
   ambit_receiver_tell(L, to, result->status, result->code, result->reason);
 }
 
-/* How far the clock of a run may be off: nothing if the run will say itself that it cannot start. */
-static double clock_error(lua_State *L, const ambit_simulate_request *q) {
-  if (!q->system->njump || q->ntime < 2) return 0;
-  ambit_schedule s;
-  ambit_failure f = { 0 };
-  ambit_arena *arena = ambit_lua_push_system(L)->arena;
-  return ambit_schedule_build(q->system, q->registry, q->time[0], q->time[q->ntime - 1], q->final, arena, &s, &f) ==
-                 AMBIT_OK
-             ? s.error
-             : 0;
-}
-
 /* watch(flow, settings) -> {finding}, {status, reason, t_reached, rigorous, impossible: no solution meets the
 ** constraints, gave_up: a limit is exceeded}, report */
 static int watch(lua_State *L) {
@@ -101,7 +88,6 @@ static int watch(lua_State *L) {
   own.w.system = q.system;
   own.w.initial = q.initial;
   if (q.ntime) own.w.start = q.time[0];
-  own.w.off = clock_error(L, &q);
   q.nnarrow = own.w.nnarrow, q.narrow = own.w.narrow, q.range = own.w.range;
   ambit_receiver to = ambit_receiver_silent();
   to.pace.patience = own.patience;

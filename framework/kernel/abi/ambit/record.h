@@ -39,6 +39,9 @@ typedef struct ambit_record {
   uint32_t ndense, ncolumn, ncoef_column, pad;
   const double *dense_mid, *dense_rad, *dense_column;
   const ambit_set *set; /* AMBIT_EXTRA_SET: the set at t_to, inside [lo, hi]; or NULL */
+  /* Where states leap at samples: how far the true time may be off the time of the record, s, but not before the start.
+  ** The kernel says it (ambit_problem.jump_error), whatever the solver wrote. */
+  double clock_error;
 } ambit_record;
 
 typedef struct ambit_sink ambit_sink;
