@@ -19,9 +19,10 @@
   X(polynomials, "taylor_model")                                                                                       \
   X(digits, AMBIT_DEFAULT_DIGITS)                                                                                      \
   X(points, AMBIT_DEFAULT_POINTS)                                                                                      \
-  /* solvers: of equations, of draws that prove nothing, of what ambit.reduce tries */                                 \
+  /* solvers: of equations, of draws that prove nothing, of sets of many starts, of what ambit.reduce tries */         \
   X(roots, AMBIT_DEFAULT_ROOTS)                                                                                        \
   X(draws, AMBIT_DEFAULT_DRAWS)                                                                                        \
+  X(sets, "zonotope")                                                                                                  \
   X(strategy, AMBIT_DEFAULT_STRATEGY)                                                                                  \
   /* elements */                                                                                                       \
   X(fixed, "weld")                                                                                                     \

@@ -33,6 +33,7 @@ local ambit = {
   inverse_kinematics = later("inverse_kinematics", "inverse_kinematics"),
   verify = later("verify", "verify"),
   invariant = later("forever.invariant", "invariant"),
+  attraction = later("forever.attraction", "attraction"),
   certify = later("reduce.certify", "certify"),
   reduce = later("reduce", "reduce"),
   compare = later("compare", "compare"),

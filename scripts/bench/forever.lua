@@ -1,6 +1,6 @@
 -- forever.lua -- sets that nothing leaves: how large they are, and what they take.
 --
---   ambit run scripts/bench/forever.lua [arm|robot ...]
+--   ambit run scripts/bench/forever.lua [arm|robot|upright ...]
 package.path = (arg[0]:match ".*/" or "./") .. "?.lua;" .. package.path
 local ambit = require "ambit"
 local bench = require "bench"
@@ -50,10 +50,55 @@ local function robot()
     set.status == "proved"
 end
 
+local function tanh(x)
+  local e = math.exp(-2 * math.abs(x))
+  return (x < 0 and -1 or 1) * (1 - e) / (1 + e)
+end
+
+-- Does the pendulum of this mass come to rest from here? By Runge and Kutta's steps, in floats.
+local function rests(x, v, mass)
+  local h = 0.04
+  local function rate(a, b) return b, 9.81 * math.sin(a) - 8 / mass * tanh((20 * a + 6 * b) / 8) end
+  for _ = 1, 1000 do
+    local a1, b1 = rate(x, v)
+    local a2, b2 = rate(x + h / 2 * a1, v + h / 2 * b1)
+    local a3, b3 = rate(x + h / 2 * a2, v + h / 2 * b2)
+    local a4, b4 = rate(x + h * a3, v + h * b3)
+    x, v = x + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4), v + h / 6 * (b1 + 2 * b2 + 2 * b3 + b4)
+  end
+  return math.abs(x) < 1e-3 and math.abs(v) < 1e-3
+end
+
+local GRID = 40 -- starts in each direction
+
+-- A pendulum upside down, mass 1 kg +- 10 %, held by a torque of 8 N m at most.
+local function upright()
+  local mass = ambit.around(1, "10%", "mass")
+  local system = ambit.ode { states = { "x", "v" }, equations = function(s)
+    return { x = s.v, v = "9.81" * ambit.sin(s.x) - 8 / mass * ambit.tanh((20 * s.x + 6 * s.v) / 8) }
+  end }
+  local region = ambit.attraction { system, about = { x = 0 }, within = { x = { -1, 1 }, v = { -2, 2 } },
+    split = { [mass] = 4 }, budget = 1200 }
+  local sampled, proved, outside = 0, 0, 0
+  for i = 1, GRID do
+    for j = 1, GRID do
+      local x, v = 2 * (i - 0.5) / GRID - 1, 4 * (j - 0.5) / GRID - 2
+      local rested, inside = rests(x, v, 0.9) and rests(x, v, 1) and rests(x, v, 1.1), region:contains { x = x, v = v }
+      if rested then sampled = sampled + 1 end
+      if rested and inside then proved = proved + 1 end
+      if inside and not rested then outside = outside + 1 end
+    end
+  end
+  return region, ("%s of the %d starts of a grid that come to rest for three masses; %d others"):format(
+    ("%.0f %%"):format(100 * proved / sampled), sampled, outside), "90 %, 0 others",
+    proved >= 0.9 * sampled and outside == 0
+end
+
 print "| problem | result | asked for | CPU time |"
 print "|---|---|---|---|"
 for _, case in ipairs {
   { "arm", "two-link arm under PD, 6 data of 5 %: within 5 degrees for ever", arm },
+  { "upright", "pendulum upside down, mass +-10 %: proved region of attraction", upright },
   { "robot", "UR5 under PD, masses and dampings of 2 %: a set about rest", robot },
 } do
   if bench.wants(case[1]) then
