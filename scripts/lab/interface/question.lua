@@ -59,7 +59,7 @@ return {
   { "invariant(t: invariant.request)", "invariant",
     "A set about a state of rest that no solution leaves, whatever the data are and whatever varies in time." },
   { class = "attraction",
-    { "status", '"proved"|"undecided"', "as of `invariant`: proved if there is a set, however small the region about it" },
+    { "status", '"proved"|"undecided"', "as of `invariant`: proved if there is a set, however small the region" },
     { "code", "string" },
     { "reason", "string" },
     { "share", "number", "of the box, in volume, that is proved cell by cell" },
