@@ -71,6 +71,51 @@ describe("a region of attraction", function()
     assert.is_false(region:contains { x = 1, v = 2 })
   end)
 
+  it("is what the regions for all parts of the data have in common", function()
+    for _, d in ipairs { ambit.between(0, "0.4", "d"), "0.4" - ambit.between(0, "0.4", "d") } do
+      local system = ambit.ode { states = { "x" }, parameters = { d = d },
+        equations = function(s, p) return { x = (s.x - p.d) * (1 - s.x) } end } -- from x > d to 1
+      local region = ambit.attraction { system, about = { x = 1 }, within = { x = { "0.01", 2 } }, budget = 40,
+        split = { d = 4 } }
+      assert.is_true(region:contains { x = ambit.between("0.5", 2) })
+      assert.is_true(region.share <= 1.6 / 1.99)
+      for _, x in ipairs { "0.02", "0.15", "0.25", "0.35", "0.399" } do assert.is_false(region:contains { x = x }) end
+    end
+  end)
+
+  it("has starts that leave the box, turn over and come back", function()
+    math.randomseed(193)
+    local pendulum = ambit.ode { states = { "x", "v" }, equations = function(s)
+      return { x = s.v, v = "9.81" * ambit.sin(s.x) - 5 * ambit.tanh(4 * s.x + "1.2" * s.v) }
+    end }
+    local region = ambit.attraction { pendulum, about = { x = 0 }, within = { x = { -0.75, 0.75 }, v = { -2, 2 } },
+      budget = 200 }
+    local far = 0
+    for _, cell in ipairs(region.cells) do
+      local x, farthest = { random(cell.lo[1], cell.hi[1]), random(cell.lo[2], cell.hi[2]) }, 0
+      for _ = 1, 2000 do
+        x = step(function(y) return { y[2], 9.81 * math.sin(y[1]) - 5 * tanh(4 * y[1] + 1.2 * y[2]) } end, x, 0.01)
+        farthest = math.max(farthest, math.abs(x[1]))
+      end
+      if farthest > 3.2 then far = far + 1 end -- beyond the lowest point
+      assert.is_true(math.abs(x[1]) < 1e-6 and math.abs(x[2]) < 1e-6)
+    end
+    assert.is_true(far >= 4, far)
+  end)
+
+  it("is not proved by a solver that proves nothing, and takes several data in parts", function()
+    local a, b = ambit.around(1, "10%", "a"), ambit.around(1, "3%", "start x")
+    local system = ambit.ode { states = { "x" }, equations = function(s) return { x = a * (s.x - b * s.x ^ 3) } end }
+    local function region(solver)
+      return ambit.attraction { system, about = { x = 1 }, within = { x = { -1, 3 } }, budget = 30,
+        split = { [a] = 2, [b] = 2 }, solver = solver }
+    end
+    local unproved, proved = region "gsl", region()
+    local set = proved.set.box.x
+    assert.is_true(unproved.share <= set:width() / 4) -- of cells in the set alone
+    assert.is_true(proved.share > 0.6 and proved.share <= 0.75, proved.share)
+  end)
+
   it("is not claimed where rest attracts nothing", function()
     local system = ambit.ode { states = { "x", "v" }, equations = function(s)
       return { x = s.v, v = -s.x + "0.1" * s.v }

@@ -7,6 +7,7 @@
 local check = require "ambit.check"
 local core = require "ambit.core"
 local cover = require "ambit.forever.cover"
+local fresh = require "ambit.fresh"
 local invariant = require "ambit.forever.invariant"
 local ode = require "ambit.ode"
 local session = require "ambit.session"
@@ -155,7 +156,7 @@ end
 -- Are all solutions from this cell in the region at one time up to `t`? Enclosures of a run that ends early hold too.
 local function enters(self, cell, t)
   local x, times = {}, { 0 }
-  for i in ipairs(self.states) do x[i] = core.between(cell.lo[i], cell.hi[i], "start " .. self.states[i]) end
+  for i in ipairs(self.states) do x[i] = core.between(cell.lo[i], cell.hi[i], self.starts[i]) end
   for k = 1, LOOKS do times[k + 1] = t * k / LOOKS end
   local good, run = pcall(silent, self, self.part, x, times, self.solver)
   if not good or not run.rigorous then return false end
@@ -241,7 +242,8 @@ local function parts_of(given, system)
   for _, key in ipairs(check.sorted(given and check.table(given, "attraction: split") or {})) do
     local parameter = type(key) == "string" and system.parameters[key]
     local datum = core.expression(parameter or key, nil, "attraction: split")
-    local data, count = uncertain.data { datum }, check.count(given[key], "attraction: split")
+    local data, _, _, _, names = uncertain.data { datum }
+    local count = check.count(given[key], "attraction: split")
     if #data ~= 1 then
       check.fail("attraction: split: expected one uncertain datum, or the name of a parameter that is one, got %s",
         check.shown(key))
@@ -252,7 +254,7 @@ local function parts_of(given, system)
       for k = 1, count do
         local lo = k == 1 and range.lo or range.lo + (k - 1) / count * (range.hi - range.lo)
         local hi = k == count and range.hi or range.lo + k / count * (range.hi - range.lo)
-        local changed, rates = ode.replaced(part, { data[1] }, { core.between(lo, hi, "part") })
+        local changed, rates = ode.replaced(part, { data[1] }, { core.between(lo, hi, names[1]) })
         finer[#finer + 1] = setmetatable({ system = changed, rates = rates }, { __index = part })
       end
     end
@@ -284,6 +286,14 @@ local function explore_parts(self, parts, box, units, budget)
     all = self.cells
   end
   self.known, self.part, self.still = nil, nil, nil
+end
+
+-- Names for starts, by place, that no datum of the system has.
+local function starts_of(system)
+  local used, names = fresh.set(system.states), {}
+  for _, leaf in ipairs(core.leaves(system.rates)) do used[leaf.name or ""] = true end
+  for i, name in ipairs(system.states) do names[i] = fresh.name("start " .. name, used) end
+  return names
 end
 
 local function box_of(within, system)
@@ -327,6 +337,7 @@ function verb.attraction(t)
     cells = {}, share = 0 }, Region)
   if set.set then
     self.set, self.centre, self.settles = set, set.centre, set.settles
+    self.starts = starts_of(system)
     self.times, self.solver = horizon(t, set.rate), t.solver or core.default.sets
     self.units = units
     explore_parts(self, parts, box, units, budget)
