@@ -67,10 +67,28 @@ static void arrays_grow(void **unused) {
   free(a);
 }
 
+/* A code that is not formed as codes are would become that of its status. */
+static void codes_are_told_as_they_are_written(void **unused) {
+  (void)unused;
+  size_t n;
+  const ambit_code *table = ambit_code_table(&n);
+  assert_true(n > 20);
+  for (size_t i = 0; i < n; i++) {
+    int found = 0;
+    for (int status = AMBIT_OK; status <= AMBIT_BROKEN; status++) {
+      char code[AMBIT_CODE_MAX];
+      ambit_code_set(code, (ambit_status)status, table[i].code);
+      found = found || strcmp(code, table[i].code) == 0;
+    }
+    if (!found) fail_msg("%s", table[i].code);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(arena_hands_out_aligned_zeroed_memory),
     cmocka_unit_test(the_first_failure_is_kept),
+    cmocka_unit_test(codes_are_told_as_they_are_written),
     cmocka_unit_test(nearest_names),
     cmocka_unit_test(arrays_grow),
   };

@@ -36,7 +36,7 @@
       "Raise `boxes_max`, search a smaller box, or narrow the data.")                                                  \
   X(UNABLE_CONSTRAINT, "unable.constraint", "No state of the enclosure meets a constraint later on.",                  \
       "No initial state does, or the equations of motion do not keep it.")                                             \
-  X(UNABLE_SHORT_STEPS, "unable.short_steps", "Steps became so short that the end is out of reach.",                   \
+  X(UNABLE_SHORT_STEPS, "unable.short-steps", "Steps became so short that the end is out of reach.",                   \
       "Split the initial set, raise `tolerance`, or end before it.")                                                   \
   X(UNABLE_EIGENVALUES, "unable.eigenvalues", "No enclosure of the eigenvalues was found.", "Narrow the data.")        \
   X(UNABLE_EVENT, "unable.event",                                                                                      \
