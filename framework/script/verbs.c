@@ -41,13 +41,16 @@ static int evaluate(lua_State *L) {
 /* -- simulate */
 
 /* What is asked of `simulate` besides: a run that is a part of another verb's work is `silent`, it writes no records of
-** its own; patience, due, reach: as ambit_pace. The data to cut come in three lists. */
+** its own; patience, due, reach: as ambit_pace. The data to cut come in three lists; a band, if there is one, as
+** `band_lo` and `band_hi`, time by time, with what else ambit_cut_band has. */
 typedef struct settings {
   uint32_t threads, pieces;
   bool dense, last, silent;
   double patience, due, reach;
   size_t ncut;
   const ambit_cut *cut;
+  size_t nband;
+  ambit_cut_band band;
 } settings;
 
 static settings read_settings(lua_State *L, int idx) {
@@ -59,6 +62,11 @@ static settings read_settings(lua_State *L, int idx) {
   static const ambit_lua_field field[] = { ONE(threads, AMBIT_LUA_COUNT), ONE(pieces, AMBIT_LUA_COUNT),
     ONE(dense, AMBIT_LUA_FLAG), ONE(last, AMBIT_LUA_FLAG), ONE(silent, AMBIT_LUA_FLAG), ONE(patience, AMBIT_LUA_NUMBER),
     ONE(due, AMBIT_LUA_NUMBER), ONE(reach, AMBIT_LUA_NUMBER),
+    AMBIT_LUA_LIST(settings, "band_lo", AMBIT_LUA_NUMBERS, 0, band.lo, nband),
+    AMBIT_LUA_LIST(settings, "band_hi", AMBIT_LUA_NUMBERS, AMBIT_LUA_SAME, band.hi, nband),
+    AMBIT_LUA_ONE(settings, "band_runs", AMBIT_LUA_COUNT, 0, band.most),
+    AMBIT_LUA_ONE(settings, "band_limit", AMBIT_LUA_NUMBER, 0, band.limit),
+    AMBIT_LUA_ONE(settings, "band_seconds", AMBIT_LUA_NUMBER, 0, band.seconds),
     { "cuts", AMBIT_LUA_ROWS, 0, offsetof(settings, cut), offsetof(settings, ncut), &cuts } };
 #undef ONE
   static const ambit_lua_fields fields = AMBIT_LUA_FIELDS(settings, field);
@@ -87,6 +95,11 @@ static int simulate(lua_State *L) {
   /* for events everybody needs the rates */
   ambit_simulate_request q = events ? ambit_lua_read_flow(L, 1, "simulate") : ambit_lua_read_outline(L, 1, "simulate");
   q.threads = w.threads, q.pieces = w.pieces, q.ncut = w.ncut, q.cut = w.cut;
+  if (w.nband) {
+    if (!w.band.hi || w.nband != (q.ntime - 1) * q.system->nx)
+      ambit_lua_error(L, "core.simulate: a band is two numbers for each state and each time behind the first");
+    q.band = &w.band;
+  }
   q.extras = AMBIT_EXTRA_SET | (w.dense ? AMBIT_EXTRA_DENSE : 0);
   uint32_t keep = (w.dense ? AMBIT_TRACK_DENSE : 0) | (w.last ? AMBIT_TRACK_LAST : 0);
   ambit_receiver to = ambit_receiver_push(L, q.system->nx, q.system->name, keep);

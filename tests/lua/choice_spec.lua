@@ -237,8 +237,10 @@ describe("a run of the solver that suits", function()
     local clock, due, cpu, simulate = 0, nil, core.cpu, core.simulate
     core.cpu = function() return clock end -- luacheck: ignore
     core.simulate = function(flow, watch, options) -- luacheck: ignore
-      if options.pieces == 8 then due = options.due end
-      local track, facts, report = simulate(flow, watch, { silent = true, pieces = options.pieces })
+      due = options.band_seconds or due
+      local own = { silent = true }
+      for _, key in ipairs { "lo", "hi", "runs", "limit" } do own["band_" .. key] = options["band_" .. key] end
+      local track, facts, report = simulate(flow, watch, own)
       clock, facts.cpu_seconds = clock + 3, 3
       if flow.solver == "valencia" then facts.status, facts.code, facts.t_reached = "unable", "unable.step", 0 end
       return track, facts, report
@@ -246,9 +248,11 @@ describe("a run of the solver that suits", function()
     local good, run = pcall(with_lohner_first, { system, initial = initial, t = { 0, 1 } }, "valencia")
     core.cpu, core.simulate = cpu, simulate
     assert(good, run)
-    assert.equal(24, due) -- half of 4 times 4 times 3 s
+    assert.equal(72, due) -- 6 times 4 times 3 s
     assert.equal("complete", run.status)
-    assert.is_true(run.overestimate < 2, run.overestimate) -- whole more than that
+    assert.is_true(run.overestimate <= 1.5, run.overestimate) -- whole more than 2
+    assert.is_true(run.pieces > 1 and run.pieces < 200)
+    assert.equal(run.pieces, run.tried[#run.tried].pieces)
   end)
 
   it("goes on with the first, as long as it is steady, where that was slow and nobody got further", function()
@@ -260,7 +264,7 @@ describe("a run of the solver that suits", function()
       if n == 1 then flow.times = { 0, 0.01 } end
       local track, facts, report = simulate(flow, watch, options)
       if n == 1 then
-        facts.status, facts.code, facts.reason, facts.cpu_seconds = "unable", "unable.short_steps", "made to", 60
+        facts.status, facts.code, facts.reason, facts.cpu_seconds = "unable", "unable.short-steps", "made to", 60
       end
       if flow.solver == "valencia" or options.pieces then
         facts.status, facts.code, facts.reason, facts.t_reached = "unable", "unable.step", "made to", 0

@@ -1,5 +1,8 @@
 -- `split`, `threads` and `keep`: uncertain data cut into pieces, whose union does not depend on how many threads work.
 local ambit = require "ambit"
+local core = require "ambit.core"
+local flow = require "ambit.run.flow"
+local simulate = require "ambit.simulate"
 
 local function message(t)
   local good, problem = pcall(ambit.simulate, t)
@@ -37,6 +40,32 @@ describe("split", function()
     end
     local tube = cut:at(0.5).x -- between the instants of the list
     for x0 = 1, 3, 0.25 do assert.is_true(tube:contains(exact(x0, 0.75, 0.5))) end
+  end)
+
+  it("cuts where sets reach beyond a band, and nowhere else", function()
+    local q = simulate.request(copy(question, {}), "simulate", nil, {})
+    local lo, hi = { exact(1, 1, 1), exact(1, 1, 2) }, { exact(3, 0.5, 1), exact(3, 0.5, 2) }
+    local first
+    for _, threads in ipairs { 1, 2, 3 } do
+      local track, facts = core.simulate(flow(q), nil, { silent = true, threads = threads, band_lo = lo, band_hi = hi,
+        band_runs = 400, band_limit = 0.005 })
+      assert.equal("complete", facts.status)
+      assert.is_true(facts.pieces > 8 and facts.pieces < 64, facts.pieces) -- a grid of 64 is as tight
+      local bits = { facts.pieces }
+      for k = 1, 2 do
+        local x, tube = core.track_value(track, k, 1), core.track_value(track, k, 1, true)
+        local width = hi[k] - lo[k]
+        assert.is_true(x.lo <= lo[k] and x.lo >= lo[k] - 0.005 * width)
+        assert.is_true(x.hi >= hi[k] and x.hi <= hi[k] + 0.005 * width)
+        assert.is_true(tube.lo <= exact(1, 1, k) and tube.hi >= exact(3, 0.5, k - 1))
+        bits[#bits + 1] = ("%a %a %a %a"):format(x.lo, x.hi, tube.lo, tube.hi)
+      end
+      first = first or bits
+      assert.same(first, bits)
+    end
+    assert.has_error(function()
+      core.simulate(flow(q), nil, { band_lo = { 0 }, band_hi = { 1 }, band_runs = 4, band_limit = 1 })
+    end)
   end)
 
   it("does not depend on the number of threads", function()

@@ -3,6 +3,8 @@
 #include "verbs/split/split.h"
 #include "graph/tape.h"
 #include "verbs/simulate/problem.h"
+#include <ambit/code.h>
+#include <math.h>
 #include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -36,6 +38,7 @@ typedef struct mischief {
   long sleep_us;                  /* per step, times a number that depends on the piece */
   double fail_at[64], open_fails; /* time from which the piece by its least x fails; x whose open() is INVALID */
   bool skips, no_tube, domain, domain_everywhere, signed_zero;
+  double top; /* not 0: x is known within an eighth of the piece's width in x, y is -(x - top)^2 */
   _Atomic uint32_t shared;
 } mischief;
 
@@ -61,11 +64,22 @@ static ambit_status walk_open(const ambit_host *h, const ambit_problem *p, const
   return AMBIT_OK;
 }
 
+/* The set of a piece as wide as it is in x: x, and the range of -(x - top)^2. */
+static void spread(walker *w) {
+  double a = w->p.x0_lo[0], b = w->p.x0_hi[0], off = (b - a) / 8, top = behaviour.top;
+  w->lo[0] = a - off, w->hi[0] = b + off;
+  w->lo[1] = -fmax((a - top) * (a - top), (b - top) * (b - top));
+  w->hi[1] = a <= top && top <= b ? 0 : -fmin((a - top) * (a - top), (b - top) * (b - top));
+}
+
 static int32_t walk_step(walker *w, ambit_sink *s, double from, double to) {
   double tube_lo[NX], tube_hi[NX];
   for (int i = 0; i < NX; i++) {
     w->lo[i] = w->p.x0_lo[i] - to;
     w->hi[i] = w->p.x0_hi[i] + to;
+  }
+  if (behaviour.top != 0) spread(w);
+  for (int i = 0; i < NX; i++) {
     tube_lo[i] = w->lo[i] - 1;
     tube_hi[i] = w->hi[i] + 1;
   }
@@ -219,11 +233,34 @@ static outcome *play(stage *g, uint32_t threads, uint32_t x_parts, uint32_t y_pa
   };
   static const char *const unknown[] = { "x", NULL };
   ambit_split s = { &g->problem, g->start, &pieces, unknown, g->registry, &walking, "walking", NULL, threads, context,
-    &o->heard.sink };
+    &o->heard.sink, NULL };
   o->returned = ambit_split_run(&s, g->arena, &o->split, &o->failure);
   assert_false(o->heard.strange);
   assert_int_equal(behaviour.shared, 0);
   assert_int_equal(o->split.threads, threads);
+  return o;
+}
+
+/* Cut where x reaches beyond [0, 8] by more than a 64th of that. */
+static outcome *refine(stage *g, uint32_t threads, uint32_t most, double seconds, bool stop) {
+  static _Atomic uint32_t inside[THREADS_MAX];
+  static const double lo[NX * (NTIME - 1)] = { 0 };
+  static const double hi[NX * (NTIME - 1)] = { [NX * (NTIME - 2)] = 8 }; /* at the end, and nothing else counts */
+  ambit_context context[THREADS_MAX] = { 0 };
+  for (int i = 0; i < THREADS_MAX; i++) context[i].ctx = &inside[i];
+  const uint32_t parts[NX] = { 1, 1 };
+  ambit_pieces pieces;
+  outcome *o = calloc(1, sizeof *o);
+  assert_int_equal(
+      ambit_pieces_cut(g->arena, NX, g->problem.u_lo, g->problem.u_hi, parts, &pieces, &o->failure), AMBIT_OK);
+  o->heard = (listener) { .sink = { sizeof(ambit_sink), hear, hear_progress }, .thread = pthread_self(), .stop = stop };
+  static const char *const unknown[] = { "x", NULL };
+  const ambit_cut_band band = { most, 1.0 / 64, seconds, lo, hi };
+  ambit_split s = { &g->problem, g->start, &pieces, unknown, g->registry, &walking, "walking", NULL, threads, context,
+    &o->heard.sink, &band };
+  o->returned = ambit_split_run(&s, g->arena, &o->split, &o->failure);
+  assert_false(o->heard.strange);
+  assert_int_equal(behaviour.shared, 0);
   return o;
 }
 
@@ -400,12 +437,92 @@ static void stops_within_a_fifth_of_a_second(void **state) {
     ambit_pieces_cut(g.arena, NX, g.problem.u_lo, g.problem.u_hi, parts, &pieces, &f);
     static const char *const unknown[] = { "x", NULL };
     ambit_split s = { &g.problem, g.start, &pieces, unknown, g.registry, &walking, "walking", NULL, threads, context,
-      &l.sink };
+      &l.sink, NULL };
     double start = now();
     assert_int_equal(ambit_split_run(&s, g.arena, &out, &f), AMBIT_OK);
     assert_int_equal(out.said, AMBIT_STOPPED);
     assert_true(now() - start < 0.05 + 0.2 + 0.1); /* the last: a busy machine */
   }
+  close_stage(&g);
+}
+
+/* Only what holds 0 or 8 is too wide: 8 / 2^3 is the first width of which an eighth is at most 8 / 64. No part is lost:
+** the one that holds `top` makes the greatest y. */
+static void cuts_where_sets_are_too_wide(void **state) {
+  (void)state;
+  stage g;
+  open_stage(&g);
+  for (int n = 1; n < 16; n++) {
+    behave((mischief) { .top = 0.5 * n, .sleep_us = n % 4 ? 0 : 100 });
+    outcome *first = NULL;
+    for (uint32_t threads = 1; threads <= 3; threads++) {
+      outcome *o = refine(&g, threads, 100, 0, false);
+      assert_int_equal(o->returned, AMBIT_OK);
+      assert_int_equal(o->split.said, AMBIT_OK);
+      assert_int_equal(o->heard.records, NTIME - 1);
+      const double *end = o->heard.value[NTIME - 2], least = fmax(behaviour.top, 8 - behaviour.top);
+      assert_true(end[0] <= 0 && end[0] >= -0.125 && end[NX] >= 8 && end[NX] <= 8.125);
+      assert_true(end[1] == -least * least && end[NX + 1] == 0);
+      assert_in_range(o->split.pieces, 4, 12); /* a grid that is as fine takes 8 of x, and y need not be cut */
+      if (!first) {
+        first = o;
+        continue;
+      }
+      assert_memory_equal(first->heard.value, o->heard.value, sizeof o->heard.value);
+      assert_int_equal(first->split.pieces, o->split.pieces);
+      free(o);
+    }
+    free(first);
+  }
+  close_stage(&g);
+}
+
+static void parts_that_fail_replace_nothing(void **state) {
+  (void)state;
+  stage g;
+  open_stage(&g);
+  behave((mischief) { .top = 1, .fail_at = { [4] = 4.5, [6] = 2, [7] = 2 } });
+  outcome *o = refine(&g, 2, 100, 0, false);
+  assert_int_equal(o->split.said, AMBIT_OK);
+  assert_int_equal(o->heard.records, NTIME - 1);
+  assert_true(o->heard.value[NTIME - 2][NX] >= 8 && o->heard.value[NTIME - 2][1] == -49);
+  free(o);
+  behave((mischief) { .top = 1, .fail_at = { [0] = 3.6 } }); /* and so does the whole */
+  o = refine(&g, 2, 100, 0, false);
+  assert_int_equal(o->split.said, AMBIT_UNABLE);
+  assert_int_equal(o->heard.records, 3);
+  assert_non_null(strstr(o->split.why.message, "cell 0 ends at 3.5"));
+  free(o);
+  close_stage(&g);
+}
+
+static void a_band_is_kept_to_its_runs_and_its_time(void **state) {
+  (void)state;
+  stage g;
+  open_stage(&g);
+  behave((mischief) { .top = 3 });
+  outcome *o = refine(&g, 1, 21, 0, false); /* the whole, 2 halves for each datum, 4 parts; then no more */
+  assert_int_equal(o->split.said, AMBIT_OK);
+  assert_in_range(o->split.pieces, 2, 4);
+  free(o);
+  o = refine(&g, 1, 2, 0, false);
+  assert_int_equal(o->split.pieces, 1);
+  assert_true(o->heard.value[NTIME - 2][NX] == 9);
+  free(o);
+  o = refine(&g, 1, 100, 1e-9, false);
+  assert_int_equal(o->split.said, AMBIT_UNABLE);
+  assert_non_null(strstr(o->split.why.message, "CPU time"));
+  assert_string_equal(o->split.why.code, AMBIT_CODE_UNABLE_SHORT_STEPS);
+  assert_int_equal(o->heard.records, 0);
+  free(o);
+  o = refine(&g, 2, 100, 0, true);
+  assert_int_equal(o->split.said, AMBIT_STOPPED);
+  free(o);
+  behave((mischief) { .top = 3, .open_fails = 4 });
+  o = refine(&g, 2, 100, 0, false);
+  assert_int_equal(o->returned, AMBIT_INVALID);
+  assert_non_null(strstr(o->failure.message, "(x in [4, 8]): not this piece"));
+  free(o);
   close_stage(&g);
 }
 
@@ -420,6 +537,9 @@ int main(void) {
     cmocka_unit_test(empty_pieces_add_nothing),
     cmocka_unit_test(stops_on_request),
     cmocka_unit_test(stops_within_a_fifth_of_a_second),
+    cmocka_unit_test(cuts_where_sets_are_too_wide),
+    cmocka_unit_test(parts_that_fail_replace_nothing),
+    cmocka_unit_test(a_band_is_kept_to_its_runs_and_its_time),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

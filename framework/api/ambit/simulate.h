@@ -21,11 +21,12 @@ typedef struct ambit_simulate_request {
   const ambit_expr *initial; /* [nx] over unknowns; every state */
   size_t ntime;              /* >= 2 */
   const double *time;
-  uint32_t threads;     /* at most; 0: as many as the machine has for this process */
-  size_t ncut;          /* uncertain data to cut, or names of others */
-  const ambit_cut *cut; /* without cuts and `pieces` the run is one */
-  uint32_t pieces;      /* at most so many by choice of the data to cut; 0: only those of `cut` */
-  uint32_t extras;      /* AMBIT_EXTRA_*: what the sink asks for besides */
+  uint32_t threads;           /* at most; 0: as many as the machine has for this process */
+  size_t ncut;                /* uncertain data to cut, or names of others */
+  const ambit_cut *cut;       /* without cuts and `pieces` the run is one */
+  uint32_t pieces;            /* at most so many by choice of the data to cut; 0: only those of `cut` */
+  const ambit_cut_band *band; /* or NULL: cuts where the sets reach beyond it, and no others but for their names */
+  uint32_t extras;            /* AMBIT_EXTRA_*: what the sink asks for besides */
   /* or NULL: is told, before the first record, the unknowns that sets (ambit_set) are functions of */
   void (*prepared)(void *user, size_t nu, const ambit_expr *unknown);
   void *prepared_user;

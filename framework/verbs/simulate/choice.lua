@@ -14,11 +14,12 @@ local TIGHT = 1.2       -- ... and from what is not, another one can go on
 local PATIENCE = 2      -- s of CPU time after which it is asked whether the end is in reach
 local MORE, LEAST = 4, 8 -- CPU time of all that follows the first run: so many times its own, and at least so many s
 local REACH = 8         -- times what a steady try has taken, that its rest may take for it to go on
-local CUT = 4           -- times that, for the parts of a run that came to the end
+local CUT = 6           -- times that, for the parts of a run that came to the end
 local PART = 0.5        -- of what is left of that: what one try has without question, or one hull of draws
 local AGAIN = 2         -- times what a run took that was stopped for its pace, after which it must be steady
-local TOO_FAR = "unable.short_steps"
+local TOO_FAR = "unable.short-steps"
 local PIECES = { 8, 64 } -- into which the data are cut where every solver fails
+local RUNS = 320        -- of parts of the data, at most, where a solver gets through but is too wide
 local DRAWS, MOST = 8, 128 -- draws of the hull for each datum, and at most
 local VISIBLE = 1e-6    -- width of a hull, in parts of its state, below which it is mostly rounding
 local NEGLIGIBLE = 1e-9 -- the same in parts of the largest state with the same unit: nobody sees a link move 1e-10 rad
@@ -93,9 +94,8 @@ local function hull_of(q, times, unknowns, seconds)
   return inner and inner.failed == 0 and inner or nil
 end
 
--- The largest factor of width by sampled width, of which state, and when; nil: not known.
-local function worst(run, hull)
-  local most, which, when
+-- counts(i, k): does state i count at time k of the hull: is it seen to be wide there?
+local function counted(run, hull)
   local widths, sizes = {}, {}
   for i in ipairs(run.states) do
     widths[i], sizes[i] = 0, 0
@@ -105,13 +105,21 @@ local function worst(run, hull)
     end
   end
   local least = least_widths(run, function(i) return sizes[i] end)
+  return function(i, k)
+    local widest = widths[i]
+    return widest > VISIBLE * sizes[i] and widest > least[i] and hull.hi[i][k] - hull.lo[i][k] >= SHARE * widest
+  end
+end
+
+-- The largest factor of width by sampled width, of which state, and when; nil: not known.
+local function worst(run, hull)
+  local most, which, when
+  local counts = counted(run, hull)
   for i, name in ipairs(run.states) do
-    local widest, size = widths[i], sizes[i]
     for k = 2, #hull.t do
       local step = tight_at(run, hull.t[k])
       local width = hull.hi[i][k] - hull.lo[i][k]
-      local factor = step and widest > VISIBLE * size and widest > least[i] and width >= SHARE * widest
-        and core.track_value(run.track, step, i):width() / width
+      local factor = step and counts(i, k) and core.track_value(run.track, step, i):width() / width
       if factor and (not most or factor > most) then most, which, when = factor, name, hull.t[k] end
     end
   end
@@ -257,13 +265,19 @@ end
 local function try_one(state, try)
   local left, from = try.left or {}, try.from
   record_way(state, try)
-  left.patience = not try.pieces and not try.reach and PATIENCE or nil -- pieces pass the instants late, all at once
-  left.due, left.reach = part_of(state.ends, try.pieces == PIECES[#PIECES]), try.reach or REACH
+  local is_cut = try.pieces or try.band
+  left.patience = not is_cut and not try.reach and PATIENCE or nil -- pieces pass the instants late, all at once
+  if try.band then
+    left.band, try.band.seconds = try.band, part_of(state.ends, true)
+  else
+    left.due, left.reach = part_of(state.ends, try.pieces == PIECES[#PIECES]), try.reach or REACH
+  end
   local run = state.ask(try, left)
   local gained = not from or gains(run, state)
   if from and gained then run = joined(from, run, state.q) end
   local good = gained and judge(run, state.q, state.hull, state.ends)
-  state.tried[#state.tried + 1] = { solver = try.solver, pieces = try.pieces, outcome = describe(run), run = run }
+  local pieces = is_cut and run.pieces or nil
+  state.tried[#state.tried + 1] = { solver = try.solver, pieces = pieces, outcome = describe(run), run = run }
   local better = gained and is_better(run, state.best)
   if better then state.best, state.by = run, try end
   return run, better, good
@@ -299,14 +313,44 @@ local function other_solvers(state)
   end
 end
 
+-- What core.simulate cuts again: parts whose sets are wider than LOOSE allows, half of that on each side of the hull.
+local function band_of(run, hull)
+  local band = { lo = {}, hi = {}, limit = 0.5 * (LOOSE - 1), runs = RUNS }
+  local counts = counted(run, hull)
+  for k = 2, #hull.t do
+    for i in ipairs(run.states) do
+      local lo, hi = hull.lo[i][k], hull.hi[i][k]
+      if not counts(i, k) then lo, hi = 0, 0 end
+      band.lo[#band.lo + 1], band.hi[#band.hi + 1] = lo, hi
+    end
+  end
+  return band
+end
+
+-- The best solver until now, which got through, with the data cut where its sets are too wide.
+local function cut_where_wide(state)
+  local reason = "%s; the data are cut where the sets are too wide whole"
+  local try = { solver = state.by.solver, reason = reason:format(state.by.reason),
+    band = band_of(state.best, state.hull.draws), left = {} }
+  try.band.runs = tonumber(os.getenv "RUNS" or RUNS)
+  return function()
+    local own = try
+    try = nil
+    return own
+  end
+end
+
 -- The best solver until now, with the data that matter most cut.
 local function cut_data(state)
   local i = 0
   state.ends = budget_of_parts(state)
+  if state.q.events then return function() end end
+  local hull = is_through(state.best) and state.hull.draws
+  if hull and #hull.t == #state.q.times then return cut_where_wide(state) end
   return function()
     i = i + 1
     local n = PIECES[i]
-    if state.q.events or not n then return nil end
+    if not n then return nil end
     return { solver = state.by.solver, pieces = n, left = { pieces = n },
       reason = ("%s; the data are cut into %d parts, since whole they get too wide"):format(state.by.reason, n) }
   end
@@ -341,7 +385,7 @@ function choice.solve(q, ask)
     tried = { { solver = first.solver, outcome = describe(first), run = first } } }
   local good = try_all(state, other_solvers(state))
   good = good or first.report.unknowns > 0 and try_all(state, cut_data(state))
-  if not good and state.best.code == TOO_FAR and not state.by.pieces and not state.by.from then
+  if not good and state.best.code == TOO_FAR and not state.by.pieces and not state.by.band and not state.by.from then
     try_all(state, carry_on(state))
   end
   local best = state.best

@@ -27,6 +27,7 @@ typedef struct job {
   ambit_problem problem;
   const ambit_tape *initial; /* x(t0) and p over the unknowns, of a split */
   ambit_split_plan plan;
+  const ambit_cut_band *band; /* of the problem's instants */
   bool splits;
   uint32_t threads, ncontext; /* threads of the run; contexts that are open */
   ambit_context *context;
@@ -37,7 +38,7 @@ typedef struct job {
 } job;
 
 static bool is_split(const ambit_simulate_request *q) {
-  bool cuts = q->pieces > 0;
+  bool cuts = q->pieces > 0 || q->band;
   for (size_t i = 0; i < q->ncut; i++) cuts = cuts || q->cut[i].parts > 0;
   return cuts;
 }
@@ -54,7 +55,7 @@ static ambit_status open_contexts(job *j, uint32_t want, ambit_failure *f) {
   const ambit_problem *p = &j->problem;
   uint32_t nvar = ambit_pair_variables(p, want), n = 1;
   if (j->splits)
-    n = j->threads < j->plan.pieces.count ? j->threads : j->plan.pieces.count;
+    n = q->band || j->threads < j->plan.pieces.count ? j->threads : j->plan.pieces.count;
   else if (want & AMBIT_WANT_WORKERS)
     n = j->threads;
   j->context = ambit_arena_alloc(j->arena, n * sizeof *j->context);
@@ -93,6 +94,10 @@ static ambit_status build(job *j, uint32_t want, uint32_t seal, ambit_failure *f
   ambit_share_note(p->jacobian, "Jacobian", p->nx, p->name);
   if (q->prepared) q->prepared(q->prepared_user, j->problem.nu, unknown);
   if (!j->splits) return AMBIT_OK;
+  if (q->band) {
+    j->band = ambit_split_plan_band(j->arena, q->band, p->nx, q->ntime, ntime);
+    if (!j->band) return ambit_no_memory(f);
+  }
   j->initial = j->problem.initial;
   if (!(want & AMBIT_WANT_INITIAL)) j->problem.initial = NULL;
   return ambit_split_plan_make(&j->problem, j->initial, unknown, q->ncut, q->cut, q->pieces, j->arena, &j->plan, f);
@@ -151,6 +156,7 @@ static void finish(
 
 static ambit_status run_pieces(job *j, ambit_guard *g, ambit_simulate_result *result, ambit_failure *f) {
   ambit_split split = { .problem = &j->problem,
+    .band = j->band,
     .initial = j->initial,
     .pieces = &j->plan.pieces,
     .unknown = j->plan.name,
@@ -169,6 +175,7 @@ static ambit_status run_pieces(job *j, ambit_guard *g, ambit_simulate_result *re
   result->cpu_seconds = ambit_context_seconds() - start;
   result->wall_seconds = wall_seconds() - wall;
   result->threads = outcome.threads;
+  result->pieces = outcome.pieces;
   ambit_work_add(&j->tally.work, &outcome.work);
   if (status == AMBIT_OK) finish(j, g, outcome.said, &outcome.why, result);
   return status;

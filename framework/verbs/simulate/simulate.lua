@@ -210,8 +210,9 @@ local function asking(t, q)
   return function(other, changes)
     local own = other.solver == q.solver and q or q.by(other.solver)
     if next(changes) then own = setmetatable(changes, { __index = own }) end
-    if changes.patience or changes.due then
+    if changes.patience or changes.due or changes.band then
       local more = { patience = changes.patience, due = changes.due, reach = changes.reach, pieces = changes.pieces }
+      for key, value in pairs(changes.band or {}) do more["band_" .. key] = value end
       own.run_options = setmetatable(more, { __index = q.run_options })
     end
     if other.solver ~= q.solver then event.request(t.events, own) end

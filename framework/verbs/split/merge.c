@@ -117,6 +117,64 @@ bool ambit_merge_is_over(ambit_merge *m, uint32_t piece, uint32_t completed) {
   return over;
 }
 
+/* -- of one piece */
+
+const double *ambit_merge_hull(const ambit_merge *m, uint32_t interval) {
+  return m->state[interval].filled ? m->hull + (size_t)interval * 4 * m->nx : NULL;
+}
+
+static bool meets(uint32_t n, const double *lo, const double *hi, const double *other_lo, const double *other_hi) {
+  for (uint32_t i = 0; i < n; i++)
+    if (lo[i] > other_hi[i] || hi[i] < other_lo[i]) return false;
+  return true;
+}
+
+static void intersect(uint32_t n, double *lo, double *hi, const double *other_lo, const double *other_hi) {
+  if (!meets(n, lo, hi, other_lo, other_hi)) return;
+  for (uint32_t i = 0; i < n; i++) {
+    if (other_lo[i] > lo[i]) lo[i] = other_lo[i];
+    if (other_hi[i] < hi[i]) hi[i] = other_hi[i];
+  }
+}
+
+void ambit_merge_narrow(ambit_merge *m, const ambit_merge *larger) {
+  uint32_t nx = m->nx;
+  for (uint32_t k = 0; k < m->count; k++) {
+    if (!m->state[k].filled || !larger->state[k].filled) continue;
+    double *hull = m->hull + (size_t)k * 4 * nx;
+    const double *other = larger->hull + (size_t)k * 4 * nx;
+    intersect(nx, hull, hull + nx, other, other + nx);
+    if (!m->state[k].no_tube && !larger->state[k].no_tube)
+      intersect(nx, hull + 2 * nx, hull + 3 * nx, other + 2 * nx, other + 3 * nx);
+  }
+}
+
+bool ambit_merge_is_complete(const ambit_merge *m) {
+  return m->failed.status == AMBIT_OK && m->arrived == (uint64_t)m->count * m->pieces;
+}
+
+void ambit_merge_join(ambit_merge *m, uint32_t piece, const ambit_merge *own) {
+  uint32_t nx = m->nx;
+  for (uint32_t k = 0; k < m->count; k++) {
+    const interval_state *s = &own->state[k];
+    if (s->arrived == 0) continue;
+    double *hull = own->hull + (size_t)k * 4 * nx;
+    const ambit_merge_part part = { .lo = hull,
+      .hi = hull + nx,
+      .tube_lo = hull + 2 * nx,
+      .tube_hi = hull + 3 * nx,
+      .flags = s->flags,
+      .order = s->order,
+      .has_tube = !s->no_tube };
+    if (s->filled) add(m, k, &part);
+    m->state[k].arrived++;
+    m->arrived++;
+  }
+  if (own->failed.status != AMBIT_OK) ambit_merge_fail(m, piece, own->failed_at, &own->failed);
+  if (!own->nothing) return;
+  if (!m->nothing++) m->nothing_piece = piece, m->why_nothing = own->why_nothing;
+}
+
 /* -- to the sink */
 
 static int32_t forward_one(ambit_merge *m, uint32_t interval, ambit_sink *sink) {

@@ -27,6 +27,16 @@ void ambit_merge_put(ambit_merge *m, uint32_t interval, const ambit_merge_part *
 void ambit_merge_put_nothing(ambit_merge *m, uint32_t piece, uint32_t completed, const ambit_failure *why);
 /* The piece could not go on behind `completed` intervals. */
 void ambit_merge_fail(ambit_merge *m, uint32_t piece, uint32_t completed, const ambit_failure *why);
+/* -- of a merge of one piece that has ended, on one thread */
+
+/* The hull of an interval, lo and hi [nx] each; NULL: it was not completed. */
+const double *ambit_merge_hull(const ambit_merge *m, uint32_t interval);
+/* Intersects it with what the run of a larger piece proved, where both say something and have something in common. */
+void ambit_merge_narrow(ambit_merge *m, const ambit_merge *larger);
+bool ambit_merge_is_complete(const ambit_merge *m); /* it came to the end, or holds no solution */
+/* It becomes piece `piece` of m: its intervals, and its failure. */
+void ambit_merge_join(ambit_merge *m, uint32_t piece, const ambit_merge *own);
+
 /* Nothing that this piece can still do matters: somebody asked to stop, or another piece got less far. */
 bool ambit_merge_is_over(ambit_merge *m, uint32_t piece, uint32_t completed);
 

@@ -121,7 +121,7 @@ static void tell_where(const ambit_piece *p, const char *why, char text[AMBIT_ME
   for (uint32_t j = 0; j < all->nu && used < room; j++) {
     char number[24];
     snprintf(number, sizeof number, "datum %u", j + 1);
-    if (all->parts[j] < 2) continue;
+    if (p->u_lo[j] == p->split->problem->u_lo[j] && p->u_hi[j] == p->split->problem->u_hi[j]) continue;
     const char *name = p->split->unknown[j] ? p->split->unknown[j] : number;
     ambit_interval x = range_of(p, j);
     used += (size_t)snprintf(text + used, room - used, "%s%s in [%.9g, %.9g]", separator, name, x.lo, x.hi);

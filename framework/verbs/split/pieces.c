@@ -1,6 +1,7 @@
 /* pieces.c -- the grid of a split. */
 #include "verbs/split/pieces.h"
 #include <stdbool.h>
+#include <string.h>
 
 /* In floating point the parts are equal but for rounding, which does not matter: an edge belongs to both sides. */
 static double edge_at(double lo, double hi, uint32_t i, uint32_t n) {
@@ -45,6 +46,12 @@ ambit_status ambit_pieces_cut(ambit_arena *arena, uint32_t nu, const double *lo,
 }
 
 void ambit_pieces_range(const ambit_pieces *p, uint32_t item, double *lo, double *hi) {
+  if (p->box) {
+    const double *own = p->box + (size_t)item * 2 * p->nu;
+    memcpy(lo, own, p->nu * sizeof *lo);
+    memcpy(hi, own + p->nu, p->nu * sizeof *hi);
+    return;
+  }
   for (uint32_t j = p->nu; j-- > 0;) {
     uint32_t i = item % p->parts[j];
     item /= p->parts[j];

@@ -13,6 +13,7 @@ typedef struct ambit_pieces {
   uint32_t nu, count;
   const uint32_t *parts;     /* [nu] */
   const double *const *edge; /* [nu][parts + 1] ascending */
+  const double *box;         /* or, instead of a grid, any boxes: [count][2 nu], lo and hi */
 } ambit_pieces;
 
 /* Cuts the range of each unknown into parts[j] >= 1 equal parts, or into fewer where there are not so many doubles
@@ -20,7 +21,7 @@ typedef struct ambit_pieces {
 ambit_status ambit_pieces_cut(ambit_arena *arena, uint32_t nu, const double *lo, const double *hi,
     const uint32_t *parts, ambit_pieces *p, ambit_failure *f);
 
-/* The ranges of piece `item` < count; the last unknown varies fastest. */
+/* The ranges of piece `item` < count; in a grid the last unknown varies fastest. */
 void ambit_pieces_range(const ambit_pieces *p, uint32_t item, double *lo, double *hi);
 
 /* Deals at most `total` pieces out to the unknowns with parts[j] == 0, those with parts[j] > 0 being fixed: always one

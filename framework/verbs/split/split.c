@@ -4,6 +4,7 @@
 #include "verbs/run/allocation.h"
 #include "verbs/split/merge.h"
 #include "verbs/split/piece.h"
+#include "verbs/split/refine.h"
 #include <stdio.h>
 
 typedef struct job {
@@ -37,8 +38,9 @@ static ambit_status make_pieces(job *j, ambit_arena *arena) {
 }
 
 ambit_status ambit_split_run(const ambit_split *s, ambit_arena *arena, ambit_split_outcome *out, ambit_failure *f) {
+  if (s->band) return ambit_refine_run(s, arena, out, f);
   job j = { .s = s };
-  *out = (ambit_split_outcome) { 0 };
+  *out = (ambit_split_outcome) { .pieces = s->pieces->count };
   ambit_pool *pool = NULL;
   ambit_status status = ambit_merge_open(arena, s->problem, s->pieces->count, &j.merge);
   if (status == AMBIT_OK) status = make_pieces(&j, arena);

@@ -13,6 +13,7 @@
 #define AMBIT_SPLIT_H
 #include "verbs/run/context.h"
 #include "verbs/split/pieces.h"
+#include <ambit/cut.h>
 
 typedef struct ambit_split {
   const ambit_problem *problem; /* of the whole box */
@@ -23,14 +24,16 @@ typedef struct ambit_split {
   const ambit_solver *solver;
   const char *solver_name;
   const double *option;
-  uint32_t ncontext;      /* threads */
-  ambit_context *context; /* [ncontext]; renewed for each piece, whatever it keeps (noise symbols) */
-  ambit_sink *sink;       /* its functions are called on the caller's thread, in the order of time */
+  uint32_t ncontext;          /* threads */
+  ambit_context *context;     /* [ncontext]; renewed for each piece, whatever it keeps (noise symbols) */
+  ambit_sink *sink;           /* its functions are called on the caller's thread, in the order of time */
+  const ambit_cut_band *band; /* or NULL; else of the intervals of the problem, and pieces is one */
 } ambit_split;
 
 typedef struct ambit_split_outcome {
   ambit_status said; /* OK, or what the piece that got least far said */
   uint32_t threads;  /* that worked: fewer than asked for where the system refuses them */
+  uint32_t pieces;
   ambit_work work;   /* of the scopes of all pieces */
   ambit_failure why; /* which piece, its data, its own reason */
 } ambit_split_outcome;

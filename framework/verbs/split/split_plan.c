@@ -2,6 +2,7 @@
 #include "verbs/split/split_plan.h"
 #include "verbs/split/probe.h"
 #include <stdbool.h>
+#include <string.h>
 
 #define INTERVALS 64
 
@@ -22,6 +23,21 @@ const double *ambit_split_plan_instants(ambit_arena *arena, const double *time, 
   if (!is_ascending(t, INTERVALS + 1)) return time; /* not so many doubles in between, or times that make no sense */
   *n = INTERVALS + 1;
   return t;
+}
+
+const ambit_cut_band *ambit_split_plan_band(
+    ambit_arena *arena, const ambit_cut_band *band, uint32_t nx, size_t given, size_t now) {
+  if (given == now) return band;
+  size_t before = (now - given) * nx, n = (given - 1) * nx; /* of two instants, the last is now the last of many */
+  ambit_cut_band *own = ambit_arena_alloc(arena, sizeof *own);
+  double *lo = ambit_arena_alloc(arena, 2 * (before + n) * sizeof *lo), *hi = lo + before + n;
+  if (!own || !lo) return NULL;
+  memset(lo, 0, 2 * (before + n) * sizeof *lo); /* what has no width does not count */
+  memcpy(lo + before, band->lo, n * sizeof *lo);
+  memcpy(hi + before, band->hi, n * sizeof *hi);
+  *own = *band;
+  own->lo = lo, own->hi = hi;
+  return own;
 }
 
 static ambit_status read_cuts(const ambit_problem *p, const ambit_expr *unknown, size_t ncut, const ambit_cut *cut,

@@ -19,4 +19,7 @@ ambit_status ambit_split_plan_make(const ambit_problem *p, const ambit_tape *ini
 /* The instants of a run whose pieces are to be merged: the given ones, or, if only a start and an end are given, these
 ** and equal intervals between them, so that the tubes say something. n is changed; NULL: out of memory. */
 const double *ambit_split_plan_instants(ambit_arena *arena, const double *time, size_t *n);
+/* A band for the given instants as one for those of the run, `now` in number; NULL: out of memory. */
+const ambit_cut_band *ambit_split_plan_band(
+    ambit_arena *arena, const ambit_cut_band *band, uint32_t nx, size_t given, size_t now);
 #endif
