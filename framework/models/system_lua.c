@@ -5,6 +5,7 @@
 #include "graph/tape.h"
 #include "script/request.h"
 #include "verbs/run/unknowns.h"
+#include <math.h>
 #include <string.h>
 
 static void mark(ambit_holder *holder, ambit_graph *g) {
@@ -98,6 +99,25 @@ static void add_implicit(lua_State *L, ambit_lua_system *s) {
   lua_setiuservalue(L, 11, 1);
 }
 
+/* least and most of all states, infinite; false: no memory */
+static bool open_bounds(ambit_lua_system *s, double **least, double **most) {
+  size_t n = s->system.nx;
+  *least = ambit_arena_alloc(s->arena, n * sizeof **least), *most = ambit_arena_alloc(s->arena, n * sizeof **most);
+  for (size_t i = 0; *least && *most && i < n; i++) (*least)[i] = -INFINITY, (*most)[i] = INFINITY;
+  return *least && *most;
+}
+
+/* those of the system that this one is with further states */
+static void inherit_bounds(lua_State *L, ambit_lua_system *s) {
+  if (lua_isnoneornil(L, 7)) return;
+  const ambit_system *of = &ambit_lua_check_outline(L, 7)->system;
+  double *least, *most;
+  if (!of->least) return;
+  if (!open_bounds(s, &least, &most)) ambit_lua_error(L, "out of memory");
+  memcpy(least, of->least, of->nx * sizeof *least), memcpy(most, of->most, of->nx * sizeof *most);
+  s->system.least = least, s->system.most = most;
+}
+
 /* system({name}, {unit}, {state}, {rate} [, {invariant}, {name} [, system, {leaf}, {value}, {g}]]): the last four: it
 ** is that system with values for leaves, and with further states g */
 static int system_new(lua_State *L) {
@@ -121,8 +141,25 @@ static int system_new(lua_State *L) {
   };
   add_invariants(L, s);
   add_implicit(L, s);
+  inherit_bounds(L, s);
   lua_settop(L, 11);
   return 1;
+}
+
+/* system_bound(system, {enclosure}): of its solutions only those are meant whose states stay within these */
+static int system_bound(lua_State *L) {
+  ambit_lua_system *s = ambit_lua_check_outline(L, 1);
+  double *least, *most;
+  luaL_argcheck(L, (size_t)luaL_len(L, 2) == s->system.nx, 2, "does not fit");
+  if (!open_bounds(s, &least, &most)) ambit_lua_error(L, "out of memory");
+  for (size_t i = 0; i < s->system.nx; i++) {
+    lua_rawgeti(L, 2, (lua_Integer)i + 1);
+    ambit_interval x = ambit_lua_to_enclosure(L, -1, "bounds of a state").x;
+    least[i] = x.lo, most[i] = x.hi;
+    lua_pop(L, 1);
+  }
+  s->system.least = least, s->system.most = most;
+  return 0;
 }
 
 /* system_jump(system, period, first, {expression}): its states become these, every period from `first` on */
@@ -325,9 +362,10 @@ static int system_rates(lua_State *L) {
 void ambit_lua_open_system(lua_State *L, ambit_lua *core) {
   static const luaL_Reg meta[] = { { "__gc", close }, { NULL, NULL } };
   static const luaL_Reg functions[] = { { "system", system_new }, { "system_parts", system_parts },
-    { "system_right", system_right }, { "system_jump", system_jump }, { "system_jumps", system_jumps },
-    { "system_invariants", system_invariants }, { "system_implicit", system_implicit },
-    { "system_give_implicit", system_give_implicit }, { "system_rates", system_rates }, { NULL, NULL } };
+    { "system_right", system_right }, { "system_jump", system_jump }, { "system_bound", system_bound },
+    { "system_jumps", system_jumps }, { "system_invariants", system_invariants },
+    { "system_implicit", system_implicit }, { "system_give_implicit", system_give_implicit },
+    { "system_rates", system_rates }, { NULL, NULL } };
   ambit_lua_set_functions(L, core, functions);
   ambit_lua_new_type(L, core, AMBIT_TYPE_SYSTEM, meta);
   lua_pop(L, 1);

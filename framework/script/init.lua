@@ -15,6 +15,7 @@ local ambit = {
   load = later("robot.load", "load"),
   chain = later("chain", "new"),
   ode = later("ode", "new"),
+  varying = later("varying", "new"),
   sampled = later("sampled", "new"),
   network = later("network", "new"),
   lookup = later("network", "lookup"),
@@ -47,7 +48,7 @@ local ambit = {
 
 -- data, and functions that work on numbers, texts, expressions and enclosures alike
 for _, name in ipairs {
-  "around", "between", "varying", "interval", "derivative", "simplify",
+  "around", "between", "interval", "derivative", "simplify",
   "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh",
   "exp", "log", "sqrt", "sqr", "pow", "abs", "min", "max",
 } do

@@ -1,6 +1,6 @@
 -- varying.lua -- what varies in time: reach by the exact one, and what a robot under it takes.
 --
---   ambit run scripts/bench/varying.lua [damped|undamped|robot ...]
+--   ambit run scripts/bench/varying.lua [damped|undamped|slow|robot ...]
 --
 -- robot, which takes minutes, only if it is named.
 package.path = (arg[0]:match ".*/" or "./") .. "?.lua;" .. package.path
@@ -38,6 +38,38 @@ local function by_exact(damping, most, t, limit)
     bench.number(factor)), ("%s times"):format(limit), run.status == "complete" and factor >= 1 - 1e-12 and factor < limit
 end
 
+-- The highest integral of sin(t - s) d(s) over [0, t] with |d| <= 1 and |d'| <= rate, by dynamic programming over d in
+-- steps of rate h: less than the true one by what the steps leave.
+local function exact_slow(rate, t)
+  local cells = 800
+  local h = 2 / cells / rate
+  local n = math.floor(t / h)
+  local value = {}
+  for j = 0, cells do value[j] = 0 end
+  for k = 1, n do
+    local now, weight = {}, math.sin(t - (k - 0.5) * h) * h
+    for j = 0, cells do
+      local best = math.max(value[j], value[j - 1] or -math.huge, value[j + 1] or -math.huge)
+      now[j] = best + weight * (2 * j / cells - 1)
+    end
+    value = now
+  end
+  return math.max(table.unpack(value, 0, cells))
+end
+
+local function by_rate(rate, t, limit)
+  local push = ambit.varying(-1, 1, { rate = rate })
+  local system = ambit.ode { states = { "x", "v" }, equations = function(s) return { x = s.v, v = -s.x + push } end }
+  local request = { system, initial = { x = 0, v = 0 }, t = { 0, t } }
+  local run, reach = ambit.simulate(request), exact_slow(tonumber(rate), t)
+  request.n = 1000
+  local drawn = ambit.sample(request)
+  local factor = run.x.x.hi / reach
+  return run, ("reach %s, exact %s: %s times; samples to %s"):format(bench.number(run.x.x.hi), bench.number(reach),
+    bench.number(factor), bench.number(drawn.x.x.hi)), ("%s times"):format(limit),
+    run.status == "complete" and run.x.x.hi >= reach and drawn.x.x.hi <= run.x.x.hi and factor < limit
+end
+
 local function robot()
   local arm = ambit.load { folder .. "robots/ur5.urdf", gravity = { 0, 0, "-9.81" } }
   local joints = { "shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3" }
@@ -59,6 +91,8 @@ end
 local cases = {
   { "damped", "x'' = -x - 0.2 x' + d, d in [-0.1, 0.1], 60 s", function() return by_exact(0.2, "0.1", 60, 1.02) end },
   { "undamped", "x'' = -x + d, d in [-1, 1], 20 s", function() return by_exact(0, "1", 20, 1.05) end },
+  { "slow", "the same, d' in [-0.1, 0.1]", function() return by_rate("0.1", 20, 1.25) end },
+  { "slow", "the same, 60 s", function() return by_rate("0.1", 60, 1.25) end },
   { "robot", "UR5 under PD, 2 s: torques vary by 2 %, sensors by 1 mrad", robot },
 }
 

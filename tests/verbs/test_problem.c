@@ -38,7 +38,8 @@ static void open_scene(scene *s) {
   s->invariant[0] = op(s, AMBIT_OP_SUB, product, op(s, AMBIT_OP_MUL, b, ambit_graph_time(s->graph)));
   ambit_expr size = op(s, AMBIT_OP_ABS, s->state[0], s->state[0]);
   s->invariant[1] = op(s, AMBIT_OP_SUB, size, ambit_graph_number(s->graph, 1));
-  s->system = (ambit_system) { s->graph, 2, name, unit, s->state, s->rate, 1, s->invariant, row, NULL, 0, NULL };
+  s->system =
+      (ambit_system) { s->graph, 2, name, unit, s->state, s->rate, 1, s->invariant, row, NULL, 0, NULL, NULL, NULL };
 }
 
 static void close_scene(scene *s) {

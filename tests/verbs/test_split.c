@@ -194,7 +194,8 @@ static void open_stage(stage *g) {
     g->initial[i] = ambit_graph_unknown(g->graph, NULL, (ambit_interval) { 0, i == 0 ? 8 : 3 });
     g->rate[i] = ambit_graph_number(g->graph, 0);
   }
-  g->system = (ambit_system) { g->graph, NX, names, units, g->state, g->rate, 0, NULL, NULL, NULL, 0, NULL };
+  g->system =
+      (ambit_system) { g->graph, NX, names, units, g->state, g->rate, 0, NULL, NULL, NULL, 0, NULL, NULL, NULL };
   ambit_problem_request q = { .system = &g->system,
     .initial = g->initial,
     .ntime = NTIME,

@@ -31,7 +31,8 @@ static void open_growth(growth *g) {
   g->rate[1] = ambit_graph_op(g->graph, AMBIT_OP_NEG, g->state[0], g->state[0]);
   g->initial[0] = g->x0;
   g->initial[1] = g->x0; /* shared: x and y start as one */
-  g->system = (ambit_system) { g->graph, NX, names, units, g->state, g->rate, 0, NULL, NULL, NULL, 0, NULL };
+  g->system =
+      (ambit_system) { g->graph, NX, names, units, g->state, g->rate, 0, NULL, NULL, NULL, 0, NULL, NULL, NULL };
 }
 
 static void close_growth(growth *g) {

@@ -19,7 +19,7 @@ static const char *const names[] = { "x", "y" }, *const units[] = { "1", "1" };
 static void open_stage(stage *s, size_t nx) {
   *s = (stage) { .g = ambit_graph_open() };
   for (size_t i = 0; i < nx; i++) s->state[i] = ambit_graph_symbol(s->g, names[i], units[i]);
-  s->system = (ambit_system) { s->g, nx, names, units, s->state, s->rate, 0, NULL, NULL, NULL, 0, NULL };
+  s->system = (ambit_system) { s->g, nx, names, units, s->state, s->rate, 0, NULL, NULL, NULL, 0, NULL, NULL, NULL };
 }
 
 static ambit_expr number(stage *s, double x) { return ambit_graph_number(s->g, x); }

@@ -57,6 +57,8 @@ typedef struct ambit_system {
   ambit_system_source *source;
   size_t njump;
   const ambit_jump *jump; /* those of one instant in this order */
+  /* [nx] only solutions are meant of which each state stays within these bounds at all times; NULL: all */
+  const double *least, *most;
 } ambit_system;
 
 /* *rate := the right-hand sides, [nx]. */

@@ -442,6 +442,17 @@ static ambit_status seal_wanted(build *b) {
   return status;
 }
 
+static bool copy_bounds(build *b) {
+  const ambit_system *s = b->q->system;
+  if (!s->least) return true;
+  size_t size = s->nx * sizeof(double);
+  double *least = ambit_arena_alloc(b->arena, size), *most = ambit_arena_alloc(b->arena, size);
+  if (!least || !most) return false;
+  memcpy(least, s->least, size), memcpy(most, s->most, size);
+  b->p->x_least = least, b->p->x_most = most;
+  return true;
+}
+
 ambit_status ambit_problem_build(
     const ambit_problem_request *q, ambit_arena *arena, ambit_problem *p, ambit_failure *f) {
   *p = (ambit_problem) { .size = sizeof *p, .nx = (uint32_t)q->system->nx, .ntime = (uint32_t)q->ntime };
@@ -458,5 +469,5 @@ ambit_status ambit_problem_build(
   if (!time) return ambit_no_memory(f);
   memcpy(time, q->time, q->ntime * sizeof *time);
   p->time = time;
-  return AMBIT_OK;
+  return copy_bounds(&b) ? AMBIT_OK : ambit_no_memory(f);
 }

@@ -20,6 +20,8 @@ local verb = {}
 
 local MOST_THREADS = 256
 
+-- What follows solutions without asking for more: functions of time whose rate is bounded are states there.
+local carries = { simulate = true, verify = true }
 local takes_sampled = { simulate = true, verify = true, sample = true }
 
 -- The system that the verb's table starts with; a mechanism stands for its equations of motion.
@@ -102,6 +104,8 @@ function verb.request(t, what, default_solver, own_keys)
     q.arithmetic, q.arithmetic_options = option.arithmetic(t.arithmetic, what .. ": arithmetic")
   end
   if t.solver ~= nil then q.solver = check.text(t.solver, what .. ": solver") else q.solver = default_solver or nil end
+  local varying = package.loaded["ambit.varying"] -- before that, nothing varies at a known rate
+  if varying and carries[what] then q.system = varying.carried(q.system) end
   local fitting
   if q.solver then
     check_options(t, q, known, what)
@@ -115,7 +119,9 @@ function verb.request(t, what, default_solver, own_keys)
     end
   end
   local sides = q.system.sampled and require "ambit.run.samples".sides(q.system)
-  q.initial, q.times = verb.initial(t.initial, q.system, what), instant.list(t.t, what .. ": t", sides)
+  q.initial = verb.initial(varying and varying.initial(t.initial, q.system) or t.initial, q.system, what)
+  if varying then varying.check_starts(q.initial, q.system, what) end
+  q.times = instant.list(t.t, what .. ": t", sides)
   q.initial = assemble_data.correlate(q.initial, t.initial, q.system, q.times)
   if q.system.sampled and q.times.shift then
     check.fail("%s: t: the start of a sampled system: expected a number that is a double, got %s", what,

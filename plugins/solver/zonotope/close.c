@@ -9,6 +9,7 @@
 #include "modes.h"
 #include "proof.h"
 #include "quartic.h"
+#include "strip.h"
 #include "vary.h"
 
 #define FEW 4 /* columns for each state, beside discs */
@@ -195,7 +196,7 @@ static void settle(zono *z, uint32_t n) {
   const proof *p = z->proof;
   const shape *s = &z->shape;
   quartic_finish(z);
-  reduce(z, n);
+  reduce(z, strip_all(z, n));
   for (uint32_t i = 0; i < z->nx; i++) {
     double *to = z->P + (size_t)i * s->stride;
     row_copy(s, to, p->end + (size_t)i * s->stride);

@@ -7,6 +7,7 @@
 #include "modes.h"
 #include "quartic.h"
 #include "residual.h"
+#include "strip.h"
 
 static int doubles(const ambit_host *h, size_t n, double **to) {
   *to = h->alloc(h, (n ? n : 1) * sizeof(double));
@@ -99,7 +100,7 @@ static int open_states(zono *z) {
   proof *p = z->proof;
   const ambit_host *h = z->host;
   size_t nx = z->nx, square = nx * nx, lumps = 2 * ((size_t)z->nslot + z->nout + z->na + nx), jumps = jump_columns(z),
-         columns = z->ngen_max + (lumps > jumps ? lumps : jumps) + nx + 6 * (size_t)z->shape.m;
+         columns = z->ngen_max + (lumps > jumps ? lumps : jumps) + nx + 6 * (size_t)z->shape.m + strip_columns(z);
   double **matrix[] = { &p->J, &p->dJ, &p->mean, &p->tilt, &p->reach, &p->wobble, &p->power, &p->power_new, &p->size,
     &p->size_new, &p->jacobian_size };
   for (size_t n = 0; n < sizeof matrix / sizeof *matrix; n++)
@@ -121,7 +122,7 @@ int zono_open_proof(zono *z) {
   proof *p = z->proof = z->host->alloc(z->host, sizeof *p);
   if (!p || !open_slots(z) || !open_targets(z) || !open_states(z)) return 0;
   if (!quartic_open(z) || !depend_open(z) || !change_open(z) || !residual_open(z) || !modes_open(z) || !cycle_open(z) ||
-      !basis_open(z))
+      !basis_open(z) || !strip_open(z))
     return 0;
   slope_open(p);
   if ((z->problem.extras & AMBIT_EXTRA_DENSE) && z->nx && !dense_open(z)) return 0;

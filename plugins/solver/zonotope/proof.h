@@ -96,6 +96,7 @@ typedef struct proof {
   struct residual *residual;  /* residual.c */
   double *late;               /* [nslot] what of z->r is FROM_TIME */
   double *range;              /* [2 m] */
+  double *gain;               /* [2 nx] strip.c */
   /* records */
   double *dense_mid, *dense_rad, *dense_column;
   ambit_set set;

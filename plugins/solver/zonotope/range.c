@@ -5,6 +5,7 @@
 ** square terms of each datum exactly, terms of two data by size. Terms of degree 3 by size throughout.
 */
 #include "proof.h"
+#include "strip.h"
 
 /* coefficient of xi_i xi_j */
 static double pair_of(const shape *s, const double *x, uint32_t i, uint32_t j) {
@@ -57,6 +58,7 @@ void zono_hull(zono *z) {
     z->lo[i] = -highest(s, x, -1, l, is_free) - rest;
     z->hi[i] = highest(s, x, 1, l, is_free) + rest;
   }
+  strip_within(z, z->lo, z->hi);
 }
 
 void zono_tube(zono *z) {
@@ -69,4 +71,5 @@ void zono_tube(zono *z) {
     double rest = (form_moving(f, x) + more) * ABOVE + 4 * UNIT * form_total(f, x) + LEAST;
     z->tube_lo[i] = x[0] - rest, z->tube_hi[i] = x[0] + rest;
   }
+  strip_within(z, z->tube_lo, z->tube_hi);
 }

@@ -7,8 +7,10 @@
 */
 #include "vary.h"
 #include "proof.h"
+#include "strip.h"
 
 #define LOSS 0.01     /* of the moments' generators, in parts of those of the means */
+#define TURN 0.2      /* longest step times the size of J, where bounds of states are used at each step (strip.c) */
 #define SHORTEST 1e-5 /* of the whole time: steps are not made shorter than this */
 
 uint32_t vary_first(const zono *z) { return slot_p(z, z->np - z->problem.nvarying); }
@@ -38,6 +40,18 @@ static double loss(const zono *z) {
   return means > 0 ? moments / means : 0;
 }
 
+/* in the same norm */
+static double size_of_slopes(const zono *z) {
+  const proof *p = z->proof;
+  double most = 0;
+  for (uint32_t i = 0; i < z->nx; i++) {
+    double sum = 0;
+    for (uint32_t k = 0; k < z->nx; k++) sum += fabs(p->J[(size_t)i * z->nx + k]) * p->unit[k];
+    most = fmax(most, sum / p->unit[i]);
+  }
+  return most;
+}
+
 void vary_start(zono *z) {
   z->vary_most = INFINITY;
   memset(z->proof->made_by, 0, z->ngen * sizeof *z->proof->made_by);
@@ -46,7 +60,9 @@ void vary_start(zono *z) {
 int vary_fits(zono *z) {
   if (!z->nvarying) return 1;
   double share = loss(z), least = SHORTEST * span(z);
-  z->vary_most = fmax(share > 0 ? fabs(z->h) * LOSS / share : INFINITY, least);
+  double most = share > 0 ? fabs(z->h) * LOSS / share : INFINITY;
+  if (strip_columns(z) > 0) most = fmin(most, TURN / size_of_slopes(z));
+  z->vary_most = fmax(most, least);
   return fabs(z->h) <= fmax(1.5 * z->vary_most, least);
 }
 

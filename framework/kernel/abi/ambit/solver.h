@@ -91,6 +91,9 @@ typedef struct ambit_problem {
   const double *jump_time; /* [njump_time] never descending */
   const uint32_t *jump_number;
   double jump_error;
+  /* [nx] bounds within which each state stays at all times: of solutions that leave them nothing is asked. Infinite
+  ** where nothing is known; NULL: nowhere */
+  const double *x_least, *x_most;
 } ambit_problem;
 
 typedef struct ambit_solver {
