@@ -151,6 +151,11 @@ return {
     "more is noted, which is asked only where lines are",
   ["plugins/solver/zonotope/jump.c | guard 1 | if (row_parts(s, 0) & TRIPLES) continue;"] =
     "what is of degree three goes to the box as well: the set is wider",
+  ["framework/verbs/run/bracket.lua | unit 1 | local r = 2 * guess[k]:mag() + 0x1p-51 * x:mag() + 0x1p-1000"] =
+    "a guess, which is then checked by a strict comparison: if it fails, the hull of the steps is taken",
+  ["framework/verbs/run/instant.lua | bound 1 | value = x.lo"] = "both ends are one double there",
+  ["framework/verbs/run/instant.lua | unit 1 | if t.set or t.hi - t.lo <= 0x1p-51 * math.abs(t.near - start) then return nil end"] =
+    "the difference is enclosed with more digits although the bracket would do: a run slower",
   ["plugins/solver/zonotope/jump.c | guard 1 | if (!p->njump) return 1;"] =
     "no programs are opened then: an array of none",
   ["plugins/solver/zonotope/tanh.c | unit 1 | k->slope = hi - lo > 0x1p-10 ? (last - first) / (hi - lo) : slope_at(middle);"] =

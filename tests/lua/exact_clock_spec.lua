@@ -110,6 +110,15 @@ describe("a clock and a time that was asked for", function()
     holds(complete { counting { period = period }, initial = { x = 0 }, t = { 0, period * 5 } }.x.n, 5, "formula")
   end)
 
+  it("are in order also where a formula uses a part of itself again and again", function()
+    local period = ambit.number "1"
+    for _ = 1, 60 do period = period / (1 + period) end -- 1/61, but 2^60 ways to its parts
+    local plant = counting { period = period }
+    for k, n in pairs { [3] = 3, [3.5] = 4 } do
+      holds(complete { plant, initial = { x = 0 }, t = { 0, period * k } }.x.n, n, "deep formula")
+    end
+  end)
+
   it("does not answer behind the true end", function()
     local run = complete { counting { period = "0.1" }, initial = { x = 0 }, t = { 0, "0.3" }, dense = true }
     assert.is_false((pcall(run.at, run, 0.3 + 0x1p-54)))

@@ -163,6 +163,16 @@ describe("instants as text: simulate", function()
     refused("not within the run", r.at, r, ambit.interval(2, 3))
   end)
 
+  it("shows both ends on pages", function()
+    local span = require "ambit.run.instant".span
+    for _, times in ipairs { { "1/3", "2/3" }, { "2/3", 0.5, "1/3" }, { "0.1", "0.10000000000000000001" } } do
+      local ends = span(times, "t")
+      local all = ambit.interval(math.min(ends[1], ends[2]), math.max(ends[1], ends[2]))
+      assert.is_true(all:contains(times[1]) and all:contains(times[#times]), all:text(17))
+      assert.equal(times[1] == "2/3", ends[1] > ends[2])
+    end
+  end)
+
   it("refuses what is no instant, or no horizon", function()
     refused("cannot be uncertain", run, one, { 0, "[1, 2]" })
     refused("finite", run, one, { 0, "1e400" })

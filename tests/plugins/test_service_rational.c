@@ -3,6 +3,7 @@
 #include <ambit/rational.h>
 #include <ambit/registry.h>
 #include "num/random.h"
+#include <float.h>
 #include <inttypes.h>
 #include <math.h>
 #include <mpfr.h>
@@ -105,8 +106,19 @@ static void computes(void **state) {
   s->close(x);
   x = number(s, "1e400");
   s->enclose(x, &lo, &hi);
-  assert_true(isfinite(lo) && hi == INFINITY);
+  assert_true(lo == DBL_MAX && hi == INFINITY);
   assert_false(s->apply(x, AMBIT_OP_DIV, zero, 0));
+  assert_true(s->apply(x, AMBIT_OP_NEG, zero, 0));
+  s->enclose(x, &lo, &hi);
+  assert_true(lo == -INFINITY && hi == -DBL_MAX);
+  s->set(x, -DBL_MAX);
+  s->enclose(x, &lo, &hi);
+  assert_true(lo == -DBL_MAX && hi == -DBL_MAX);
+  static const int32_t far[] = { 1001, -1001, INT32_MAX, INT32_MIN }; /* at most 1000 times */
+  for (size_t i = 0; i < sizeof far / sizeof *far; i++) {
+    s->set(x, 1);
+    assert_false(s->apply(x, AMBIT_OP_POWN, zero, far[i]));
+  }
   static const char *const bad[] = { "", "-", "pi", ".", "1..2", "1.2.3", "1/0", "1/", "/3", "0x1p3", "1e", "1e99999",
     "1e 5", "1.25e9223372036854775807", "1.25e-9223372036854775808", "1.25e-99999999999999999999", "1/1e-999999999999",
     "[1, 2]", "1 2", "inf" };

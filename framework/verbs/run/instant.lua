@@ -174,7 +174,7 @@ end
 function instant.span(t, what)
   local times = instant.list(t, what)
   local first, last = core.interval(instant.first(times)), core.interval(instant.final(times))
-  if last.lo > first.lo then return { first.lo, last.hi } end
+  if last.lo >= first.lo then return { first.lo, last.hi } end
   return { first.hi, last.lo }
 end
 
