@@ -156,6 +156,8 @@ return {
   ["framework/verbs/run/instant.lua | bound 1 | value = x.lo"] = "both ends are one double there",
   ["framework/verbs/run/instant.lua | unit 1 | if t.set or t.hi - t.lo <= 0x1p-51 * math.abs(t.near - start) then return nil end"] =
     "the difference is enclosed with more digits although the bracket would do: a run slower",
+  ["plugins/solver/zonotope/far.c | relation 2 | uint32_t first = g < u ? g : u, last = g > v ? g : v, middle = g + u + v - first - last;"] =
+    "which far triples are held is free",
   ["plugins/solver/zonotope/jump.c | guard 1 | if (!p->njump) return 1;"] =
     "no programs are opened then: an array of none",
   ["plugins/solver/zonotope/tanh.c | unit 1 | k->slope = hi - lo > 0x1p-10 ? (last - first) / (hi - lo) : slope_at(middle);"] =

@@ -1,6 +1,6 @@
-/* What slopes' dependence on the data makes of the distance within a step (change.c), by itself. Crosses: for all xi the
-** slopes must be in J_0 + sum xi_k u w' +- rest. Sizes: the bound of |w' z| of docs/numerics/zonotope.md, section 7e, in
-** extended precision. */
+/* What slopes' dependence on the data makes of the distance within a step (change.c), by itself. Crosses: for all xi
+** the slopes must be in J_0 + sum xi_k u w' +- rest. Sizes: the bound of |w' z| of docs/numerics/zonotope.md, section
+** 7e, in extended precision. */
 #include "zonotope_case.h"
 #include "solver/zonotope/change.h"
 #include "solver/zonotope/depend.h"
@@ -23,8 +23,8 @@ static double *numbers(size_t n, double lo, double hi) {
   return x;
 }
 
-/* Slopes of n x n by m data, some of them 0: of one datum alone in any row, or of datum k in row k. dJ holds them, and in
-** half of the cases more. */
+/* Slopes of n x n by m data, some of them 0: of one datum alone in any row, or of datum k in row k. dJ holds them, and
+** in half of the cases more. */
 static void open_bench(bench *b, uint32_t n, uint32_t m) {
   *b = (bench) { .z = { .host = &host, .nx = n, .m = m, .h = draw(0.1, 1) } };
   zono *z = &b->z;

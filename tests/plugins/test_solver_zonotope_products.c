@@ -1,6 +1,6 @@
 /* A step of the zonotope solver where what products leave out is all that there is: x' = (p q)^2 y, (p q y)^2 or
-** u + q u with u = (p q)^2 y, y' = p y with wide p and q and an old generator in y, against the closed form; and x' =
-** (p q)^2, whose distance from the rows is known but for rounding. */
+** u + q u or u + (u + u q) with u = (p q)^2 y, y' = p y with wide p and q and an old generator in y, against the closed
+** form; and x' = (p q)^2, whose distance from the rows is known but for rounding. */
 #include "zonotope_case.h"
 #include "solver/zonotope/depend.h"
 #include "solver/zonotope/quartic.h"
@@ -9,7 +9,7 @@ typedef struct product_case {
   double scale_p, scale_q, old, h;
   uint32_t K;
   int thin, squared; /* squared: y, too */
-  int shared;        /* u is a term of the sum and a factor of the other one */
+  int shared;        /* u is a term of the sum and a factor of another one; 2: the sum has u by itself once more */
   int alone;         /* x' = (p q)^2 */
   int far;           /* rows have triples of p only */
 } product_case;
@@ -21,7 +21,12 @@ static void open_products(zono *z, maker *k, const product_case *c) {
   uint32_t pq = put(k, AMBIT_OP_MUL, c->squared ? put(k, AMBIT_OP_MUL, 3, 2) : 3, 4),
            square = put(k, AMBIT_OP_SQR, pq, pq);
   k->out[0] = c->squared || c->alone ? square : put(k, AMBIT_OP_MUL, square, 2), k->out[1] = put(k, AMBIT_OP_MUL, 3, 2);
-  if (c->shared) k->out[0] = put(k, AMBIT_OP_ADD, k->out[0], put(k, AMBIT_OP_MUL, 4, k->out[0]));
+  uint32_t u = k->out[0], v = u;
+  if (c->shared == 1) k->out[0] = put(k, AMBIT_OP_ADD, u, put(k, AMBIT_OP_MUL, 4, u));
+  if (c->shared == 2) {
+    v = put(k, AMBIT_OP_ADD, c->squared ? put(k, AMBIT_OP_SQR, pq, pq) : put(k, AMBIT_OP_MUL, square, 2), 0);
+    k->out[0] = put(k, AMBIT_OP_ADD, put(k, AMBIT_OP_ADD, v, u), put(k, AMBIT_OP_MUL, u, 4));
+  }
   k->tape.nslot = k->tape.nconst + k->tape.nin + k->tape.ninstr;
   *z = (zono) { .host = &host, .nx = 2, .np = 2, .m = 2, .K = c->K, .K_max = c->K, .ngen_max = 120, .h = c->h };
   z->program = (program) { .tape = &k->tape, .nx = 2, .np = 2 };
@@ -52,7 +57,7 @@ static void solve(const zono *z, const product_case *c, const point *at, long do
   long double p = value_at(&z->shape, row, at), q = value_at(&z->shape, row + z->shape.stride, at);
   long double y = P0[1][0] + c->old * rho, s = c->h;
   long double grown = c->squared ? 0.5L * y * expm1l(2 * p * s) : expm1l(p * s);
-  if (c->shared) grown *= 1 + q;
+  if (c->shared) grown *= c->shared + q;
   x[0] = P0[0][0] + 0.5L * c->old * rho + p * q * q * y * grown, x[1] = y * expl(p * s);
 }
 
@@ -99,7 +104,7 @@ static void what_products_leave_out_is_in_the_set(void **unused) {
   uint32_t found = 0, far = 0;
   for (uint32_t n = 0; n < 480; n++) {
     product_case c = { scale[n % 3], scale[pick(3)], old[n / 3 % 2], length[n / 6 % 4], 3 + pick(8), pick(4) == 0,
-      (int)pick(2), (int)pick(2), 0, 0 };
+      (int)pick(2), (int)pick(3), 0, 0 };
     c.far = !c.thin && n % 4 == 0;
     open_products(&z, &k, &c);
     if (zono_series(&z) && zono_defects(&z) && zono_prove(&z)) {
