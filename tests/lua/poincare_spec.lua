@@ -50,6 +50,67 @@ describe("poincare", function()
     end
   end)
 
+  it("proves that it attracts, and bounds its multiplier", function()
+    -- of the periodic orbit: exp of the integral of 1 - x^2, by Runge and Kutta's steps
+    local x, y, sum, n = 2.008619860874843, 0, 0, 20000
+    local h = PERIOD / n
+    local function f(a, b) return b, (1 - a * a) * b - a end
+    for _ = 1, n do
+      local a1, b1 = f(x, y)
+      local a2, b2 = f(x + h / 2 * a1, y + h / 2 * b1)
+      local a3, b3 = f(x + h / 2 * a2, y + h / 2 * b2)
+      local a4, b4 = f(x + h * a3, y + h * b3)
+      local before = 1 - x * x
+      local middle = x + h / 4 * (a1 + a2)
+      x, y = x + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4), y + h / 6 * (b1 + 2 * b2 + 2 * b3 + b4)
+      sum = sum + h / 6 * (before + 4 * (1 - middle * middle) + 1 - x * x)
+    end
+    local multiplier = math.exp(sum)
+    for _, radius in ipairs { 1e-2, 1e-4, 1e-6 } do
+      local orbit = limit_cycle(radius):orbit()
+      assert.is_true(orbit.proved and orbit.attracting, orbit.reason)
+      local found = orbit.derivative.x.x
+      assert.is_true(found.lo - 1e-8 <= multiplier and multiplier <= found.hi + 1e-8, tostring(found))
+      assert.is_true(orbit.multiplier < (radius < 1e-3 and 1.2 * multiplier or 0.5))
+    end
+  end)
+
+  it("knows multipliers in closed form, for all data, and orbits that attract nothing", function()
+    local a = ambit.around("0.05", "1%", "a")
+    local function circle(rate, box)
+      local system = ambit.ode { states = { "x", "y", "z" }, equations = function(s)
+        local r = s.x ^ 2 + s.y ^ 2
+        return { x = rate(r) * s.x - s.y, y = rate(r) * s.y + s.x, z = -"0.1" * s.z + "0.3" * (r - 1) }
+      end }
+      return ambit.poincare { system, section = function(s) return s.y end, direction = "rising", t_max = 8,
+        initial = { x = ambit.around(1, box), y = 0, z = ambit.around(0, 8 * box) } }
+    end
+    local orbit = circle(function(r) return a * (1 - r) end, 1e-4):orbit()
+    assert.is_true(orbit.proved and orbit.attracting, orbit.reason)
+    local d = orbit.derivative
+    for _, value in ipairs { 0.0495, 0.05, 0.0505 } do assert.is_true(d.x.x:contains(math.exp(-4 * math.pi * value))) end
+    assert.is_true(d.x.x:width() < 0.02)
+    local slow = math.exp(-0.2 * math.pi)
+    assert.is_true(d.z.z.lo <= slow + 1e-12 and slow - 1e-12 <= d.z.z.hi and d.z.z:width() < 0.01)
+    assert.is_true(d.x.z:mag() < 1e-9)
+    assert.is_true(orbit.multiplier > slow * (1 - 1e-9) and orbit.multiplier < 1)
+    -- on a section along which solutions move as well
+    local oblique = ambit.poincare { ambit.ode { states = { "x", "y" }, equations = function(s)
+      local r = s.x ^ 2 + s.y ^ 2
+      return { x = a * (1 - r) * s.x - s.y, y = a * (1 - r) * s.y + s.x }
+    end }, section = function(s) return s.x - "0.5" end, direction = "falling", t_max = 8,
+      initial = { x = "0.5", y = ambit.around(math.sqrt(0.75), 1e-4) } }:orbit()
+    assert.is_true(oblique.attracting, oblique.reason)
+    assert.is_true(oblique.derivative.y.y:contains(math.exp(-0.2 * math.pi)))
+    assert.is_true(oblique.derivative.y.y:width() < 0.02)
+    -- one that repels is not proved at all; nor does its map contract
+    local repelling = circle(function(r) return a * (r - 1) end, 1e-4)
+    assert.is_false(repelling:orbit().proved)
+    local judged = require "ambit.poincare.attract".judge(repelling, 2)
+    assert.is_false(judged.attracting)
+    assert.is_true(judged.derivative.x.x:contains(math.exp(0.2 * math.pi)) and judged.multiplier > 1)
+  end)
+
   it("does not prove an orbit that is not there", function()
     local map = limit_cycle(1e-3, { initial = { x = ambit.around(2.1, 1e-3), y = 0 } })
     assert.equal("complete", map.status)

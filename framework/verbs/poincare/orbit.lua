@@ -64,6 +64,22 @@ local function objection(map, i, image)
   end
 end
 
+local JUDGED = { attracting = true, multiplier = true, derivative = true }
+
+-- Whether an orbit attracts takes a longer run: it is found out when somebody asks.
+local function when_asked(map, fixed, found, key)
+  if not JUDGED[key] or rawget(found, "attracting") ~= nil then return nil end
+  local judged, why = require "ambit.poincare.attract".judge(map, fixed)
+  if not judged then
+    found.attracting, found.reason = false, "whether it attracts is not known: " .. why
+    return rawget(found, key)
+  end
+  found.attracting, found.multiplier = judged.attracting, judged.multiplier
+  if not judged.attracting then found.reason = "the derivative of the map is not seen to contract" end
+  found.derivative = judged.derivative
+  return found[key]
+end
+
 function orbit.prove(map)
   local q, last = map.request, map.returns[map.request.returns]
   if #core.system_invariants(q.system.system) > 0 then
@@ -85,7 +101,8 @@ function orbit.prove(map)
     local why = i ~= fixed and objection(map, i, last.x[name])
     if why then return why end
   end
-  return { proved = true, period = last.t - core.interval(q.start), x = last.x }
+  local found = { proved = true, period = last.t - core.interval(q.start), x = last.x }
+  return setmetatable(found, { __index = function(self, key) return when_asked(map, fixed, self, key) end })
 end
 
 return orbit

@@ -5,6 +5,7 @@ local core = require "ambit.core"
 local instant = require "ambit.run.instant"
 local event = require "ambit.event"
 local leg = require "ambit.leg"
+local once = require "ambit.poincare.once"
 local orbit = require "ambit.poincare.orbit"
 local session = require "ambit.session"
 local simulate = require "ambit.simulate"
@@ -23,7 +24,8 @@ function Map:set(i)
   return crossing.set
 end
 
--- { proved, period, x, reason }: is there a periodic orbit through the initial set, for every value of the data?
+-- { proved, period, x, reason, attracting, ... }: is there a periodic orbit through the initial set, for every value of
+-- the data?
 function Map:orbit() return orbit.prove(self) end
 
 check.methods(Map, Map)
@@ -55,36 +57,12 @@ local function request(t)
   return q
 end
 
-local function hull(e) return core.evaluate { expressions = { e } }[1] end
-
 local function depends_on_time(q)
   local list = table.move(q.system.rates, 1, #q.system.rates, 2, { q.g })
   for _, leaf in ipairs(core.leaves(list)) do
     if leaf.kind == "time" then return true end
   end
   return false
-end
-
--- One return: from x at time t (expressions). Times of a leg count from 0.
-local function one_return(q, system, g, x, t, latest)
-  local start = hull(t)
-  local list = { { g = g, name = "section", direction = q.direction, stop = true } }
-  local found = leg.to_event(q, system, x, { 0.0, latest - start.lo }, list, { true })
-  if found.status == "complete" then
-    return nil, ("some solutions do not return to the section by t = %s"):format(core.literal(latest)), "unable",
-      "unable.event"
-  elseif found.status ~= "event" then
-    return nil, found.reason, found.status, found.code
-  end
-  local image = surface.onto(q, system, g, found.x, t + found.t)
-  if image.run.status ~= "complete" then
-    return nil, "on the way onto the section: " .. image.run.reason, image.run.status, image.run.code
-  end
-  if image.when.hi > latest then
-    return nil, ("some solutions do not return to the section by t = %s"):format(core.literal(latest)), "unable",
-      "unable.event"
-  end
-  return image, found.event
 end
 
 local function describe(q, image, found)
@@ -109,7 +87,7 @@ function verb.poincare(t)
   end
   local map = setmetatable({ status = "complete", reason = "", returns = {}, request = q, initial = q.initial }, Map)
   for i = 1, q.returns do
-    local image, found, status, code = one_return(q, system, g, x, now, latest)
+    local image, found, status, code = once(q, system, g, x, now, latest)
     if not image then
       map.status, map.code, map.reason = status, code, ("return %d: %s"):format(i, found)
       break
