@@ -48,7 +48,7 @@ describe("split", function()
     local first
     for _, threads in ipairs { 1, 2, 3 } do
       local track, facts = core.simulate(flow(q), nil, { silent = true, threads = threads, band_lo = lo, band_hi = hi,
-        band_runs = 400, band_limit = 0.005 })
+        band_runs = 200, band_limit = 0.005 })
       assert.equal("complete", facts.status)
       assert.is_true(facts.pieces > 8 and facts.pieces < 64, facts.pieces) -- a grid of 64 is as tight
       local bits = { facts.pieces }

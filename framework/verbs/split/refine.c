@@ -292,20 +292,44 @@ static ambit_status refine(refinement *r, const double *influence, bool *done, a
 
 /* -- the whole */
 
+/* Equal parts, at most `total`, dealt out by influence; they take the place of what is kept if they get as far. */
+static ambit_status start(refinement *r, const double *influence, uint32_t total, bool *done, ambit_failure *f) {
+  const ambit_problem *p = r->s->problem;
+  uint32_t *parts = ambit_arena_alloc(r->arena, (p->nu + 1u) * sizeof *parts);
+  if (!parts) return ambit_no_memory(f);
+  ambit_pieces grid;
+  ambit_pieces_deal(p->nu, influence, total, parts);
+  ambit_status status = ambit_pieces_cut(r->arena, p->nu, p->u_lo, p->u_hi, parts, &grid, f);
+  if (status != AMBIT_OK) return status;
+  double *box = ambit_arena_alloc(r->arena, ((size_t)grid.count * 2 * p->nu + 1) * sizeof *box);
+  part_list next = { ambit_arena_alloc(r->arena, grid.count * sizeof *next.part), grid.count };
+  if (!box || !next.part) return ambit_no_memory(f);
+  for (uint32_t i = 0; i < grid.count; i++, box += 2 * (size_t)p->nu) {
+    ambit_pieces_range(&grid, i, box, box + p->nu);
+    next.part[i] = (part) { .box = box };
+  }
+  status = run_round(r, &next, done, f);
+  bool all = true;
+  for (uint32_t i = 0; i < grid.count; i++) all = all && next.part[i].complete;
+  bool is_better = status == AMBIT_OK && (r->nkept == 0 || all);
+  const part_list old = { r->kept, r->nkept };
+  close_runs(is_better ? &old : &next);
+  if (is_better) r->kept = next.part, r->nkept = next.count;
+  return status;
+}
+
 static ambit_status run_all(refinement *r, ambit_failure *f) {
+  static const uint32_t totals[] = { 1, 8, 64 };
   const ambit_problem *p = r->s->problem;
   double *influence = ambit_arena_alloc(r->arena, (p->nu + 1u) * sizeof *influence);
-  double *box = ambit_arena_alloc(r->arena, (2u * p->nu + 1u) * sizeof *box);
-  r->kept = ambit_arena_alloc(r->arena, sizeof *r->kept);
-  if (!influence || !box || !r->kept) return ambit_no_memory(f);
-  ambit_pieces_range(r->s->pieces, 0, box, box + p->nu);
-  r->kept[0] = (part) { .box = box };
-  r->nkept = 1;
-  const part_list whole = { r->kept, 1 };
-  bool done;
-  ambit_status status = run_round(r, &whole, &done, f);
-  if (status != AMBIT_OK || !done) return status;
-  if (ambit_probe_influence(p, r->s->initial, r->arena, influence) != AMBIT_OK) return ambit_no_memory(f);
+  if (!influence || ambit_probe_influence(p, r->s->initial, r->arena, influence) != AMBIT_OK) return ambit_no_memory(f);
+  bool done = true;
+  for (size_t n = 0; n < sizeof totals / sizeof *totals; n++) {
+    if (n > 0 && totals[n] > r->s->band->most / 4) break;
+    ambit_status status = start(r, influence, totals[n], &done, f);
+    if (status != AMBIT_OK || !done) return status;
+    if (!(r->kept[worst_of(r->kept, r->nkept)].excess > r->s->band->limit)) return AMBIT_OK;
+  }
   return refine(r, influence, &done, f);
 }
 

@@ -5,10 +5,11 @@
 ** intersected. The band only says where to cut.
 ** Results do not depend on the number of threads: runs go in rounds, each part of which computes by itself; what the
 ** next round cuts is decided by what the last one proved, in the order of the parts.
-** A round looks at the part that is worst: it is halved across each of up to eight data, those that move the solution
-** most, and the data are ranked by how much worse the worse half still is. Every part that is too wide is then cut
-** across the best datum, or across two where one is not expected to be enough. Not the datum that moves the set most is
-** taken, but the one that makes it too wide: a kink costs by the width of its operand, whatever that does to the rest.
+** It begins with the whole, and equal parts: 8, and 64 if that is few enough runs. Then a round looks at the part that
+** is worst: it is halved across each of up to eight data, those that move the solution most, and the data are ranked by
+** how much worse the worse half still is. Every part that is too wide is then cut across the best datum, or across two
+** where one is not expected to be enough. Not the datum that moves the set most is taken, but the one that makes it too
+** wide: a kink costs by the width of its operand, whatever that does to the rest.
 */
 #ifndef AMBIT_REFINE_H
 #define AMBIT_REFINE_H
