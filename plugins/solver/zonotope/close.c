@@ -196,6 +196,8 @@ static void settle(zono *z, uint32_t n) {
   const proof *p = z->proof;
   const shape *s = &z->shape;
   quartic_finish(z);
+  discs_turn(z);
+  quartic_drop(z);
   reduce(z, strip_all(z, n));
   for (uint32_t i = 0; i < z->nx; i++) {
     double *to = z->P + (size_t)i * s->stride;

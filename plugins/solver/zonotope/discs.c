@@ -3,11 +3,12 @@
 ** The set has { Re((V + sum_j xi_j U_j) w) : |w_k| <= b_k } besides. map.c has what a step makes of it. What the step
 ** adds goes in by W, about the inverse of V, and what V W leaves of it into the box. Since discs lie along V + sum_j
 ** xi_j U_j, U_j = V T_j, it is enlarged for that: V w = (V + sum_j xi_j U_j) u for some u if b_k >= |w_k| + sum_l
-** tilt_kl b_l.
+** tilt_kl b_l. P_4 turns with them: sum_j xi_j Re(U_j W) P_4 is part of the set, |W P_4| <= a.
 */
 #include "depend.h"
 #include "modes.h"
 #include "proof.h"
+#include "quartic.h"
 
 #define ALONG 0.02 /* of a column, besides its part along one state */
 #define WIDER 5.0  /* discs than the box */
@@ -96,7 +97,7 @@ static int are_of_use(zono *z) {
   enum worth worth = worth_enclosing(z);
   if (worth == WORTH_NOTHING) return 0;
   copy_axes(z, &m->now, &m->old);
-  memset(m->old.b, 0, z->nx * sizeof *m->old.b);
+  memset(m->old.b, 0, z->nx * sizeof *m->old.b), memset(m->old.a, 0, z->nx * sizeof *m->old.a);
   map_discs(z);
   if (!worth_keeping(z)) return 0;
   if (worth == WORTH_IF_SHRINKING && m->rate < 0) depend_begin(z);
@@ -107,7 +108,7 @@ static void clear(zono *z) {
   modes *m = z->modes;
   uint32_t n = z->nx;
   memset(m->in, 0, n * sizeof *m->in), memset(m->box, 0, n * sizeof *m->box);
-  memset(m->now.b, 0, n * sizeof *m->now.b);
+  memset(m->now.b, 0, n * sizeof *m->now.b), memset(m->now.a, 0, n * sizeof *m->now.a);
 }
 
 /* Along the modes of the step; or along the directions of before, if modes are not found or so near to one another that
@@ -184,12 +185,13 @@ double discs_along(const zono *z, const discs *d, const double *y) {
   }
   for (uint32_t k = 0; k < n; k++) {
     double turned = 0, by_turns = 0;
-    if (d->b[k] == 0) continue;
+    if (d->b[k] == 0 && d->a[k] == 0) continue;
     for (uint32_t l = 0; l < n; l++) {
       turned += fabs(y[l]) * d->S[l * n + k];
       by_turns += (along[l] + 2 * rounded[l]) * d->tilt[l * n + k];
     }
-    all += (along[k] + rounded[k] + fmin(turned, by_turns)) * d->b[k];
+    turned = fmin(turned, by_turns);
+    all += (along[k] + rounded[k] + turned) * d->b[k] + turned * d->a[k];
   }
   return all * ABOVE;
 }
@@ -201,7 +203,7 @@ double discs_width(const zono *z, uint32_t i) {
   double sum = 0;
   for (uint32_t k = 0; k < z->nx && d->any; k++) {
     size_t e = (size_t)i * z->nx + k;
-    sum += (cabs(d->V[e]) + d->S[e]) * d->b[k];
+    sum += (cabs(d->V[e]) + d->S[e]) * d->b[k] + d->S[e] * d->a[k];
   }
   return sum * ABOVE;
 }
@@ -226,6 +228,47 @@ static void close_turns(zono *z) {
   for (uint32_t k = 0; k < n; k++) m->in[k] = is_closed ? u[k] : INFINITY;
 }
 
+/* -- terms of degree 4 */
+
+int discs_carry(const zono *z) { return z->modes->old.any && z->modes->now.any && !z->modes->cycle; }
+
+double discs_turned(const zono *z, uint32_t i) {
+  const discs *d = &z->modes->now;
+  double sum = 0;
+  for (uint32_t k = 0; k < z->nx && d->any; k++) sum += d->S[(size_t)i * z->nx + k] * d->a[k];
+  return sum * ABOVE;
+}
+
+static int is_conjugate(uint32_t n, const number *x, const number *y) {
+  for (uint32_t i = 0; i < n; i++)
+    if (creal(x[i]) != creal(y[i]) || cimag(x[i]) != -cimag(y[i])) return 0;
+  return 1;
+}
+
+/* Terms that came up in this step are not turned yet: what turns make of them is new errors. */
+void discs_turn(zono *z) {
+  modes *m = z->modes;
+  uint32_t n = z->nx;
+  double *re = m->work, *im = re + n, *fresh = im + n;
+  if (!m->now.any || m->cycle) return;
+  for (uint32_t k = 0; k < n; k++) {
+    const number *row = m->now.W + (size_t)k * n;
+    if (k > 0 && is_conjugate(n, row - n, row)) {
+      m->now.a[k] = m->now.a[k - 1], fresh[k] = fresh[k - 1];
+      continue;
+    }
+    for (uint32_t i = 0; i < n; i++) re[i] = creal(row[i]), im[i] = cimag(row[i]);
+    m->now.a[k] = hypot(quartic_through(z, re), quartic_through(z, im)) * ABOVE;
+    fresh[k] = discs_carry(z) ? hypot(quartic_fresh(z, re), quartic_fresh(z, im)) * ABOVE : m->now.a[k];
+  }
+  for (uint32_t k = 0; k < n; k++) {
+    double turned = 0;
+    for (uint32_t l = 0; l < n; l++) turned += m->now.tilt[(size_t)k * n + l] * fresh[l];
+    m->in[k] += turned * ABOVE;
+    for (uint32_t i = 0; i < n; i++) m->box[i] += 8 * (n + 4) * UNIT * cabs(m->now.V[i * n + k]) * turned;
+  }
+}
+
 void discs_finish(zono *z) {
   modes *m = z->modes;
   uint32_t n = z->nx;
@@ -242,7 +285,8 @@ void discs_finish(zono *z) {
   for (uint32_t i = 0; i < n; i++) {
     double rounding = LEAST; /* U_j is V T_j but for it */
     for (uint32_t l = 0; l < n && m->now.any; l++)
-      for (uint32_t k = 0; k < n; k++) rounding += cabs(m->now.V[i * n + l]) * m->now.tilt[l * n + k] * m->now.b[k];
+      for (uint32_t k = 0; k < n; k++)
+        rounding += cabs(m->now.V[i * n + l]) * m->now.tilt[l * n + k] * (m->now.b[k] + m->now.a[k]);
     *box(z, FROM_MIXED, i) += (m->box[i] + 8 * (n + 4) * UNIT * rounding) * ABOVE;
   }
 }

@@ -5,6 +5,7 @@
 */
 #include "basis.h"
 #include "change.h"
+#include "modes.h"
 #include "quartic.h"
 #include "residual.h"
 #include "vary.h"
@@ -62,19 +63,22 @@ static enum origin origin_of(const zono *z, uint32_t j) {
 static uint32_t add_known(zono *z, uint32_t at, const sums *sum) {
   proof *p = z->proof;
   double *c = p->grow;
+  int carried = discs_carry(z);
   for (uint32_t l = 0; l < z->nx; l++) {
-    double size = quartic_square(z, l), known = quartic_sum(z, l);
+    double size = quartic_square(z, l), known = quartic_sum(z, l), kept = size;
     if (p->link[l] == LINK_STATE) continue;
     for (uint32_t n = 0; n < p->quartic->pairs; n++) {
       double *near = quartic_near(z, l, n);
-      size += basis_resolve(z, near), size += mixed_size(z, near);
+      double resolved = basis_resolve(z, near), all = mixed_size(z, near);
+      size += resolved + all, kept += resolved + (carried ? mixed_kept(z, near) : all);
     }
-    size *= ABOVE;
+    size *= ABOVE, kept *= ABOVE;
     for (uint32_t i = 0; i < z->nx; i++) c[i] = i == l;
     sum->centre[l] += known, sum->path[l] += known;
     change_note(z, c, known);
-    at = add_lump(z, at, (lump) { 0, size, size, size, 0 }, c, sum, FROM_MIXED);
+    at = add_lump(z, at, (lump) { 0, size, size, kept, 0 }, c, sum, FROM_MIXED);
   }
+  if (carried && p->quartic->count > 0) map_pairs(z);
   return at;
 }
 

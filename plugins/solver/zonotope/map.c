@@ -7,9 +7,13 @@
 ** R_0 = Y V - V' C, R_j = M_j V + Y U_j - V' (T'_j C + D_j), R_ij = M_i U_j - V' (T'_i D_j + S_ij), and products of
 ** three data by size. C, D_j and S_ij are W' times what these would be without them, so they are rounding. Where only
 ** frequencies depend on the data, |C_kk + sum xi_j D_j,kk + ...| is |C_kk| but for squares, and discs do not grow.
+**
+** Of P_4 = V w, |w| <= a, C w moves as it is, and what D_j and S_ij make are new errors. What is known of two data at
+** once is in S_ij.
 */
 #include "modes.h"
 #include "proof.h"
+#include "quartic.h"
 
 #define TINY 1e-100 /* nothing is divided by less */
 
@@ -49,7 +53,7 @@ static void leave(zono *z, const number *P, const number *c, const double *size,
       if (rest)
         rest[i * n + k] += bound;
       else
-        m->box[i] += bound * m->old.b[k];
+        m->box[i] += bound * m->all[k];
     }
 }
 
@@ -140,25 +144,134 @@ static void add_slack(zono *z, const sizes *s) {
   for (size_t e = 0; e < square; e++) s->along[e] += of_D[e] + of_S[e], s->S[e] += of_S[e];
 }
 
+/* to [nx] := bounds of |P_4 - V W P_4| at the start */
+static void find_rest(const zono *z, double *to) {
+  const modes *m = z->modes;
+  uint32_t n = z->nx;
+  for (uint32_t i = 0; i < n; i++) {
+    to[i] = 0;
+    for (uint32_t l = 0; l < n; l++) {
+      number left = i == l;
+      double size = 1;
+      for (uint32_t k = 0; k < n; k++) {
+        number part = m->old.V[i * n + k] * m->old.W[k * n + l];
+        left -= part, size += cabs(part);
+      }
+      to[i] += (cabs(left) + 8 * (n + 4) * UNIT * size) * quartic_size(z, l);
+    }
+  }
+}
+
+/* M_j of the rest of P_4 = V w + rest, |w| <= a; and by how much W' Y P_4, by which P_4 will turn, differs from C w,
+** turned. Y P_4 itself is quartic_move()'s. */
+static void leave_fourth(zono *z) {
+  modes *m = z->modes;
+  uint32_t n = z->nx, mixed = z->shape.mixed;
+  double *rest = m->rest_of_fourth, *moved = m->all + n, *along = moved + n;
+  find_rest(z, rest);
+  for (uint32_t j = 0; j < mixed; j++)
+    for (uint32_t i = 0; i < n; i++)
+      for (uint32_t l = 0; l < n; l++) m->box[i] += fabs(modes_mixed(z, j, i, l)) * rest[l] * ABOVE;
+  memset(moved, 0, 2 * n * sizeof *moved);
+  for (uint32_t l = 0; l < n; l++) {
+    double off = rest[l];
+    for (uint32_t k = 0; k < n; k++) off += 16 * (n + 4) * UNIT * cabs(m->old.V[l * n + k]) * m->old.a[k];
+    for (uint32_t i = 0; i < n; i++) moved[i] += fabs(modes_flow(z, i, l)) * off;
+  }
+  for (uint32_t k = 0; k < n; k++)
+    for (uint32_t i = 0; i < n; i++) along[k] += cabs(m->now.W[k * n + i]) * moved[i];
+  add_bound(n, m->now.tilt, along, m->in);
+}
+
+static sizes sizes_of(const modes *m, size_t square) {
+  double *at = m->sizes;
+  return (sizes) { at, at + square, at + 2 * square, at + 3 * square, at + 4 * square, at + 5 * square, at + 6 * square,
+    at + 7 * square };
+}
+
+/* growth, and the new discs */
+static void grow(zono *z, const sizes *s) {
+  modes *m = z->modes;
+  uint32_t n = z->nx;
+  double *off = s->work;
+  memset(m->now.b, 0, n * sizeof *m->now.b);
+  for (size_t e = 0; e < (size_t)n * n; e++) {
+    m->growth[e] = hypot(cabs(m->C[e]) + s->along[e], s->across[e]) * ABOVE;
+    off[e] = s->D[e] + s->S[e] + s->slack[e];
+  }
+  add_bound(n, m->growth, m->old.b, m->now.b);
+  add_bound(n, off, m->old.a, m->now.b);
+}
+
 void map_discs(zono *z) {
   modes *m = z->modes;
   uint32_t n = z->nx, mixed = z->shape.mixed;
   size_t square = (size_t)n * n;
-  double *work = m->work, *rest = m->rest;
-  sizes s = { work, work + square, work + 2 * square, work + 3 * square, work + 4 * square, work + 5 * square,
-    work + 6 * square, work + 7 * square };
-  memset(work, 0, 8 * square * sizeof *work), memset(rest, 0, square * sizeof *rest);
+  double *rest = m->rest;
+  sizes s = sizes_of(m, square);
+  memset(m->sizes, 0, 8 * square * sizeof *m->sizes), memset(rest, 0, square * sizeof *rest);
+  for (uint32_t k = 0; k < n; k++) m->all[k] = m->old.a[k] + m->old.b[k];
   map_mean(z, &s);
   for (uint32_t j = 0; j < mixed; j++) map_datum(z, &s, j, rest);
   for (uint32_t i = 0; i < mixed; i++)
     for (uint32_t j = i; j < mixed; j++) map_pair(z, &s, i, j);
   add_slack(z, &s);
-  for (size_t e = 0; e < square; e++) m->growth[e] = hypot(cabs(m->C[e]) + s.along[e], s.across[e]) * ABOVE;
-  add_bound(n, m->growth, m->old.b, m->now.b);
+  grow(z, &s);
+  if (!m->cycle) leave_fourth(z);
   double *beyond = s.work; /* (M_j V - V' G_j) T_i, and V' T'_l S_ij, of three data: along V' alone, discs_finish() */
   memset(beyond, 0, square * sizeof *beyond);
-  bound_product(n, rest, m->old.tilt, 1, beyond), add_bound(n, beyond, m->old.b, m->box);
+  bound_product(n, rest, m->old.tilt, 1, beyond), add_bound(n, beyond, m->all, m->box);
   memset(beyond, 0, square * sizeof *beyond);
-  bound_product(n, m->now.tilt, s.S, 1, beyond), add_bound(n, beyond, m->old.b, m->in);
+  bound_product(n, m->now.tilt, s.S, 1, beyond), add_bound(n, beyond, m->all, m->in);
   for (size_t e = 0; e < square; e++) m->growth[e] += beyond[e];
+}
+
+/* M_n := h mean N_n of pair n, and of its sizes */
+static void take_pair(zono *z, uint32_t n, double *M, double *size) {
+  uint32_t nx = z->nx;
+  memset(M, 0, (size_t)nx * nx * sizeof *M), memset(size, 0, (size_t)nx * nx * sizeof *size);
+  for (uint32_t x = 0; x < nx; x++) {
+    const double *near = quartic_near(z, x, n);
+    if (z->proof->link[x] == LINK_STATE) continue;
+    for (uint32_t i = 0; i < nx; i++) {
+      double by = z->h * z->proof->mean[(size_t)i * nx + x];
+      for (uint32_t k = 0; k < nx; k++) M[i * nx + k] += by * near[k], size[i * nx + k] += fabs(by * near[k]);
+    }
+  }
+}
+
+/* M_n of all pairs are S_ij too, and S = sum |W' M_n V| more; of three data T'_l and T_l besides; M_n of P_4's rest */
+void map_pairs(zono *z) {
+  modes *m = z->modes;
+  uint32_t n = z->nx;
+  size_t square = (size_t)n * n;
+  sizes s = sizes_of(m, square);
+  double *M = m->work, *size = M + square, *second = size + square, *left = second + square, *beyond = s.work;
+  memset(second, 0, square * sizeof *second), memset(left, 0, square * sizeof *left);
+  for (uint32_t pair = 0; pair < z->proof->quartic->pairs; pair++) {
+    take_pair(z, pair, M, size);
+    memset(m->A, 0, square * sizeof *m->A), memset(s.terms, 0, square * sizeof *s.terms);
+    for (uint32_t i = 0; i < n; i++)
+      for (uint32_t l = 0; l < n; l++)
+        for (uint32_t k = 0; k < n && size[i * n + l] != 0; k++) {
+          m->A[i * n + k] += M[i * n + l] * m->old.V[l * n + k];
+          s.terms[i * n + k] += 2 * size[i * n + l] * cabs(m->old.V[l * n + k]);
+        }
+    modes_product(n, m->now.W, m->A, m->B);
+    leave(z, m->A, m->B, s.terms, left);
+    for (size_t e = 0; e < square; e++) beside(m, &s, e, m->B[e]), second[e] += cabs(m->B[e]);
+    for (uint32_t i = 0; i < n; i++)
+      for (uint32_t l = 0; l < n; l++) m->box[i] += size[i * n + l] * m->rest_of_fourth[l] * ABOVE;
+  }
+  for (size_t e = 0; e < square; e++) {
+    double slack = 16.0 * (n + 4) * UNIT * second[e];
+    s.along[e] += slack, s.S[e] += second[e] + slack;
+  }
+  grow(z, &s);
+  add_bound(n, left, m->all, m->box);
+  memset(beyond, 0, square * sizeof *beyond), bound_product(n, left, m->old.tilt, 1, beyond);
+  add_bound(n, beyond, m->all, m->box);
+  memset(beyond, 0, square * sizeof *beyond);
+  bound_product(n, m->now.tilt, second, 1 + 1e-9, beyond), bound_product(n, second, m->old.tilt, 1 + 1e-9, beyond);
+  add_bound(n, beyond, m->all, m->in);
 }

@@ -46,6 +46,8 @@ static double of_quartic(const zono *z, const double *y) {
   return sum;
 }
 
+double mixed_kept(const zono *z, const double *y) { return of_generators(z, y) + depend_through(z, y); }
+
 double mixed_size(const zono *z, const double *y) {
   return of_generators(z, y) + depend_through(z, y) + of_quartic(z, y) + discs_size(z, y);
 }
@@ -97,6 +99,7 @@ uint32_t mixed_add(zono *z, uint32_t at) {
   depend *d = p->depend;
   uint32_t nx = z->nx, i = 0, k = 0, first = at, crosses = 0;
   double *B = p->moves;
+  int carried = discs_carry(z);
   for (uint32_t j = 0; j < z->shape.mixed; j++) {
     if (!take_moves(z, j, B)) continue;
     for (int r = 0; r < CROSSES && find_pivot(z, B, &i, &k); r++)
@@ -104,13 +107,13 @@ uint32_t mixed_add(zono *z, uint32_t at) {
     for (uint32_t a = 0; a < nx; a++) {
       const double *y = B + (size_t)a * nx;
       double old = d->any ? depend_through(z, y) : of_generators(z, y);
-      *box(z, FROM_MIXED, a) += (old + of_quartic(z, y)) * ABOVE;
+      *box(z, FROM_MIXED, a) += (old + (carried ? 0 : of_quartic(z, y))) * ABOVE;
     }
   }
   depend_along(z, d->turn, crosses, d->along);
   for (uint32_t c = 0; c < crosses; c++) {
     double *u = p->columns + (size_t)(first + c) * nx, *w = d->turn + (size_t)c * nx;
-    double size = ((d->any ? d->along[c] : of_generators(z, w)) + quartic_through(z, w)) * ABOVE;
+    double size = ((d->any ? d->along[c] : of_generators(z, w)) + (carried ? 0 : quartic_through(z, w))) * ABOVE;
     for (uint32_t a = 0; a < nx; a++) u[a] *= size, *box(z, FROM_START, a) += UNIT * fabs(u[a]);
     p->source[first + c] = 0, p->origin[first + c] = FROM_MIXED;
   }

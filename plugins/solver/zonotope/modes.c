@@ -20,7 +20,7 @@ static int open_discs(const zono *z, discs *d) {
   size_t nx = z->nx, square = nx * nx, mixed = z->shape.m * square;
   return numbers_of(h, square, &d->V) && numbers_of(h, square, &d->W) && numbers_of(h, mixed, &d->U) &&
          numbers_of(h, mixed, &d->T) && doubles_of(h, square, &d->S) && doubles_of(h, square, &d->tilt) &&
-         doubles_of(h, nx, &d->b);
+         doubles_of(h, nx, &d->b) && doubles_of(h, nx, &d->a);
 }
 
 int modes_open(zono *z) {
@@ -33,7 +33,9 @@ int modes_open(zono *z) {
          numbers_of(h, square, &m->A) && numbers_of(h, square, &m->B) && numbers_of(h, square, &m->C) &&
          numbers_of(h, z->shape.m * square, &m->D) && numbers_of(h, z->shape.m * square, &m->G) &&
          doubles_of(h, square, &m->rest) && doubles_of(h, square, &m->growth) &&
-         doubles_of(h, 8 * square + 7 * nx, &m->work) && doubles_of(h, 2 * nx, &m->along);
+         doubles_of(h, 8 * square + 7 * nx, &m->work) && doubles_of(h, 2 * nx, &m->along) &&
+         doubles_of(h, 3 * nx, &m->all) && doubles_of(h, nx, &m->rest_of_fourth) &&
+         doubles_of(h, 8 * square, &m->sizes);
 }
 
 void modes_start(zono *z) { z->modes->now.any = z->modes->old.any = 0, z->modes->wait = 0, cycle_start(z); }

@@ -6,7 +6,8 @@
 
 typedef double complex number;
 
-/* { Re((V + sum_j xi_j U_j) w) : |w_k| <= b_k }, U_j = V T_j but for rounding. Matrices [nx x nx] by rows. */
+/* { Re((V + sum_j xi_j U_j) w) : |w_k| <= b_k }, U_j = V T_j but for rounding. Matrices [nx x nx] by rows. P_4 turns
+** with them: the set has sum_j xi_j Re(U_j W) P_4 besides, where a is not 0. */
 typedef struct discs {
   int any;
   number *V, *W; /* W: inverse of V, about */
@@ -14,6 +15,7 @@ typedef struct discs {
   double *S;     /* bound of sum_j |U_j| */
   double *tilt;  /* bound of sum_j |T_j| */
   double *b;     /* [nx] */
+  double *a;     /* [nx] bounds of |W P_4| */
 } discs;
 
 /* cycle.c: of a sampled system */
@@ -25,17 +27,20 @@ typedef struct cycle {
 } cycle;
 
 typedef struct modes {
-  cycle *cycle;        /* NULL: the system is not sampled */
-  discs now, old;      /* at the end of the step, at its start */
-  double *growth;      /* [nx x nx] what the step makes of one disc in another, at most */
-  double rate;         /* per second, logarithm: discs grow at most so fast; they shrink if it is negative */
-  int is_bad;          /* they would grow too much */
-  uint32_t wait;       /* steps until they are tried again */
-  double *in, *box;    /* [nx] what goes into the discs besides, by |W x|; what is left of it */
-  number *A, *B, *C;   /* [nx x nx] */
-  number *D, *G;       /* [mixed x nx x nx] */
-  double *rest, *work; /* [nx x nx] [8 nx nx + 7 nx] */
-  double *along;       /* [2 nx] */
+  cycle *cycle;           /* NULL: the system is not sampled */
+  discs now, old;         /* at the end of the step, at its start */
+  double *growth;         /* [nx x nx] what the step makes of one disc in another, at most */
+  double rate;            /* per second, logarithm: discs grow at most so fast; they shrink if it is negative */
+  int is_bad;             /* they would grow too much */
+  uint32_t wait;          /* steps until they are tried again */
+  double *in, *box;       /* [nx] what goes into the discs besides, by |W x|; what is left of it */
+  number *A, *B, *C;      /* [nx x nx] */
+  number *D, *G;          /* [mixed x nx x nx] */
+  double *rest, *work;    /* [nx x nx] [8 nx nx + 7 nx] */
+  double *sizes;          /* [8 nx x nx] map.c */
+  double *along;          /* [2 nx] */
+  double *all;            /* [3 nx] a + b at the start of the step; scratch */
+  double *rest_of_fourth; /* [nx] bounds of |P_4 - V W P_4| */
 } modes;
 
 int modes_open(zono *z);   /* 0: no memory */
@@ -48,6 +53,8 @@ double modes_mixed(const zono *z, uint32_t j, uint32_t i, uint32_t k);
 int modes_find(zono *z);
 /* map.c: m->now.b, m->in, m->box and m->growth from m->old, along m->now.V */
 void map_discs(zono *z);
+/* the same, with what quartic_near() knows of two data at once, in errors; adds to m->in, m->box */
+void map_pairs(zono *z);
 /* worth.c: may discs be of use? Of those that modes_find() found: are they not much wider than what they hold, or
 ** little enough for discs that shrink? After map_discs(): m->rate, and do they not grow too much? */
 enum worth { WORTH_NOTHING, WORTH_IF_SHRINKING, WORTH_KEEPING };
@@ -71,5 +78,11 @@ double discs_along(const zono *z, const discs *d, const double *y);
 double discs_size(const zono *z, const double *y);
 /* all of the box goes into the discs, and what they leave into the box */
 void discs_finish(zono *z);
+/* Do discs carry what the data make of P_4 in this step? */
+int discs_carry(const zono *z);
+/* P_4 of the end of the step turns with the axes, if there are any; before discs_finish() */
+void discs_turn(zono *z);
+/* half width of what that is in state i */
+double discs_turned(const zono *z, uint32_t i);
 double discs_width(const zono *z, uint32_t i); /* half width of state i */
 #endif

@@ -130,6 +130,8 @@ void mixed_prepare(zono *z);
 void mixed_through(const zono *z, const double *y, double *to);
 /* a bound of it, with terms of degree 4 and discs; */
 double mixed_size(const zono *z, const double *y);
+/* of generators alone; */
+double mixed_kept(const zono *z, const double *y);
 /* what the mixed terms do: columns from number `at` on, and the box of what they leave; returns the number of
 ** columns */
 uint32_t mixed_add(zono *z, uint32_t at);

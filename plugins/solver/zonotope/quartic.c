@@ -7,6 +7,7 @@
 ** section 7). So are terms of degree 2 in the data and 1 in eps, but they are bounded at once, and products of errors
 ** where these are as large as what varies in time makes them.
 */
+#include "modes.h"
 #include "quartic.h"
 #include "basis.h"
 #include "residual.h"
@@ -223,6 +224,22 @@ double quartic_through(zono *z, const double *by) {
   return (sizes(q->product, q->length) + (2.0 * z->nx + 8) * UNIT * size) * ABOVE;
 }
 
+/* at most |sum_k by_k P_4,k| without what is moved: of what came up in this step; after quartic_finish() */
+double quartic_fresh(zono *z, const double *by) {
+  quartic *q = z->proof->quartic;
+  double size = 0;
+  if (!q->held || q->count == 0) return 0;
+  memset(q->product, 0, q->length * sizeof *q->product);
+  add_product(z, q->product, by, q->term);
+  for (uint32_t k = 0; k < z->nx; k++) {
+    const double *moved = term_at(z, q->moved, k);
+    if (by[k] == 0) continue;
+    q->add(q->product, -by[k], moved, q->length);
+    size += fabs(by[k]) * (q->size[k] + sizes(moved, q->length));
+  }
+  return (sizes(q->product, q->length) + (4.0 * z->nx + 8) * UNIT * size) * ABOVE;
+}
+
 void quartic_move(zono *z, uint32_t i, const double *by) {
   quartic *q = z->proof->quartic;
   if (!q->held) return;
@@ -235,17 +252,19 @@ double quartic_end(zono *z, uint32_t i, const double *by, const double *reach) {
   quartic *q = z->proof->quartic;
   double size = 0;
   if (q->count == 0) return 0;
+  memcpy(term_at(z, q->term, i), term_at(z, q->moved, i), q->length * sizeof(double));
   add_product(z, term_at(z, q->moved, i), by, q->sum);
   for (uint32_t l = 0; l < z->nx; l++) size += reach[l] * q->rounding[l];
   return (2.0 * q->count + 4 * z->nx + 32) * UNIT * size * ABOVE;
 }
 
-/* Terms that come up no more, and are less than a step may add, go into the box: no step has to move them then. */
-static void drop_terms(zono *z) {
+void quartic_drop(zono *z) {
   quartic *q = z->proof->quartic;
+  if (!q->held || q->count > 0) return;
   for (uint32_t i = 0; i < z->nx; i++)
     if (q->size[i] > z->proof->budget[i] * fabs(z->h)) return;
-  for (uint32_t i = 0; i < z->nx; i++) *box(z, FROM_DEGREE, i) += q->size[i], q->size[i] = 0;
+  for (uint32_t i = 0; i < z->nx; i++) *box(z, FROM_DEGREE, i) += q->size[i] + discs_turned(z, i), q->size[i] = 0;
+  memset(z->modes->now.a, 0, z->nx * sizeof(double));
   q->held = 0;
 }
 
@@ -255,5 +274,4 @@ void quartic_finish(zono *z) {
   if (!q->held && q->count == 0) return;
   q->term = q->moved, q->moved = old, q->held = 1;
   for (uint32_t i = 0; i < z->nx; i++) q->size[i] = sizes(term_at(z, q->term, i), q->length) * ABOVE;
-  if (q->count == 0) drop_terms(z);
 }

@@ -97,6 +97,9 @@ void quartic_move(zono *z, uint32_t i, const double *by);
 /* adds the sum of this step: by [nx], what one of each x' makes; reach: its bound. Returns what is rounded. */
 double quartic_end(zono *z, uint32_t i, const double *by, const double *reach);
 void quartic_finish(zono *z);
+double quartic_fresh(zono *z, const double *by);
+/* Terms that come up no more, and are less than a step may add, go into the box: no step has to move them then. */
+void quartic_drop(zono *z);
 
 /* far.c; 0: no memory */
 int far_open(zono *z);
