@@ -1,6 +1,6 @@
 -- forever.lua -- sets that nothing leaves: how large they are, and what they take.
 --
---   ambit run scripts/bench/forever.lua [arm|robot|upright ...]
+--   ambit run scripts/bench/forever.lua [arm|robot|upright|orbit ...]
 package.path = (arg[0]:match ".*/" or "./") .. "?.lua;" .. package.path
 local ambit = require "ambit"
 local bench = require "bench"
@@ -94,11 +94,25 @@ local function upright()
     proved >= 0.9 * sampled and outside == 0
 end
 
+-- Van der Pol's orbit, and all of a start set about it.
+local function orbit()
+  local system = ambit.ode { states = { "x", "y" }, equations = function(s)
+    return { x = s.y, y = (1 - s.x ^ 2) * s.y - s.x }
+  end }
+  local map = ambit.poincare { system, section = function(s) return s.y end, direction = "falling", t_max = 8,
+    initial = { x = ambit.around("2.0086", "0.02"), y = 0 } }
+  local found = map:orbit()
+  local attracting = found.proved and found.attracting -- the longer run is now in the map's time
+  return map, attracting and ("proved for x = 2.0086 +- 0.02 on the section, multiplier in [%.2g, %.2g]"):format(
+    found.derivative.x.x.lo, found.derivative.x.x.hi) or tostring(found.reason), "proved", attracting
+end
+
 print "| problem | result | asked for | CPU time |"
 print "|---|---|---|---|"
 for _, case in ipairs {
   { "arm", "two-link arm under PD, 6 data of 5 %: within 5 degrees for ever", arm },
   { "upright", "pendulum upside down, mass +-10 %: proved region of attraction", upright },
+  { "orbit", "Van der Pol's orbit attracts, mu = 1", orbit },
   { "robot", "UR5 under PD, masses and dampings of 2 %: a set about rest", robot },
 } do
   if bench.wants(case[1]) then
