@@ -158,6 +158,8 @@ return {
     "the difference is enclosed with more digits although the bracket would do: a run slower",
   ["plugins/solver/zonotope/far.c | relation 2 | uint32_t first = g < u ? g : u, last = g > v ? g : v, middle = g + u + v - first - last;"] =
     "which far triples are held is free",
+  ["plugins/solver/zonotope/jump.c | named 1 | if (row_parts(s, 0) & TRIPLES) continue; -> continue;"] =
+    "the row keeps its terms of degree three, and a step that holds none charges their size: no set is smaller",
   ["plugins/solver/zonotope/jump.c | guard 1 | if (!p->njump) return 1;"] =
     "no programs are opened then: an array of none",
   ["plugins/solver/zonotope/tanh.c | unit 1 | k->slope = hi - lo > 0x1p-10 ? (last - first) / (hi - lo) : slope_at(middle);"] =

@@ -23,6 +23,20 @@ describe("a system that steps", function()
     assert.is_true(run.x.x.lo <= inner.x.x.lo and inner.x.x.hi <= run.x.x.hi)
   end)
 
+  it("comes to terms of degree three that no step before has held", function()
+    local p, q, r = ambit.between(-1, 1), ambit.between(-1, 1), ambit.between(-1, 1)
+    local system = ambit.map { states = { "x", "y", "z" },
+      next = function(s) return { y = p * q, x = s.y * r, z = s.x + 1 } end }
+    local rest = { x = 0, y = 0, z = 0 }
+    local run = ambit.simulate { system, initial = rest, t = { 0, 1, 2, 3, 4 } }
+    local set = ambit.simulate({ system, initial = rest, t = { 0, 3 } }):set()
+    for _, x in ipairs { run:at(2).x, run:at(3).x, run.x.x, ambit.evaluate { set.x }, run:at(3).z - 1, run.x.z - 1,
+      ambit.evaluate { set.z - 1 } } do
+      assert.is_true(x:contains(-1) and x:contains(1) and x:width() < 2.001)
+    end
+    assert.is_true(run:at(1).x:width() < 1e-9)
+  end)
+
   it("takes what varies anew at each step", function()
     local noisy = ambit.map { states = { "x" },
       next = function(s) return { x = 0.5 * s.x + ambit.varying(-1, 1) } end }
