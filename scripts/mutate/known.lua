@@ -13,7 +13,7 @@ return {
     new = "continue;" },
   { area = "sampled", file = "framework/verbs/simulate/problem.c", old = "b->nrate + b->ninvariant + nform + njump",
     new = "b->nrate + nform + njump" },
-  { area = "zonotope", file = "framework/verbs/simulate/problem.c", old = "b->form ? b->invariant + b->ninvariant : b->all",
+  { area = "sampled", file = "framework/verbs/simulate/problem.c", old = "b->form ? b->invariant + b->ninvariant : b->all",
     new = "b->form ? b->invariant : b->all" },
   { area = "sampled", file = "framework/verbs/simulate/problem.c", old = "b->ninvariant = b->q->want & AMBIT_WANT_INVARIANT ? s->ninvariant : 0",
     new = "b->ninvariant = 0" },

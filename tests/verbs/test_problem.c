@@ -153,6 +153,18 @@ static void an_implicit_form_stands_for_the_rates(void **unused) {
   }
   assert_int_equal(build(&s, AMBIT_WANT_IMPLICIT | AMBIT_WANT_RHS), AMBIT_OK);
   assert_true(p->np == 3 && p->rhs->nin == 6 && p->implicit->tape->nin == 8);
+  assert_int_equal(build(&s, AMBIT_WANT_IMPLICIT | AMBIT_WANT_INVARIANT), AMBIT_OK); /* each its own formulas */
+  assert_true(p->np == 3 && p->ninvariant == 1 && p->invariant->nin == 6 && p->implicit->tape->nin == 8);
+  ambit_interval of_x[6] = { { 2, 2 }, { 5, 5 }, { 3, 3 }, { 3, 3 }, { 3, 3 }, { 0.5, 0.5 } }; /* x y, three data, t */
+  assert_int_equal(ambit_hull(p->invariant, of_x, slot), 0);
+  assert_true(slot[p->invariant->out[0]].lo == 8.5 && slot[p->invariant->out[0]].hi == 8.5);
+  ambit_interval all[8] = { { 2, 2 }, { 5, 5 }, { 4, 4 }, { 6, 6 }, { 3, 3 }, { 3, 3 }, { 3, 3 }, { 1, 1 } };
+  assert_int_equal(ambit_hull(p->implicit->tape, all, slot), 0);
+  static const double both[] = { 12, -5, 5, 15 };
+  for (int k = 0; k < 4; k++) {
+    ambit_interval x = slot[p->implicit->tape->out[k]];
+    assert_true(x.lo == both[k] && x.hi == both[k]);
+  }
   close_scene(&s);
 }
 
