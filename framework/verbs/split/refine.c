@@ -42,7 +42,7 @@ typedef struct refinement {
   double gain[CANDIDATES]; /* of datum[]: what half a part still has of its excess; ascending */
   bool starved;            /* of memory: a part is missing */
   bool alone;              /* the caller's thread does the parts, so it must look at the sink meanwhile */
-  double ends;
+  double began, ends;
   _Atomic bool spent, stopped; /* the CPU time is; the sink says so */
 } refinement;
 
@@ -273,6 +273,12 @@ static ambit_status cut_round(refinement *r, bool *done, ambit_failure *f) {
   return status;
 }
 
+/* Is there CPU time for so many runs, as long as those until now? What is not done when it ends is lost. */
+static bool has_time(const refinement *r, uint32_t runs) {
+  double now = ambit_context_seconds();
+  return !(r->ends > 0) || now + runs * (now - r->began) / (r->runs > 0 ? r->runs : 1) <= r->ends;
+}
+
 static ambit_status refine(refinement *r, const double *influence, bool *done, ambit_failure *f) {
   const ambit_cut_band *band = r->s->band;
   uint32_t dull = 0;
@@ -280,7 +286,8 @@ static ambit_status refine(refinement *r, const double *influence, bool *done, a
   while (*done && dull < 2) {
     const part *worst = &r->kept[worst_of(r->kept, r->nkept)];
     double before = worst->excess;
-    if (!(before > band->limit) || r->runs + 2 * CANDIDATES + (1u << AT_ONCE) > band->most) return AMBIT_OK;
+    const uint32_t least = 2 * CANDIDATES + (1u << AT_ONCE);
+    if (!(before > band->limit) || r->runs + least > band->most || !has_time(r, least)) return AMBIT_OK;
     ambit_status status = try_data(r, worst, influence, done, f);
     if (status != AMBIT_OK || !*done || r->ndatum == 0) return status;
     status = cut_round(r, done, f);
@@ -325,7 +332,7 @@ static ambit_status run_all(refinement *r, ambit_failure *f) {
   if (!influence || ambit_probe_influence(p, r->s->initial, r->arena, influence) != AMBIT_OK) return ambit_no_memory(f);
   bool done = true;
   for (size_t n = 0; n < sizeof totals / sizeof *totals; n++) {
-    if (n > 0 && totals[n] > r->s->band->most / 4) break;
+    if (n > 0 && (totals[n] > r->s->band->most / 4 || !has_time(r, totals[n]))) break;
     ambit_status status = start(r, influence, totals[n], &done, f);
     if (status != AMBIT_OK || !done) return status;
     if (!(r->kept[worst_of(r->kept, r->nkept)].excess > r->s->band->limit)) return AMBIT_OK;
@@ -364,7 +371,8 @@ ambit_status ambit_refine_run(const ambit_split *s, ambit_arena *arena, ambit_sp
   refinement r = { .s = s, .arena = arena, .out = out, .asked = *s };
   *out = (ambit_split_outcome) { 0 };
   r.asked.pieces = &r.boxes;
-  if (s->band->seconds > 0) r.ends = ambit_context_seconds() + s->band->seconds;
+  r.began = ambit_context_seconds();
+  if (s->band->seconds > 0) r.ends = r.began + s->band->seconds;
   ambit_status status = open_pieces(&r, f);
   if (status == AMBIT_OK) {
     out->threads = ambit_pool_threads(r.pool);
