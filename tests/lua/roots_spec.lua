@@ -269,6 +269,40 @@ describe("equilibria", function()
     end
   end)
 
+  it("finds where an arm from a file comes to rest under its controllers", function()
+    local names = { "shoulder_pan_joint", "shoulder_lift_joint", "elbow_joint", "wrist_1_joint", "wrist_2_joint",
+      "wrist_3_joint" }
+    local stiffness, goal = { 400, 400, 300, 40, 40, 20 }, { "0.3", "-0.9", "1.2", "0.1", "-0.4", "0.8" }
+    local function arm(payload, tolerances)
+      local m = ambit.load { "scripts/robots/ur5.urdf", gravity = { 0, 0, "-9.81" }, tolerances = tolerances }
+      m:rigid_body { at = m.links.tool0, mass = payload, inertia = { "0.004", 0, 0, 0, "0.004", 0, 0, 0, "0.003" } }
+      for i, name in ipairs(names) do
+        m:joint_torque { joint = m.joints[name],
+          torque = function(q, v) return stiffness[i] * (goal[i] - q) - stiffness[i] / 8 * v end }
+      end
+      return m
+    end
+    local box = {}
+    for i, name in ipairs(names) do box[name] = { goal[i] - 1, goal[i] + 1 } end
+    local rest = ambit.equilibria {
+      arm(ambit.between(1, 2), { mass = "1%", offset = "1%" }), box = box,
+    }
+    assert.equal("complete", rest.status)
+    assert.equal(1, #rest.proved)
+    for _, payload in ipairs { 1, "1.37", 2 } do -- an ordinary run from the goal, until nothing moves
+      local initial = {}
+      for i, name in ipairs(names) do initial[name], initial[name .. "'"] = goal[i], 0 end
+      local run = ambit.simulate { arm(payload):dynamics(), initial = initial, t = 30, solver = "gsl",
+        relative = 1e-10, absolute = 1e-12 }
+      for _, name in ipairs(names) do
+        local place, x = rest.proved[1][name], run.x[name]:mid()
+        assert.is_true(math.abs(run.x[name .. "'"]:mid()) < 1e-8)
+        assert.is_true(place.lo - 1e-8 < x and x < place.hi + 1e-8, name)
+        assert.is_true(place:width() < 0.1)
+      end
+    end
+  end)
+
   it("takes an ode, with uncertain parameters", function()
     local system = ambit.ode {
       states = { "n", "m" }, parameters = { a = ambit.between("1.98", "2.02") },
