@@ -14,6 +14,7 @@
 #define BOXES 40    /* without data: boxes of so many steps, */
 #define FEW 1200    /* and at least so many where something varies: what joining its columns leaves comes each step */
 #define VARYING 600 /* and so many more for all that varies together, */
+#define FEW_DATA 10 /* whose triples cost so little that rows hold them all */
 #define EACH 32u    /* or for the mean and the moment of each */
 
 static void *room(const ambit_host *h, size_t count, size_t size) { return h->alloc(h, (count ? count : 1) * size); }
@@ -121,8 +122,8 @@ static int open_set(zono *z) {
   z->ngen_max += z->vary_room;
   z->P = doubles(h, nx * z->shape.stride), z->E = doubles(h, nx), z->G = doubles(h, nx * (z->ngen_max + nx));
   z->lo = doubles(h, nx), z->hi = doubles(h, nx), z->tube_lo = doubles(h, nx), z->tube_hi = doubles(h, nx);
-  z->limit = doubles(h, nx), z->expected = doubles(h, nx);
-  return z->expected && z->P && z->E && z->G && z->lo && z->hi && z->tube_lo && z->tube_hi && z->limit;
+  z->limit = doubles(h, nx);
+  return z->P && z->E && z->G && z->lo && z->hi && z->tube_lo && z->tube_hi && z->limit;
 }
 
 /* -- the solver */
@@ -164,9 +165,11 @@ static int may_wait(const zono *z) {
 /* an unproved run; then many data once more, in the order of how much they matter */
 static ambit_status look_ahead(zono *z) {
   int is_followed = z->m > 0 && !z->nvarying && z->problem.njump == 0;
-  double *weight = z->m > FOLLOWED ? doubles(z->host, z->problem.nu) : NULL;
-  if (z->m > FOLLOWED && !weight) return AMBIT_NOMEM;
-  if (weight || is_followed) zono_pilot(z, weight, is_followed && may_wait(z));
+  int is_weighed = z->m > FOLLOWED || (is_followed && z->m > FEW_DATA);
+  double *weight = is_weighed ? doubles(z->host, z->problem.nu) : NULL;
+  if (!(z->expected = doubles(z->host, z->nx)) || (is_weighed && !weight)) return AMBIT_NOMEM;
+  if (!is_weighed && !is_followed) return AMBIT_OK;
+  if (!zono_pilot(z, weight, is_followed && may_wait(z))) return AMBIT_NOMEM;
   return weight ? zono_start_open(z, weight) : AMBIT_OK;
 }
 
@@ -182,8 +185,8 @@ static ambit_status open_all(zono *z) {
   if (status == AMBIT_NOMEM) return no_memory(h);
   if (status != AMBIT_OK) return status;
   z->K_max = highest_order(z), z->K = z->K_max;
-  if (!zono_open_rows(z) || (z->na && !zono_open_implicit(z)) || !open_set(z) || !jump_open(z)) return no_memory(h);
   if (look_ahead(z) != AMBIT_OK) return no_memory(h);
+  if (!zono_open_rows(z) || (z->na && !zono_open_implicit(z)) || !open_set(z) || !jump_open(z)) return no_memory(h);
   return zono_open_proof(z) && jump_open_proofs(z) ? AMBIT_OK : no_memory(h);
 }
 

@@ -155,6 +155,7 @@ static ambit_status evaluate_over(zono *z, uint32_t m, uint32_t *own, const doub
   z->m = m;
   if (!shape_open(h, &z->shape, m, z->nx)) return AMBIT_NOMEM;
   if (is_certain(z)) shape_lean(&z->shape);
+  if (weight && z->bent && z->bent < z->shape.cubic) z->shape.cubic = z->bent, shape_place(&z->shape);
   double *input = h->alloc(h, (z->problem.nu + 1u) * sizeof *input);
   if (!input || !allocate(z)) return AMBIT_NOMEM;
   choose_data(z, weight);

@@ -80,6 +80,7 @@ typedef struct zono {
   program program;
   shape shape; /* of rows; shape.m data, shape.nx eps */
   uint32_t nx, na, np, m, nout, nslot;
+  uint32_t bent;     /* data that need triples in rows, in the order of their weights; 0: not known */
   uint32_t nvarying; /* functions of time that the program depends on: all of the problem's, or none */
   uint32_t K, K_max; /* order in time of the present step; most that there is room for */
   /* -- rows */
@@ -170,9 +171,9 @@ int zono_open_rows(zono *z);
 /* m, start, p_row from the initial tape; data in the order of the weights [nu] of their unknowns, or as they are */
 ambit_status zono_start_open(zono *z, const double *weight);
 void zono_start(zono *z); /* P, G, t as at time[0] */
-/* pilot.c: weight [nu] += how much each datum matters in the whole run, or NULL; z->expected, of the whole run if
-** states may wait at rest */
-void zono_pilot(zono *z, double *weight, int may_wait);
+/* pilot.c: weight [nu] += how much each datum matters in the whole run, and z->bent, or NULL; z->expected, of the whole
+** run if states may wait at rest; 0: no memory */
+int zono_pilot(zono *z, double *weight, int may_wait);
 /* rows of all slots from P, E, p_row, t; z->K orders. 0: see z->why */
 int zono_series(zono *z);
 /* functions.c: row 0, row k > 0 of a quotient, root or elementary function; 0: undefined */
