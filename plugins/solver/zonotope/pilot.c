@@ -20,6 +20,7 @@
 #define SOON 0.1       /* of the whole time */
 #define LAST_TERM 1e-3 /* of a state, or of its set, that the last order in time may make in a step */
 #define BENT 2.5e-5    /* of a state's set, that terms of degree 5 with the other data are at most */
+#define MUCH 0.05      /* b^2 from which on all are needed */
 #define FADED 0.1      /* of a set that was larger once, as if it still were so large */
 #define LEAST 6        /* data that have triples in rows */
 #define MANY 34        /* data: pairs of more would cost more than is gained */
@@ -144,7 +145,7 @@ static uint32_t count_bent(const pilot *p) {
       double part = p->bend[(size_t)i * m + j];
       lost[rank[i] > rank[j] ? rank[i] : rank[j]] += part, all += part;
     }
-  while (n > LEAST && (sum += lost[n - 1]) * p->bent * p->bent <= BENT * all) n--;
+  while (n > LEAST && p->bent < MUCH && (sum += lost[n - 1]) * p->bent * p->bent <= BENT * all) n--;
   return n;
 }
 
