@@ -321,11 +321,11 @@ static void far_triples_are_those_of_the_product(void **unused) {
   }
 }
 
-/* Which triples are in the runs, and the sizes of the products that make them, where of the groups' triples only as many
-** are held as there is room for. */
+/* Which triples are in the runs, and the sizes of the products that make them, where only as many of the groups are
+** held as there is room for. */
 static double size_by_hand(const zono *z, const double *l, const double *pairs, double *count) {
   const far *f = &z->proof->quartic->far;
-  uint32_t group[64], of[3];
+  uint32_t group[64] = { 0 }, of[3];
   double sum = 0;
   for (uint32_t g = 0; g < f->groups; g++)
     for (uint32_t d = f->from[g]; d < f->from[g + 1]; d++) group[d] = g;
