@@ -128,10 +128,11 @@ static long double missed_fourth(
     }
   }
   if (!f->any) return 0;
-  sum = along(z->nx, f->carried ? turned : own, f->before) - along(z->nx, l, now);
+  sum = along(z->nx, f->carried ? turned : own, f->before);
+  if (z->proof->quartic->held) sum -= along(z->nx, l, now);
   for (uint32_t i = 0; i < z->nx; i++) sum += l[i] * f->fresh[i], rounding += 0x1p-62L * fabsl(l[i] * now[i]);
   if (z->modes->old.any) sum += turned_fourth(z, &z->modes->old, turned, xi, f->before);
-  if (z->modes->now.any) sum -= turned_fourth(z, &z->modes->now, l, xi, now);
+  if (z->modes->now.any && z->proof->quartic->held) sum -= turned_fourth(z, &z->modes->now, l, xi, now);
   return fmaxl(fabsl(sum) - rounding, 0);
 }
 
@@ -257,7 +258,8 @@ static void move_fourth(zono *z, fourth *f, double size, const double *unit) {
     if (pick(2)) q->moved[i] += 3 * size * unit[i] * draw(-1, 1);
     f->fresh[i] = (long double)q->moved[i] - q->term[i];
   }
-  if (f->any) quartic_finish(z), discs_turn(z);
+  for (uint32_t i = 0; i < n; i++) z->proof->budget[i] = pick(2) ? 0 : INFINITY;
+  if (f->any) quartic_finish(z), discs_turn(z), quartic_drop(z);
 }
 
 /* One step of discs that there are, in random axes of another map */

@@ -262,10 +262,13 @@ void discs_turn(zono *z) {
     fresh[k] = discs_carry(z) ? hypot(quartic_fresh(z, re), quartic_fresh(z, im)) * ABOVE : m->now.a[k];
   }
   for (uint32_t k = 0; k < n; k++) {
-    double turned = 0;
-    for (uint32_t l = 0; l < n; l++) turned += m->now.tilt[(size_t)k * n + l] * fresh[l];
+    double turned = 0, rounded = 0; /* U_j W P_4 is V T_j W P_4 but for it */
+    for (uint32_t l = 0; l < n; l++) {
+      double tilt = m->now.tilt[(size_t)k * n + l];
+      turned += tilt * fresh[l], rounded += tilt * (fresh[l] + m->now.a[l]);
+    }
     m->in[k] += turned * ABOVE;
-    for (uint32_t i = 0; i < n; i++) m->box[i] += 8 * (n + 4) * UNIT * cabs(m->now.V[i * n + k]) * turned;
+    for (uint32_t i = 0; i < n; i++) m->box[i] += 8 * (n + 4) * UNIT * cabs(m->now.V[i * n + k]) * rounded;
   }
 }
 
@@ -285,8 +288,7 @@ void discs_finish(zono *z) {
   for (uint32_t i = 0; i < n; i++) {
     double rounding = LEAST; /* U_j is V T_j but for it */
     for (uint32_t l = 0; l < n && m->now.any; l++)
-      for (uint32_t k = 0; k < n; k++)
-        rounding += cabs(m->now.V[i * n + l]) * m->now.tilt[l * n + k] * (m->now.b[k] + m->now.a[k]);
+      for (uint32_t k = 0; k < n; k++) rounding += cabs(m->now.V[i * n + l]) * m->now.tilt[l * n + k] * m->now.b[k];
     *box(z, FROM_MIXED, i) += (m->box[i] + 8 * (n + 4) * UNIT * rounding) * ABOVE;
   }
 }

@@ -131,7 +131,7 @@ static void map_pair(zono *z, const sizes *s, uint32_t i, uint32_t j) {
   for (size_t e = 0; e < square; e++) beside(m, s, e, m->A[e]), s->S[e] += cabs(m->A[e]);
 }
 
-/* along += what D and S are off by: sums are, by 16 (nx + 4) UNIT of the sum of their terms' sizes. S += its own
+/* slack := what D and S are off by: sums are, by 16 (nx + 4) UNIT of the sum of their terms' sizes. S += its own
 ** part. */
 static void add_slack(zono *z, const sizes *s) {
   modes *m = z->modes;
@@ -141,7 +141,7 @@ static void add_slack(zono *z, const sizes *s) {
   for (size_t e = 0; e < square; e++) s->work[e] = cabs(m->C[e]), of_D[e] = by * s->D[e], of_S[e] = by * s->S[e];
   bound_product(n, m->now.tilt, s->work, by, of_D);
   bound_product(n, s->G, m->old.tilt, by, of_S), bound_product(n, m->now.tilt, of_D, 2, of_S);
-  for (size_t e = 0; e < square; e++) s->along[e] += of_D[e] + of_S[e], s->S[e] += of_S[e];
+  for (size_t e = 0; e < square; e++) of_D[e] += of_S[e], s->S[e] += of_S[e];
 }
 
 /* to [nx] := bounds of |P_4 - V W P_4| at the start */
@@ -196,7 +196,7 @@ static void grow(zono *z, const sizes *s) {
   double *off = s->work;
   memset(m->now.b, 0, n * sizeof *m->now.b);
   for (size_t e = 0; e < (size_t)n * n; e++) {
-    m->growth[e] = hypot(cabs(m->C[e]) + s->along[e], s->across[e]) * ABOVE;
+    m->growth[e] = (hypot(cabs(m->C[e]) + s->along[e], s->across[e]) + s->slack[e]) * ABOVE;
     off[e] = s->D[e] + s->S[e] + s->slack[e];
   }
   add_bound(n, m->growth, m->old.b, m->now.b);
@@ -265,7 +265,7 @@ void map_pairs(zono *z) {
   }
   for (size_t e = 0; e < square; e++) {
     double slack = 16.0 * (n + 4) * UNIT * second[e];
-    s.along[e] += slack, s.S[e] += second[e] + slack;
+    s.slack[e] += slack, s.S[e] += second[e] + slack;
   }
   grow(z, &s);
   add_bound(n, left, m->all, m->box);

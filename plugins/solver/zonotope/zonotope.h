@@ -1,8 +1,8 @@
 /* zonotope.h -- what the files of the zonotope solver share.
 **
 ** The set at time t is { P(xi) + P_4(xi) + G rho + e : xi in [-1, 1]^m, rho in [-1, 1]^ngen, e in discs of this xi }: P
-** a polynomial of degree 3 in the data, P_4 terms of degree 4 (quartic.c), G generators; discs.c has the discs. For one
-** step (P_4 + G rho + e)_i is written E_i eps_i, |eps_i| <= 1.
+** a polynomial of degree 3 in the data, P_4 terms of degree 4 (quartic.c), which turn with the discs (discs.c) where
+** there are any, G generators. For one step (P_4 + G rho + e)_i is written E_i eps_i, |eps_i| <= 1.
 **
 ** Phase 1 (series.c, implicit.c, functions.c) finds rows V_jk, k <= K, for every slot j of the tape, such that
 ** V_j(s) = sum_k V_jk s^k nearly satisfies the equations. It is plain arithmetic in doubles and proves nothing. Phase 2
