@@ -141,6 +141,34 @@ describe("dynamics", function()
     near(all.tau[2], bias[2])
   end)
 
+  it("costs what the mechanism costs, whatever else there is", function()
+    local core = require "ambit.core"
+    local function arm(name, links)
+      local m = ambit.mechanism { name, gravity = { 0, "-9.81", 0 } }
+      local at = m.world
+      for i = 1, links do
+        local hinge = m:revolute { from = at, axis = "z", name = "q" .. i }
+        at = m:rigid_link { from = hinge, offset = { ambit.around(1, "1%"), 0, 0 } }
+        m:point_mass { at = at, mass = ambit.around(1, "1%") }
+      end
+      return m
+    end
+    local function cost(name)
+      local m, before = arm(name, 3), core.answers()
+      m:dynamics()
+      local after = core.answers()
+      return after.asked - before.asked, after.nodes - before.nodes
+    end
+    local asked, nodes = cost "alone"
+    local datum, kept = ambit.around(1, "1%"), {}
+    for i = 1, 100000 do kept[i] = datum * i + i end
+    arm("chain", 40):dynamics()
+    local asked_beside, nodes_beside = cost "beside"
+    assert.is_true(asked > 1000 and asked_beside < 1.01 * asked and nodes_beside < 1.05 * nodes,
+      ("%d operations for %d, %d nodes for %d"):format(asked_beside, asked, nodes_beside, nodes))
+    assert.equal(100000, #kept)
+  end)
+
   it("refuses with a reason", function()
     local function message(f, ...)
       local ok, text = pcall(f, ...)
