@@ -34,7 +34,7 @@ function varying.new(lo, hi, how)
   local e = core.varying(lo, hi, how.name)
   local leaf = core.leaves({ e })[1]
   if how.rate == nil or not leaf then return e end
-  local _, unit = core.unit_of(e)
+  local unit = core.unit_of(e)
   rated[leaf.number] = { lo = core.expression(lo), hi = core.expression(hi), rate = rate_of(how.rate, unit),
     unit = unit }
   return e
@@ -126,11 +126,11 @@ function varying.is_start(one, initial)
   return #leaves == 1 and leaves[1].number == core.leaves({ one.start })[1].number
 end
 
--- Do carried states start within their bounds?
+-- May carried states start within their bounds? What a set that a run came to has beyond them holds no function.
 function varying.check_starts(initial, system, what)
   for k, one in ipairs(system.carried or {}) do
     local x = core.evaluate({ expressions = { initial[system.plain + k] } })[1]
-    if not (x.lo >= one.leaf.lo and x.hi <= one.leaf.hi) then
+    if not (x.lo <= one.leaf.hi and x.hi >= one.leaf.lo) then
       check.fail("%s: initial.%s: `%s` stays between %g and %g", what, one.name, one.name, one.leaf.lo, one.leaf.hi)
     end
   end

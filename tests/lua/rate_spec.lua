@@ -172,11 +172,36 @@ describe("what varies at a bounded rate", function()
     assert.equal("proved", ambit.invariant { damped, about = { x = 0 } }.status)
   end)
 
+  it("has units", function()
+    -- x' = d, from 0: in SI, the same whatever the units are
+    for _, case in ipairs { { "-1 N", "1 N", "0.1 N/s", 1 }, { "-1 mm", "1 mm", "0.1 mm/s", 1e-3 },
+      { "-1 deg", "1 deg", "0.1 deg/s", math.pi / 180 } } do
+      local d = ambit.varying(case[1], case[2], { rate = case[3], name = "d" })
+      local system = ambit.ode { states = { "x" }, check_units = false,
+        equations = function() return { x = d } end }
+      local run = ambit.simulate { system, initial = { x = 0, d = 0 }, t = { 0, 2 } }
+      local most = 0.2 * case[4] -- rate t^2 / 2
+      assert.equal("complete", run.status)
+      assert.is_true(run.x.x.hi >= most and run.x.x.hi < 1.2 * most, tostring(run.x.x))
+    end
+  end)
+
+  it("goes on from a set that reaches beyond the bounds", function()
+    local d = ambit.varying(-1, 1, { rate = 0.5, name = "d" })
+    local system = ambit.ode { states = { "x", "v" }, equations = function(x) return { x = x.v, v = -x.x + d } end }
+    local run = ambit.simulate { system, initial = { x = 0, v = 0 }, t = { 0, 3 } }
+    local on = ambit.simulate { system, initial = run:set(), t = { 3, 4 } }
+    local whole = ambit.simulate { system, initial = { x = 0, v = 0 }, t = { 0, 4 } }
+    assert.equal("complete", on.status)
+    assert.is_true(on.x.x.hi >= 0.9 * whole.x.x.hi and on.x.x.hi < 1.3 * whole.x.x.hi)
+    fails(function() ambit.simulate { system, initial = { x = 0, v = 0, d = 2 }, t = { 0, 1 } } end, "stays between")
+  end)
+
   it("says what is missing", function()
     fails(function() ambit.varying(0, 1, { rate = -1 }) end, "rate")
     fails(function() ambit.varying(0, 1, { rate = { 1, 2 } }) end, "rate")
     fails(function() ambit.varying(0, 1, { speed = 1 }) end, "speed")
-    fails(function() ambit.varying("0 m", "1 m", { rate = "1 m" }) end, "rate")
+    fails(function() ambit.varying("0 m", "1 m", { rate = "1 m" }) end, "m/s")
     local fixed = from_rest(ambit.varying(0, 1, { rate = 0 }), { 0, 3 })
     assert.is_true(fixed.x.x:contains(1 - math.cos(3)) and fixed.x.x.hi < 2.01)
   end)

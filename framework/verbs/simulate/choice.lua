@@ -332,7 +332,6 @@ local function cut_where_wide(state)
   local reason = "%s; the data are cut where the sets are too wide whole"
   local try = { solver = state.by.solver, reason = reason:format(state.by.reason),
     band = band_of(state.best, state.hull.draws), left = {} }
-  try.band.runs = tonumber(os.getenv "RUNS" or RUNS)
   return function()
     local own = try
     try = nil
