@@ -283,7 +283,7 @@ describe("equilibria", function()
       return m
     end
     local box = {}
-    for i, name in ipairs(names) do box[name] = { goal[i] - 1, goal[i] + 1 } end
+    for i, name in ipairs(names) do box[name] = { ambit.number(goal[i]) - 1, ambit.number(goal[i]) + 1 } end
     local rest = ambit.equilibria {
       arm(ambit.between(1, 2), { mass = "1%", offset = "1%" }), box = box,
     }
