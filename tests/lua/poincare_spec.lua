@@ -80,7 +80,7 @@ describe("poincare", function()
     local function circle(rate, box)
       local system = ambit.ode { states = { "x", "y", "z" }, equations = function(s)
         local r = s.x ^ 2 + s.y ^ 2
-        return { x = rate(r) * s.x - s.y, y = rate(r) * s.y + s.x, z = -"0.1" * s.z + "0.3" * (r - 1) }
+        return { x = rate(r) * s.x - s.y, y = rate(r) * s.y + s.x, z = "-0.1" * s.z + "0.3" * (r - 1) }
       end }
       return ambit.poincare { system, section = function(s) return s.y end, direction = "rising", t_max = 8,
         initial = { x = ambit.around(1, box), y = 0, z = ambit.around(0, 8 * box) } }
