@@ -39,6 +39,7 @@ local ambit = {
   reduce = later("reduce", "reduce"),
   compare = later("compare", "compare"),
   view = later("view", "view"),
+  plot = later("plot", "plot"),
   plugins = later("plugin", "plugins"),
   plugin = later("plugin", "plugin"),
   trust = later("plugin", "trust"),

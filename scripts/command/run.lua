@@ -10,7 +10,9 @@ local session = require "ambit.session"
 local command = { scene = true }
 
 command.usage = [[
-usage: ambit run [--json FILE|-] [--quiet] [LIMITS] SCENE.lua [ARG ...]
+usage: ambit run [--json FILE|-] [--plot FILE] [--quiet] [LIMITS] SCENE.lua [ARG ...]
+  --plot FILE  draws the states of each simulation over time (ambit.plot): .svg, .html, .png, .pdf or .csv; of several
+               the second is FILE with -2 before the end of its name
   --json FILE  also write every record as a line of JSON, first whence they come (version, plugins, SHA-256); `-` is
                standard output (what the scene prints then goes to standard error)
   --quiet      no progress bar and no notes
@@ -42,22 +44,38 @@ local function worst_of(problem)
   return session.worst
 end
 
+-- A picture of each simulation of the scene. Were all of them written?
+local function write_plots(file)
+  local all = true
+  for i, entry in ipairs(session.runs) do
+    local name = i == 1 and file or file:gsub("(%.%w+)$", ("-%d%%1"):format(i))
+    sandbox.output(name)
+    local good, problem = pcall(require "ambit.plot".plot, { entry.run, file = name })
+    if not good then complain(problem) end
+    all = all and good
+  end
+  if #session.runs == 0 then complain "--plot: the scene simulates nothing: there is no picture" end
+  return all and #session.runs > 0
+end
+
 -- The end of the scene, however it came: the last record, what is to be said, the exit code. problem: the error that
--- ended it; asked: what os.exit asked for, which may not make it better.
-local function finish(problem, asked)
+-- ended it; asked: what os.exit asked for, which may not make it better; plot: the file of --plot.
+local function finish(problem, asked, plot)
+  local drawn = not plot or core.interrupted() or write_plots(plot)
   local worst, stopped, by_stop, _, limit = worst_of(problem), core.interrupted()
   local exit = code.exit(worst)
   if asked and asked ~= 0 then exit = asked end
   if stopped then exit = by_stop end
   if problem then complain(problem) end
   local reason = limit or problem and tostring(problem):match "^[^\n]*"
+  if not drawn and exit == 0 then worst, exit, reason = "invalid", 1, "a picture could not be written" end
   if not core.flush() and exit == 0 then
     worst, exit, reason = "invalid", 1, "not everything could be written to standard output"
   end
   pcall(core.record, "end", { "code", worst, "exit", exit, "reason", reason })
   if not close_records() then return 1 end
   if stopped and not limit then complain "interrupted: what was recorded up to there is kept" end
-  local sentence = not problem and sentences[code.exit(worst)]
+  local sentence = not problem and worst ~= "invalid" and sentences[code.exit(worst)]
   if sentence then complain(("%s (%s): see status, code and reason of the verbs"):format(sentence, worst)) end
   scene.watch_finalisers(exit, worst, function(worse, ended)
     complain(("%s (%s), in a finaliser at the end"):format(sentences[worse], ended))
@@ -65,16 +83,21 @@ local function finish(problem, asked)
   return exit
 end
 
-local known = sandbox.with { json = true, quiet = false }
+local known = sandbox.with { json = true, plot = true, quiet = false }
 
 function command.run(list)
   local options, file, words = scene.arguments(list, known)
   if not options then return 2, file end
-  local wrong = scene.prepare(options, { scene = file })
+  local wrong = scene.prepare(options, { scene = file, outputs = { options.plot } })
   if wrong then return 2, wrong end
   core.progress(not options.quiet)
   core.notes(not options.quiet)
   if not options.quiet then scene.note_strays(words, known) end
+  if options.plot then
+    local good, problem = pcall(require "ambit.plot".check_file, options.plot)
+    if not good then return 2, (tostring(problem):gsub("^.-plot: file", "--plot")) end
+    session.runs = {}
+  end
   if options.json then
     local text, why = provenance.read(file)
     if not text then return complain(why) or 1 end
@@ -82,9 +105,9 @@ function command.run(list)
     if not good then return complain(problem) or 1 end
     if options.json == "-" then scene.print_to_stderr() end
   end
-  _G.os.exit = scene.leave_by(function(asked) return finish(nil, asked) end)
+  _G.os.exit = scene.leave_by(function(asked) return finish(nil, asked, options.plot) end)
   local good, problem = scene.run(file, words)
-  return finish(not good and problem or nil)
+  return finish(not good and problem or nil, nil, options.plot)
 end
 
 return command

@@ -219,6 +219,21 @@ local function guard_files(folders)
   end
 end
 
+local outputs = {} -- by name: what the command writes, and the scene does not
+
+-- The command's own files, which may be more than the options name: `--plot` numbers them.
+function sandbox.output(name) outputs[name] = true end
+
+-- What verbs write when they are asked to (pictures, results) goes through one function.
+local function guard_writing(about)
+  for _, file in pairs(about.outputs or {}) do sandbox.output(file) end
+  local write = core.write_file
+  core.write_file = function(name, text)
+    if not outputs[name] then return ("%s: not in a sandbox"):format(tostring(name)) end
+    return write(name, text)
+  end
+end
+
 -- Shuts the process in, if that was asked for: right before the scene is run, when all that the command itself writes
 -- while it runs is open. nil, or what stands in the way.
 function sandbox.enter()
@@ -238,6 +253,7 @@ function sandbox.enter()
   if not files_kept then io.stderr:write(no_landlock) end
   environment = make_environment()
   guard_files(folders)
+  guard_writing(about)
 end
 
 local function check_readable()

@@ -175,7 +175,7 @@ local ambit = require "ambit"
 assert(type(ambit.reduce) == "function" and not package.loaded["ambit.reduce"])
 local m = ambit.mechanism "m"
 ambit.evaluate { m:position(m:rigid_link { from = m.world, offset = { 1, 0, 0 } }) }
-for _, verb in ipairs { "simulate", "reduce", "reduce.certify", "verify", "compare", "sample", "view" } do
+for _, verb in ipairs { "simulate", "reduce", "reduce.certify", "verify", "compare", "sample", "view", "plot" } do
   assert(not package.loaded["ambit." .. verb], verb)
 end
 assert(select(2, pcall(ambit.reduce, 1)):find "reduce: expected a table" and package.loaded["ambit.reduce"])]]

@@ -16,7 +16,8 @@ end
 
 local common = read "tests/page/probe.js"
 local probes = { compare = read "tests/page/probe_compare.js" .. common,
-  stability = read "tests/page/probe_stability.js" .. common }
+  stability = read "tests/page/probe_stability.js" .. common,
+  plot = read "tests/page/probe_plot.js" .. common }
 
 -- expected: { texts = { { selector, text } }, counts = { { selector, n } }, sort = true: try the tables at once }
 local function inspect(kind, name, text, expected, width, height, flags)
@@ -78,6 +79,13 @@ inspect("stability", "empty suite", page "stability empty_suite", { texts = { { 
   740)
 inspect("stability", "a large suite", page "stability suite 70 12", { counts = { { ".case tbody tr", 840 } } }, 1280,
   900)
+
+-- -- plots of a run
+
+everywhere("plot", "over time", page "plot over_time", { counts = { { ".band canvas", 2 } }, texts = {
+  { "h1", "</script><b>a title" }, { "figcaption", "<b>v" }, { "dd", "holds at all times" }, { "dd", "fails" } } })
+everywhere("plot", "phase plane", page "plot plane", { counts = { { "svg .axis", 2 } },
+  texts = { { "svg text", "<b>v" }, { ".quiet", "the set at the end" } } })
 
 -- -- a diagram is first drawn over what tells the combinations apart
 

@@ -8,6 +8,18 @@ const wait = ms => new Promise(done => setTimeout(done, ms));
 const press = (target, key) => target.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true }));
 const isShown = element => element.checkVisibility();
 
+// How many points of a canvas are not empty.
+function inked(canvas) {
+  const copy = document.createElement("canvas");
+  Object.assign(copy, { width: canvas.width, height: canvas.height });
+  const pen = copy.getContext("2d", { willReadFrequently: true });
+  pen.drawImage(canvas, 0, 0);
+  const { data } = pen.getImageData(0, 0, copy.width, copy.height);
+  let count = 0;
+  for (let i = 3; i < data.length; i += 4) count += data[i] > 0;
+  return count;
+}
+
 const channels = text => text.match(/[\d.]+/g).map(Number);
 const brightness = ([r, g, b]) => [r, g, b].map(x => x / 255)
   .map(x => x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4)

@@ -1,18 +1,6 @@
 // probe_compare.js -- looks at the page of comparisons as a reader does: marks, tips, curves and bands.
 const { comparisons } = JSON.parse(document.getElementById("data").textContent);
 
-// How many points of a canvas are not empty.
-function inked(canvas) {
-  const copy = document.createElement("canvas");
-  Object.assign(copy, { width: canvas.width, height: canvas.height });
-  const pen = copy.getContext("2d", { willReadFrequently: true });
-  pen.drawImage(canvas, 0, 0);
-  const { data } = pen.getImageData(0, 0, copy.width, copy.height);
-  let count = 0;
-  for (let i = 3; i < data.length; i += 4) count += data[i] > 0;
-  return count;
-}
-
 // What a diagram is to show of a row.
 function kindOf(row, quantity) {
   if (row.status === "skipped" || row.status === "refused") return "";

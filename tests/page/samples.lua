@@ -4,6 +4,21 @@ local samples = {}
 
 local huge, nan = math.huge, 0 / 0
 
+-- -- plots of a run
+
+local function plotted(options)
+  local ambit = require "ambit"
+  local run = ambit.simulate { ambit.ode { states = { x = "m", ["<b>v"] = "m/s" }, equations = function(s)
+    return { x = s["<b>v"], ["<b>v"] = -s.x / "1 s^2" }
+  end }, initial = { x = ambit.around("1 m", "5%"), ["<b>v"] = 0 }, t = { 0, 3 } }
+  options[1], options.title = run, "</script><b>a title"
+  return ambit.plot(options)
+end
+
+function samples.over_time() return plotted { limits = { x = { "-2 m", "2 m" }, ["<b>v"] = { "0 m/s" } } } end
+
+function samples.plane() return plotted { against = "x" } end
+
 -- -- comparisons
 
 -- Enclosures of a decaying swing, w wide at the start, at so many instants; with_tube: and between them.

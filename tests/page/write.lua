@@ -7,6 +7,8 @@ if kind == "compare" then
   local list = {}
   for i = 3, #arg do list[#list + 1] = samples[arg[i]]() end
   text = require("ambit.page.compare").of(list, "<b>a scene</b>.lua")
+elseif kind == "plot" then
+  text = samples[arg[3]]():text "html"
 else
   text = require("ambit.page.stability").of(samples[arg[3]](tonumber(arg[4]), tonumber(arg[5])))
 end

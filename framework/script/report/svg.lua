@@ -42,9 +42,13 @@ end
 local Canvas = {}
 Canvas.__index = Canvas
 
--- An empty picture.
-function svg.canvas(width, height, title)
+-- An empty picture; is_inside: for a page, whose style sheet says how things look.
+function svg.canvas(width, height, title, is_inside)
   local self = setmetatable({ parts = {} }, Canvas)
+  if is_inside then
+    self:add('<svg class="plot" role="img" aria-label="%s" viewBox="0 0 %d %d">', clean(title), width, height)
+    return self
+  end
   self:add('<svg xmlns="http://www.w3.org/2000/svg" width="%d" height="%d" viewBox="0 0 %d %d">', width, height, width,
     height)
   self:add("<title>%s</title><style>%s</style>", clean(title), style)

@@ -145,6 +145,15 @@ end
 -- How many times as wide as the hull of a sample of the same system the enclosures are.
 function methods:overestimation(sample) return require "ambit.sample.overestimation".of_run(self, sample) end
 
+-- What was proved as a picture or a page over time, or as a table: see plot.lua.
+function methods:plot(t)
+  local own = { self }
+  for key, value in pairs(t == nil and {} or check.table(t, "plot")) do own[key] = value end
+  return require "ambit.plot".plot(own)
+end
+
+function methods:csv(t) return require "ambit.plot".csv(self, t) end
+
 check.methods(methods, Run)
 
 -- Number of the last step; behind it there may be an event that the end of the run left open.

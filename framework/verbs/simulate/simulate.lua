@@ -200,7 +200,10 @@ function verb.solve(q)
   facts.solver, facts.arithmetic, facts.t_start, facts.initial = q.solver, report.arithmetic, q.times[1],
     initial_enclosures(q)
   facts.times, facts.system = q.times, q.system
-  facts.question = { system = q.system, initial = q.initial, times = q.times }
+  facts.question = { system = q.system, initial = q.initial, times = q.times, again = function(options)
+    return verb.solve(setmetatable({ run_options = setmetatable(options, { __index = q.run_options }) },
+      { __index = q }))
+  end }
   facts.solver_reason = q.suggestion and q.suggestion.reason or "named in the scene"
   facts.parts = { { solver = q.solver, t_from = q.times[1], t = facts.t_reached } }
   event.finish(q, facts)

@@ -188,7 +188,8 @@ local function contents(list)
 end
 
 local styles = { "uplot/uPlot.min.css", "page.css", "table.css", "plot.css", "ranges.css" }
-local scripts = { "parts.js", "sort.js", "tip.js", "scale.js", "diagram.js", "legend.js", "bands.js", "compare.js" }
+local scripts = { "parts.js", "sort.js", "tip.js", "scale.js", "element.js", "diagram.js", "legend.js",
+  "bands.js", "tracks.js", "compare.js" }
 
 -- comparisons, and the name of the scene -> HTML
 function page.of(comparisons, scene)

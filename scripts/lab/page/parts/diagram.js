@@ -1,8 +1,5 @@
 // diagram.js -- work against precision: error or width across, CPU seconds up, both logarithmic; one curve per family.
 // Failures stand in a strip on the right, as if infinitely wide; what is exact, in a strip on the left.
-const drawingHome = make("i");
-drawingHome.innerHTML = "<svg></svg>";
-const SVG = drawingHome.firstChild.namespaceURI;
 const SHAPES = ["M-5 0A5 5 0 1 0 5 0A5 5 0 1 0 -5 0Z", "M-4.5-4.5H4.5V4.5H-4.5Z", "M0-6L6 0L0 6L-6 0Z",
   "M0-6L5.5 4H-5.5Z", "M0 6L5.5-4H-5.5Z"];
 const CROSS = "M-5-5L5 5M-5 5L5-5";
@@ -11,15 +8,6 @@ const STRIP = 48;
 const NOTICED = 0.999; // widths that differ by less than a thousandth are the same
 const UNRUN = new Set(["skipped", "refused"]);
 
-function element(parent, name, attributes = {}, text = "") {
-  const made = document.createElementNS(SVG, name);
-  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-  if (text) made.textContent = text;
-  parent.append(made);
-  return made;
-}
-
-// 1e-5 -> "10 µs"
 function secondsText(s) {
   const units = [[1, "s"], [1e-3, "ms"], [1e-6, "\u00b5s"], [1e-9, "ns"]];
   const [unit, name] = units.find(([u]) => s >= 0.999 * u) || units[3];
