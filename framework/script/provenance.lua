@@ -16,7 +16,8 @@ function provenance.begin(name) command = name end
 -- message: it cannot be read.
 function provenance.read(name)
   if scene and scene.file == name then return scene.text end
-  local file, problem = io.open(name, "rb")
+  local file, problem = io.stdin, nil
+  if name ~= "-" then file, problem = io.open(name, "rb") end
   if not file then return nil, "cannot open " .. problem end
   local text, why = file:read "a"
   file:close()
@@ -30,8 +31,9 @@ function provenance.load(name, env)
   local text, problem = provenance.read(name)
   if not text then return nil, problem end
   text = text:gsub("^\xEF\xBB\xBF", ""):gsub("^#[^\n]*", "")
-  if env then return load(text, "@" .. name, "t", env) end
-  return load(text, "@" .. name)
+  local chunk = name == "-" and "=standard input" or "@" .. name
+  if env then return load(text, chunk, "t", env) end
+  return load(text, chunk)
 end
 
 -- -- plugins of child processes

@@ -18,8 +18,8 @@ usage: ambit run [--json FILE|-] [--plot FILE] [--quiet] [LIMITS] SCENE.lua [ARG
   --quiet      no progress bar and no notes
 ]] .. sandbox.usage .. "\n" .. limits.usage .. [[
 
-The words behind the scene are in its table `arg`. Ctrl-C ends a simulation with status "stopped" and keeps what was
-recorded.
+SCENE `-` is standard input. The words behind the scene are in its table `arg`. Ctrl-C ends a simulation with status
+"stopped" and keeps what was recorded.
 exit: 0 done and proved, 1 error in the scene or its input, or a plugin is broken, 3 a verb could not prove all, 4 a
 verb proved that there is no answer, 5 a limit was reached, 130 interrupted; of several the worst: 1 before 3 before 4.
 `ambit errors` lists the codes of verbs.]]

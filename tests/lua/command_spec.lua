@@ -38,6 +38,30 @@ local function has(text, ...)
   for _, piece in ipairs { ... } do assert.truthy(text:find(piece, 1, true), text) end
 end
 
+describe("a scene from standard input", function()
+  local function piped(words, text)
+    local pipe = io.popen(("printf %%s '%s' | '%s' %s 2>&1"):format(text, os.getenv "AMBIT_COMMAND" or "ambit", words))
+    local output = pipe:read "a"
+    local _, _, code = pipe:close()
+    return code, output
+  end
+
+  it("is run, with its words, in a sandbox too", function()
+    for _, words in ipairs { "run - one", "run --sandbox - one" } do
+      local code, output = piped(words, [[print(require "ambit".interval(1, 2):width(), arg[0], arg[1])]])
+      assert.equal(0, code, output)
+      assert.equal("1.0\t-\tone\n", output)
+    end
+  end)
+
+  it("is named where it is wrong", function()
+    local code, output = piped("run -", [[local a = 1
+error "wrong"]])
+    assert.equal(1, code)
+    assert.truthy(output:find("standard input:2: wrong", 1, true), output)
+  end)
+end)
+
 describe("ambit", function()
   it("says when standard output is full", function()
     local device = io.open("/dev/full", "w")

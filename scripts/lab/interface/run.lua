@@ -73,7 +73,8 @@ return {
     { "quantities?", "table<string|integer, quantity>" },
     { "file?", "string|string[]" },
   },
-  { "= quantity", "string|datum|triple|fun(s: table<string, expression>, p: table<string, expression>, t: expression):any",
+  { "= quantity", [[string|datum|triple|fun(s: table<string, expression>, p: table<string, expression>, t: expression):
+    any]],
     "The name of a state, a formula of states, data and time, a function that returns one, or a table of these." },
   { class = "plot.options",
     { "quantities?", "table<string|integer, quantity>", "by name, or a list; otherwise the first twelve states" },
