@@ -111,11 +111,11 @@ return {
     "more sweeps: any frame serves, for how far it is from orthogonal is bounded afterwards",
   ["plugins/solver/lohner/history.c | logic 6 | return g->level && g->direction && g->weight && g->block && g->frame && g->shape && g->size && g->sum && g->unit &&"] =
     "memory that ran out for one array ran out for the next",
-  ["plugins/solver/lohner/start.c | relation 2 | return i < s->nx ? o->rad[i] > THIN * fabs(o->mid[i]) + 0x1p-1000 : o->rad[i] > 0;"] =
+  ["plugins/solver/lohner/start.c | relation 2 | return i < nx ? value.rad[i] > THIN * fabs(value.mid[i]) + 0x1p-1000 : value.rad[i] > 0;"] =
     "the radius of a state without a column of its own goes to the rest of the set: both hold it",
-  ["plugins/solver/lohner/step.c | sign 1 | for (uint32_t i = 0; i < s->nx; i++) s->box_excess[i] = H * s->tail_out[i] / (q + 1.0);"] =
+  ["plugins/solver/lohner/inclusion.c | sign 1 | for (uint32_t i = 0; i < f->nx; i++) phi->box_excess[i] = H * phi->tail_out[i] / (q + 1.0);"] =
     "a larger bound of the excess",
-  ["plugins/solver/lohner/step.c | guard 1 | if (by_slopes < SLOPES_LIMIT * by_centre && s->slope_order < o->slope_order_max) s->next_slope_order++;"] =
+  ["plugins/solver/lohner/step.c | guard 1 | if (by_slopes < SLOPES_LIMIT * by_centre && q < o->slope_order_max) c->slope_order++;"] =
     "the order of slopes stays lower: wider slopes, the same proof",
   ["plugins/solver/stiff/collocation.c | logic 9 | return q->x && q->Z && q->c && q->size && q->least && q->unit && q->scale && q->A && q->residual && q->J && q->f &&"] =
     "memory that ran out for one array ran out for the next",
@@ -143,7 +143,7 @@ return {
     "a limit of time and memory: what is multiplied out is right whatever its length",
   ["framework/kernel/graph/tail_value.c | guard 1 | if (!(floor > 0)) return INFINITY;"] =
     "a floor of 0 then gives 0/0, which claims nothing either",
-  ["plugins/solver/lohner/start.c | unit 1 | return i < s->nx ? o->rad[i] > THIN * fabs(o->mid[i]) + 0x1p-1000 : o->rad[i] > 0;"] =
+  ["plugins/solver/lohner/start.c | unit 1 | return i < nx ? value.rad[i] > THIN * fabs(value.mid[i]) + 0x1p-1000 : value.rad[i] > 0;"] =
     "which boxes get a column of their own: either way all of the box is in the set",
   ["plugins/solver/zonotope/distance.c | guard 1 | if (size.most == 0) continue;"] =
     "adds 0: a run slower",

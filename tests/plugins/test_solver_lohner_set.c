@@ -1,6 +1,6 @@
 /* What slopes beyond their midpoints add to a move, from inside: sum_j (S_j - M_j) x_j for every S within its radius,
 ** and x in the piece or within the rest, is within the bounds, and some corner reaches them. MPFR is the judge. */
-#include "solver/lohner/lohner.h"
+#include "solver/lohner/set.h"
 #include "num/random.h"
 #include <mpfr.h>
 #include <setjmp.h>
@@ -14,7 +14,8 @@
 #define BITS 300
 
 typedef struct sample {
-  lohner s;
+  field f;
+  set x;
   double mid[DIRECTIONS], rad[DIRECTIONS], matrix[DIRECTIONS], from[COLUMNS], to[COLUMNS], rest[STATES], low[STATES];
 } sample;
 
@@ -31,7 +32,8 @@ static void draw(sample *x) {
     x->from[j] = a < b ? a : b, x->to[j] = a < b ? b : a;
   }
   for (size_t i = 0; i < STATES; i++) x->rest[i] = between(0, 1e-2), x->low[i] = between(-1e-3, 1e-3);
-  x->s = (lohner) { .nx = STATES, .nc = COLUMNS, .ndir = DIRECTIONS, .rest = x->rest, .low = x->low };
+  x->f = (field) { .nx = STATES, .nc = COLUMNS, .ndir = DIRECTIONS };
+  x->x = (set) { .rest = x->rest, .low = x->low };
 }
 
 /* sum += (mid +- rad - matrix) times the corner of x_j; for a state, x_j = +- (rest + |low|) */
@@ -52,8 +54,8 @@ static void add_corner(mpfr_t sum, const sample *x, size_t j, uint32_t corner) {
   mpfr_clears(slope, at, (mpfr_ptr)0);
 }
 
-static void AMBIT_WORKER beyond(const sample *x, double *low, double *high) {
-  lohner_beyond(&x->s, x->mid, x->rad, x->matrix, x->from, x->to, low, high);
+static void AMBIT_WORKER beyond(sample *x, double *low, double *high) {
+  slopes_beyond(&x->f, &x->x, (balls) { x->mid, x->rad }, x->matrix, (part) { x->from, x->to }, low, high);
 }
 
 static void bounds_are_those_of_the_corners(void **unused) {

@@ -20,6 +20,13 @@ static inline double larger(double a, double b) { return a > b ? a : b; }
 static inline double larger_or_nan(double a, double b) { return a > b || a != a ? a : b; }
 static inline double smaller(double a, double b) { return a < b ? a : b; }
 
+/* an array of balls, kept as two: loops over one of them are vectors */
+typedef struct balls {
+  double *mid, *rad;
+} balls;
+
+static inline balls balls_at(balls b, size_t at) { return (balls) { b.mid + at, b.rad + at }; }
+
 /* Any midpoint is valid as long as the radius reaches both ends from it. */
 static inline ball ball_of(double low, double high) {
   double mid = 0.5 * (high - low);

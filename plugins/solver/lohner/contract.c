@@ -11,7 +11,7 @@
 ** Automatica 55 (2015)]. It does not depend on units, leaves alone what invariants know worse than the set does, and
 ** ignores rows that say nothing new. Proof: docs/numerics/lohner.md.
 */
-#include "lohner.h"
+#include "constraint.h"
 #include <string.h>
 
 #define STRETCH 8         /* how far off the manifold, beside what is not known about that, before it pays */
@@ -24,17 +24,16 @@
 /* -- whether there is such a part */
 
 /* |g| is larger than S v can be: for no state of the set do they cancel */
-static int is_apart(const lohner *s, uint32_t r) {
-  const constraint *c = &s->constraint;
+static int is_apart(const field *f, const set *x, const constraint *c, uint32_t r) {
   double reach = c->varies[r];
-  for (uint32_t j = 0; j < s->ndir; j++) reach += fabs(c->slope_mid[(size_t)r * s->ndir + j]) * lohner_reach(s, j);
+  for (uint32_t j = 0; j < f->ndir; j++) reach += fabs(c->slope.mid[(size_t)r * f->ndir + j]) * set_reach(f, x, j);
   return fabs(c->value[r]) > reach;
 }
 
-static int is_met(lohner *s) {
-  for (uint32_t r = 0; r < s->constraint.k; r++)
-    if (is_apart(s, r)) {
-      s->constraint.blamed = r;
+static int is_met(const field *f, const set *x, constraint *c) {
+  for (uint32_t r = 0; r < c->k; r++)
+    if (is_apart(f, x, c, r)) {
+      c->blamed = r;
       return 0;
     }
   return 1;
@@ -45,29 +44,27 @@ static int is_met(lohner *s) {
 /* Column j leads away from the manifold: in some row what is left of its slope is more than the set's curvature, and
 ** more than cancellation leaves of a column along it. To shorten a column by the little that it is off would trade it
 ** for many generators. */
-static int leads_away(const lohner *s, uint32_t j) {
-  const constraint *c = &s->constraint;
+static int leads_away(const field *f, const set *x, const constraint *c, uint32_t j) {
   for (uint32_t r = 0; r < c->k; r++) {
-    const double *slope = c->slope_mid + (size_t)r * s->ndir;
+    const double *slope = c->slope.mid + (size_t)r * f->ndir;
     double whole = 0, left = fabs(slope[j]);
-    for (uint32_t i = 0; i < s->nx; i++) whole += fabs(slope[s->nc + i] * s->column[(size_t)i * s->nc + j]);
-    if (left > CURVED * c->slope_rad[(size_t)r * s->ndir + j] && left > ALONG * whole) return 1;
+    for (uint32_t i = 0; i < f->nx; i++) whole += fabs(slope[f->nc + i] * x->column[(size_t)i * f->nc + j]);
+    if (left > CURVED * c->slope.rad[(size_t)r * f->ndir + j] && left > ALONG * whole) return 1;
   }
   return 0;
 }
 
 /* away := columns that lead away, 0 for others; outward := J away */
-static void find_outward(lohner *s) {
-  constraint *c = &s->constraint;
-  size_t nx = s->nx, nc = s->nc;
+static void find_outward(const field *f, const set *x, constraint *c) {
+  size_t nx = f->nx, nc = f->nc;
   for (size_t j = 0; j < nc; j++) {
-    double takes = leads_away(s, (uint32_t)j);
-    for (size_t i = 0; i < nx; i++) c->away[i * nc + j] = takes * s->column[i * nc + j];
+    double takes = leads_away(f, x, c, (uint32_t)j);
+    for (size_t i = 0; i < nx; i++) c->away[i * nc + j] = takes * x->column[i * nc + j];
   }
   for (size_t r = 0; r < c->k; r++)
     for (size_t j = 0; j < nc; j++) {
       double sum = 0;
-      for (size_t i = 0; i < nx; i++) sum += c->slope_mid[r * s->ndir + nc + i] * c->away[i * nc + j];
+      for (size_t i = 0; i < nx; i++) sum += c->slope.mid[r * f->ndir + nc + i] * c->away[i * nc + j];
       c->outward[r * nc + j] = sum;
     }
 }
@@ -81,13 +78,12 @@ static double inner(size_t n, const double *a, const double *b) {
 /* spread := J G and outward, each row in a unit in which it reaches 1, so that squares neither overflow nor underflow.
 ** Returns how far the set reaches off the manifold at most, over what is not known about that; *many: by how much sums
 ** of small generators reach farther than their mean square says, as what varies counts as one generator. */
-static double measure(lohner *s, double *many) {
-  constraint *c = &s->constraint;
-  size_t pitch = s->history.pitch, nc = s->nc;
+static double measure(const field *f, const set *x, constraint *c, double *many) {
+  size_t pitch = x->history.pitch, nc = f->nc;
   double most = 0;
   *many = 1;
-  history_spread(&s->history, c->k, c->slope_mid + nc, s->ndir, c->spread);
-  find_outward(s);
+  history_spread(&x->history, c->k, c->slope.mid + nc, f->ndir, c->spread);
+  find_outward(f, x, c);
   for (size_t r = 0; r < c->k; r++) {
     double reach = 0, square = 0, *spread = c->spread + r * pitch, *outward = c->outward + r * nc;
     for (size_t a = 0; a < pitch; a++) reach += fabs(spread[a]);
@@ -103,10 +99,9 @@ static double measure(lohner *s, double *many) {
 }
 
 /* before := diagonal of Q, cross := J Q, normal := J Q J^T + R, rows in their units */
-static void correlate(lohner *s, double many) {
-  constraint *c = &s->constraint;
-  size_t k = c->k, nx = s->nx, nc = s->nc, pitch = s->history.pitch;
-  history_correlate(&s->history, c->k, c->spread, c->cross, c->before);
+static void correlate(const field *f, const set *x, constraint *c, double many) {
+  size_t k = c->k, nx = f->nx, nc = f->nc, pitch = x->history.pitch;
+  history_correlate(&x->history, c->k, c->spread, c->cross, c->before);
   for (size_t i = 0; i < nx; i++) {
     const double *away = c->away + i * nc;
     c->before[i] = many * c->before[i] + inner(nc, away, away);
@@ -147,9 +142,8 @@ static void eliminate(constraint *c, size_t nx, size_t r) {
 }
 
 /* gain := units normal^-1 cross by Gauss and Jordan; rows that depend on others get none. Destroys normal. */
-static void find_gain(lohner *s) {
-  constraint *c = &s->constraint;
-  size_t k = c->k, nx = s->nx;
+static void find_gain(const field *f, constraint *c) {
+  size_t k = c->k, nx = f->nx;
   memcpy(c->gain, c->cross, k * nx * sizeof(double));
   for (size_t r = 0; r < k; r++) c->whole[r] = c->normal[r * k + r], c->done[r] = 0;
   for (size_t r; (r = next_row(c)) < k;) eliminate(c, nx, r);
@@ -159,13 +153,12 @@ static void find_gain(lohner *s) {
 }
 
 /* the largest share of a state's mean square that goes; not above 0 if anything is not finite */
-static double worth(const lohner *s) {
-  const constraint *c = &s->constraint;
+static double worth(const field *f, const constraint *c) {
   double most = 0;
-  for (size_t i = 0; i < s->nx; i++) {
+  for (size_t i = 0; i < f->nx; i++) {
     double gone = 0;
     for (size_t r = 0; r < c->k; r++)
-      if (c->unit[r] > 0) gone += c->gain[r * s->nx + i] * (c->cross[r * s->nx + i] / c->unit[r]);
+      if (c->unit[r] > 0) gone += c->gain[r * f->nx + i] * (c->cross[r * f->nx + i] / c->unit[r]);
     if (!(fabs(gone) < INFINITY)) return 0;
     if (c->before[i] > 0) most = larger(most, gone / c->before[i]);
   }
@@ -175,11 +168,11 @@ static double worth(const lohner *s) {
 /* -- the move, rigorous for any gain */
 
 /* from - P_i s, P_i row i of P and s a column of slopes: *near it, and a bound of how far from it */
-static double move_entry(const lohner *s, uint32_t i, double from, const double *slope, double *near) {
-  const constraint *c = &s->constraint;
+static double move_entry(
+    const field *f, const constraint *c, uint32_t i, double from, const double *slope, double *near) {
   double above = from, below = -from;
   for (uint32_t r = 0; r < c->k; r++) {
-    double p = c->gain[(size_t)r * s->nx + i], x = slope[(size_t)r * s->ndir];
+    double p = c->gain[(size_t)r * f->nx + i], x = slope[(size_t)r * f->ndir];
     above += (-p) * x;
     below += p * x;
   }
@@ -187,80 +180,75 @@ static double move_entry(const lohner *s, uint32_t i, double from, const double 
   return larger(above - *near, *near + below);
 }
 
-static void move_row(lohner *s, uint32_t i) {
-  constraint *c = &s->constraint;
+static void move_row(const field *f, set *x, constraint *c, uint32_t i) {
   double away = 0, entry;
   ball shift = { 0, 0 };
   for (uint32_t r = 0; r < c->k; r++) {
-    double p = c->gain[(size_t)r * s->nx + i];
+    double p = c->gain[(size_t)r * f->nx + i];
     shift = ball_add(shift, ball_of(p * c->value[r], (-p) * c->value[r]));
     shift.rad += fabs(p) * c->varies[r];
   }
-  for (uint32_t j = 0; j < s->nx; j++) {
-    away += move_entry(s, i, i == j, c->slope_mid + s->nc + j, &entry) * lohner_reach(s, s->nc + j);
-    c->move[(size_t)i * s->nx + j] = entry;
-    if (s->low[j] != 0) shift = ball_add(shift, ball_of((-entry) * s->low[j], entry * s->low[j]));
+  for (uint32_t j = 0; j < f->nx; j++) {
+    away += move_entry(f, c, i, i == j, c->slope.mid + f->nc + j, &entry) * set_reach(f, x, f->nc + j);
+    c->move[(size_t)i * f->nx + j] = entry;
+    if (x->low[j] != 0) shift = ball_add(shift, ball_of((-entry) * x->low[j], entry * x->low[j]));
   }
-  for (uint32_t j = 0; j < s->nc; j++) {
-    double *column = s->column + (size_t)i * s->nc + j;
-    away += move_entry(s, i, *column, c->slope_mid + j, &entry);
+  for (uint32_t j = 0; j < f->nc; j++) {
+    double *column = x->column + (size_t)i * f->nc + j;
+    away += move_entry(f, c, i, *column, c->slope.mid + j, &entry);
     *column = entry;
   }
-  lohner_shift(s, i, 0, shift, &s->new_centre[i], &s->new_low[i], &s->added[i]);
-  s->added[i] += away;
+  set_shift(x, i, 0, shift);
+  x->box[i] += away;
 }
 
-static void move(lohner *s) {
-  for (uint32_t i = 0; i < s->nx; i++) move_row(s, i);
-  memcpy(s->centre, s->new_centre, s->nx * sizeof(double));
-  memcpy(s->low, s->new_low, s->nx * sizeof(double));
-  history_multiply(&s->history, s->constraint.move, s->nx, s->rest, s->added);
-  history_push(&s->history, s->added);
+static void move(const field *f, set *x, constraint *c) {
+  for (uint32_t i = 0; i < f->nx; i++) move_row(f, x, c, i);
+  set_settle(f, x, c->move, f->nx);
 }
 
 /* -- both */
 
 /* the row that moved state i most */
-static uint32_t strongest(const lohner *s, uint32_t i) {
-  const constraint *c = &s->constraint;
+static uint32_t strongest(const field *f, const constraint *c, uint32_t i) {
   uint32_t best = 0;
   double most = 0;
   for (uint32_t r = 0; r < c->k; r++) {
-    double moved = c->unit[r] > 0 ? fabs(c->gain[(size_t)r * s->nx + i]) / c->unit[r] : 0;
+    double moved = c->unit[r] > 0 ? fabs(c->gain[(size_t)r * f->nx + i]) / c->unit[r] : 0;
     if (moved > most) most = moved, best = r;
   }
   return best;
 }
 
-/* The hull may get wider in one state for the sake of others: both hulls hold. */
-static enum why meet_hull(lohner *s) {
-  double *lo = s->new_centre, *hi = s->new_low; /* free until the set moves */
-  memcpy(lo, s->lo, s->nx * sizeof(double));
-  memcpy(hi, s->hi, s->nx * sizeof(double));
-  lohner_hull(s);
-  for (uint32_t i = 0; i < s->nx; i++) {
-    s->lo[i] = larger_or_nan(lo[i], s->lo[i]);
-    s->hi[i] = hi[i] < s->hi[i] ? hi[i] : s->hi[i];
-    if (s->lo[i] > s->hi[i]) {
-      s->constraint.blamed = strongest(s, i);
-      return WHY_APART;
+/* The hull may get wider in one state for the sake of others: both hulls hold. 0: they do not meet. */
+static int meet_hull(const field *f, set *x, constraint *c) {
+  double *lo = x->new_centre, *hi = x->new_low; /* free until the set moves */
+  memcpy(lo, x->lo, f->nx * sizeof(double));
+  memcpy(hi, x->hi, f->nx * sizeof(double));
+  set_hull(f, x);
+  for (uint32_t i = 0; i < f->nx; i++) {
+    x->lo[i] = larger_or_nan(lo[i], x->lo[i]);
+    x->hi[i] = hi[i] < x->hi[i] ? hi[i] : x->hi[i];
+    if (x->lo[i] > x->hi[i]) {
+      c->blamed = strongest(f, c, i);
+      return 0;
     }
   }
-  return WHY_NOTHING;
+  return 1;
 }
 
-enum why lohner_contract(lohner *s, double t, uint32_t pieces) {
-  if (s->constraint.k == 0) return WHY_NOTHING;
+int constraint_cut(const field *f, set *x, const pieces *pieces, constraint *c) {
+  if (c->k == 0) return 1;
   for (int pass = 0; pass < PASSES; pass++) {
-    if (!lohner_linearise(s, t, pieces)) return WHY_NOTHING;
-    if (!is_met(s)) return WHY_APART;
+    if (!constraint_linearise(f, x, pieces, c)) return 1;
+    if (!is_met(f, x, c)) return 0;
     double many;
-    if (!(measure(s, &many) > STRETCH)) return WHY_NOTHING;
-    correlate(s, many);
-    find_gain(s);
-    if (!(worth(s) > WORTH)) return WHY_NOTHING;
-    move(s);
-    if (meet_hull(s) != WHY_NOTHING) return WHY_APART;
+    if (!(measure(f, x, c, &many) > STRETCH)) return 1;
+    correlate(f, x, c, many);
+    find_gain(f, c);
+    if (!(worth(f, c) > WORTH)) return 1;
+    move(f, x, c);
+    if (!meet_hull(f, x, c)) return 0;
   }
-  return WHY_NOTHING;
+  return 1;
 }

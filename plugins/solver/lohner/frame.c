@@ -4,7 +4,7 @@
 ** A frame need not be exact: whoever changes coordinates with it pads by the proved defect (history.c). Sources:
 ** Jacobi, J. reine angew. Math. 30 (1846); pivoting by length times width: Lohner 1988, Nedialkov 1999.
 */
-#include "lohner.h"
+#include "history.h"
 #include <float.h>
 #include <string.h>
 

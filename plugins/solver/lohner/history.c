@@ -13,7 +13,7 @@
 ** Principal axes are taken in coordinates in which every state has about the same size, so they do not depend on
 ** units.
 */
-#include "lohner.h"
+#include "history.h"
 #include "shared/axes.h"
 #include <string.h>
 

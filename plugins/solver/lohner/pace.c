@@ -7,43 +7,40 @@
 ** the solver chose: where thin sets take tiny steps, the solution asks for them. Whoever gives `step_min` decides for
 ** himself.
 */
-#include "lohner.h"
+#include "control.h"
 
 #define FIRST 128       /* steps of which nothing is concluded */
 #define FALL 0.25       /* fall of steps over two doublings of their number */
 #define TOO_MANY 0x1p22 /* steps: minutes even for small systems */
 #define NEVER 0x1p34    /* steps, even if they shrink no more */
 
-void lohner_start_pace(lohner *s) {
-  s->pace = (pace) { .until = FIRST };
-  s->pace.stretch[2].from = s->t;
+void pace_start(pace *p, double t) {
+  *p = (pace) { .until = FIRST };
+  p->stretch[2].from = t;
 }
 
-static double time_left(const lohner *s) { return fabs(s->problem.time[s->problem.ntime - 1] - s->t); }
-
-static double steps_ahead(const lohner *s, const stretch *then, const stretch *now) {
+static double steps_ahead(double time_left, const stretch *then, const stretch *now) {
   double rate = log(then->longest / now->longest) / fabs(now->from - then->from);
-  return expm1(rate * time_left(s)) / (rate * now->longest);
+  return expm1(rate * time_left) / (rate * now->longest);
 }
 
-static int is_hopeless(const lohner *s) {
-  const stretch *then = &s->pace.stretch[0], *now = &s->pace.stretch[2];
-  if (s->options.patient || s->pace.until < 8 * FIRST || now->longest >= s->options.step_max) return 0;
-  if (2 * now->wide < s->pace.until / 2) return 0;
-  if (now->longest * NEVER < time_left(s)) return now->longest < 2 * then->longest;
-  return now->longest < FALL * then->longest && steps_ahead(s, then, now) > TOO_MANY;
+static int is_out_of_reach(const options *o, double time_left, const pace *p) {
+  const stretch *then = &p->stretch[0], *now = &p->stretch[2];
+  if (o->patient || p->until < 8 * FIRST || now->longest >= o->step_max) return 0;
+  if (2 * now->wide < p->until / 2) return 0;
+  if (now->longest * NEVER < time_left) return now->longest < 2 * then->longest;
+  return now->longest < FALL * then->longest && steps_ahead(time_left, then, now) > TOO_MANY;
 }
 
-int lohner_steps_shrink(lohner *s) {
-  pace *p = &s->pace;
+int pace_is_hopeless(const options *o, double t, double end, double length, int wide, pace *p) {
   stretch *now = &p->stretch[2];
-  now->wide += s->wide != 0;
-  now->longest = larger(now->longest, s->guess);
+  now->wide += wide != 0;
+  now->longest = larger(now->longest, length);
   if (++p->steps < p->until) return 0;
-  int hopeless = is_hopeless(s);
+  int hopeless = is_out_of_reach(o, fabs(end - t), p);
   p->stretch[0] = p->stretch[1];
   p->stretch[1] = *now;
-  *now = (stretch) { .from = s->t };
+  *now = (stretch) { .from = t };
   p->until *= 2;
   return hopeless;
 }

@@ -8,17 +8,17 @@
 **        as what diffuses there in the end, however small it is now: relative to its size in the first steps, it could
 **        only be followed by a series of as many orders as it has links to the source.
 */
-#include "lohner.h"
+#include "control.h"
 #include <ambit/matrix.h>
 
 #define FAR_SHARE 0x1p-10 /* of what the set grows to in the end, that counts now */
 #define FILLED 2.0        /* times its size, that a state counts as */
 
-static const double *series(const lohner *s, uint32_t i) { return s->series_mid + (size_t)i * (s->options.order + 1u); }
+static const double *series(const flow *phi, uint32_t i) { return phi->centre.mid + (size_t)i * (phi->p + 1u); }
 
 /* df/dx, row i */
-static const double *rates(const lohner *s, uint32_t i) {
-  return s->slope_mid + ((size_t)i * (s->slope_order + 1u) + 1) * s->ndir + s->nc;
+static const double *rates(const field *f, const flow *phi, uint32_t i) {
+  return phi->slope.mid + ((size_t)i * (phi->q + 1u) + 1) * f->ndir + f->nc;
 }
 
 /* sum over k = 1 .. first of |c_k| H^k; if that is zero, the first term beyond that is not. c: `stride` apart */
@@ -32,36 +32,34 @@ static double departure(const double *c, size_t stride, uint32_t first, uint32_t
 }
 
 /* how far state i gets in the step by its first derivatives: its size where it starts from zero */
-static double swing(const lohner *s, uint32_t i) {
-  return departure(series(s, i), 1, 3, s->options.order, s->step.length);
-}
+static double swing(const flow *phi, uint32_t i) { return departure(series(phi, i), 1, 3, phi->p, phi->step.length); }
 
-double lohner_noise(const lohner *s, uint32_t i) {
-  const double *rad = s->series_rad + (size_t)i * (s->options.order + 1u);
-  double H = s->step.length;
+double sizes_noise(const flow *phi, uint32_t i) {
+  const double *rad = phi->centre.rad + (size_t)i * (phi->p + 1u);
+  double H = phi->step.length;
   return H * (rad[1] + H * (rad[2] + H * rad[3]));
 }
 
 /* -- near */
 
 /* in which some state changes by its own size; at least the step */
-static double natural_time(const lohner *s) {
+static double natural_time(const field *f, const flow *phi, const double *size) {
   double least = INFINITY;
-  for (uint32_t i = 0; i < s->nx; i++) {
-    const double *mid = series(s, i);
-    if (s->size[i] > 0) least = smaller(least, smaller(s->size[i] / fabs(mid[1]), sqrt(s->size[i] / fabs(mid[2]))));
+  for (uint32_t i = 0; i < f->nx; i++) {
+    const double *mid = series(phi, i);
+    if (size[i] > 0) least = smaller(least, smaller(size[i] / fabs(mid[1]), sqrt(size[i] / fabs(mid[2]))));
   }
-  return least < INFINITY ? larger(least, s->step.length) : s->step.length;
+  return least < INFINITY ? larger(least, phi->step.length) : phi->step.length;
 }
 
-static void fill_near(const lohner *s, double *size) {
-  double time = natural_time(s);
+static void fill_near(const field *f, const flow *phi, const sizes *z, double *size) {
+  double time = natural_time(f, phi, z->size);
   int more = 1;
-  for (uint32_t sweep = 0; sweep < s->nx && more; sweep++) {
+  for (uint32_t sweep = 0; sweep < f->nx && more; sweep++) {
     more = 0;
-    for (uint32_t i = 0; i < s->nx; i++) {
+    for (uint32_t i = 0; i < f->nx; i++) {
       if (size[i] > 0) continue;
-      for (uint32_t j = 0; j < s->nx; j++) size[i] = larger(size[i], time * fabs(rates(s, i)[j]) * size[j]);
+      for (uint32_t j = 0; j < f->nx; j++) size[i] = larger(size[i], time * fabs(rates(f, phi, i)[j]) * size[j]);
       more |= size[i] > 0;
     }
   }
@@ -69,12 +67,12 @@ static void fill_near(const lohner *s, double *size) {
 
 /* -- far */
 
-static void fill_far(const lohner *s, double share, double *size) {
-  uint32_t n = s->nx;
-  double *A = s->euler, *x = A + (size_t)n * n, time = fabs(s->problem.time[s->problem.ntime - 1] - s->t);
+static void fill_far(const field *f, const flow *phi, const sizes *z, double share, double *size) {
+  uint32_t n = f->nx;
+  double *A = z->euler, *x = A + (size_t)n * n, time = fabs(field_end(f) - phi->t);
   uint32_t *row = (uint32_t *)(x + n);
   for (uint32_t i = 0; i < n; i++) {
-    for (uint32_t j = 0; j < n; j++) A[(size_t)i * n + j] = (i == j) - time * rates(s, i)[j];
+    for (uint32_t j = 0; j < n; j++) A[(size_t)i * n + j] = (i == j) - time * rates(f, phi, i)[j];
     x[i] = size[i];
   }
   if (!ambit_matrix_factor(n, A, row)) return;
@@ -85,38 +83,41 @@ static void fill_far(const lohner *s, double share, double *size) {
 
 /* States that only second derivatives reach (a product of two that start at zero) count as the smallest of the
 ** others. */
-static void fill_rest(const lohner *s, double *size) {
+static void fill_rest(const field *f, double *size) {
   double least = INFINITY;
-  for (uint32_t i = 0; i < s->nx; i++)
+  for (uint32_t i = 0; i < f->nx; i++)
     if (size[i] > 0) least = smaller(least, size[i]);
-  for (uint32_t i = 0; i < s->nx && least < INFINITY; i++)
+  for (uint32_t i = 0; i < f->nx && least < INFINITY; i++)
     if (!(size[i] > 0)) size[i] = least;
 }
 
 /* -- sizes */
 
-void lohner_choose_units(lohner *s) {
-  for (uint32_t i = 0; i < s->nx; i++) s->unit[i] = larger(s->size[i], swing(s, i));
-  if (s->lenient == LENIENT_NEAR) fill_near(s, s->unit);
-  if (s->lenient == LENIENT_FAR) fill_far(s, 1, s->unit), fill_rest(s, s->unit);
+/* what is small by itself counts as more, if need be; `share` of what it is in the end counts now */
+static void fill(const field *f, const flow *phi, const sizes *z, double share, double *size) {
+  if (z->lenient == LENIENT_NEAR) fill_near(f, phi, z, size);
+  if (z->lenient == LENIENT_FAR) fill_far(f, phi, z, share, size), fill_rest(f, size);
 }
 
-void lohner_choose_grown(lohner *s) {
-  uint32_t n = s->ndir, q = s->slope_order;
-  for (uint32_t i = 0; i < s->nx; i++) {
-    s->grown[i] = s->radius[i];
+void sizes_choose_unit(const field *f, const flow *phi, sizes *z) {
+  for (uint32_t i = 0; i < f->nx; i++) z->unit[i] = larger(z->size[i], swing(phi, i));
+  fill(f, phi, z, 1, z->unit);
+}
+
+void sizes_choose_grown(const field *f, const set *x, const flow *phi, sizes *z) {
+  uint32_t n = f->ndir, q = phi->q;
+  for (uint32_t i = 0; i < f->nx; i++) {
+    z->grown[i] = x->radius[i];
     for (uint32_t j = 0; j < n; j++) {
-      const double *slope = s->slope_mid + (size_t)i * (q + 1u) * n + j;
-      s->grown[i] += departure(slope, n, 2, s->radius[i] > 0 ? 2 : q, s->step.length) * lohner_reach(s, j);
+      const double *slope = phi->slope.mid + (size_t)i * (q + 1u) * n + j;
+      z->grown[i] += departure(slope, n, 2, x->radius[i] > 0 ? 2 : q, phi->step.length) * set_reach(f, x, j);
     }
   }
-  if (s->lenient == LENIENT_NEAR) fill_near(s, s->grown);
-  if (s->lenient == LENIENT_FAR) fill_far(s, FAR_SHARE, s->grown), fill_rest(s, s->grown);
+  fill(f, phi, z, FAR_SHARE, z->grown);
 }
 
-/* 1: what is small by itself counts as more */
-int lohner_is_filled(const lohner *s) {
-  for (uint32_t i = 0; i < s->nx; i++)
-    if (s->unit[i] > FILLED * s->size[i]) return 1;
+int sizes_are_filled(const field *f, const sizes *z) {
+  for (uint32_t i = 0; i < f->nx; i++)
+    if (z->unit[i] > FILLED * z->size[i]) return 1;
   return 0;
 }

@@ -10,7 +10,6 @@
 #include <ambit/code.h>
 #include <string.h>
 
-#define SHORT 0x1p-10          /* of the time span: the least first guess of a step */
 #define THIN 0x1p-40           /* relative radius up to which an initial box is a matter of rounding */
 #define LEAST_TOLERANCE 1e-22  /* far below the rounding errors of a step */
 #define LEAST_HISTORY 4        /* so that the older half is at least two groups, and condensing makes fewer of them */
@@ -90,139 +89,129 @@ static options choose_options(const ambit_problem *p, const double *o) {
   return r;
 }
 
-/* -- the initial set */
-
-typedef struct origin { /* scratch of open() */
-  ambit_jet *centre, *box;
-  double *mid, *rad, *slope_mid, *slope_rad, *seed, *no_radius;
-} origin;
+/* -- memory */
 
 static void *room(const ambit_host *h, size_t count, size_t size) { return h->alloc(h, count ? count * size : size); }
 
-static ambit_status no_memory(const ambit_host *h) { return h->fail(h, AMBIT_NOMEM, "lohner: out of memory"); }
+ambit_status field_no_memory(const ambit_host *h) { return h->fail(h, AMBIT_NOMEM, "lohner: out of memory"); }
 
-static ambit_status open_origin(const lohner *s, origin *o) {
-  const ambit_host *h = s->host;
-  const ambit_problem *p = &s->problem;
+int field_allocate(const ambit_host *h, size_t n, const request *list) {
+  for (size_t i = 0; i < n; i++)
+    if (!(*list[i].array = room(h, list[i].count, sizeof(double)))) return 0;
+  return 1;
+}
+
+/* -- the initial set */
+
+typedef struct initial { /* scratch of open() */
+  ambit_jet *centre, *box;
+  balls value, slope; /* [nx + np] [(nx + np) x nu] */
+  double *seed;
+} initial;
+
+static ambit_status open_initial(const field *f, initial *g) {
+  const ambit_problem *p = &f->problem;
   size_t n = (size_t)p->nx + p->np, nu = p->nu;
-  *o = (origin) { .mid = room(h, n, 8),
-    .rad = room(h, n, 8),
-    .slope_mid = room(h, n * nu, 8),
-    .slope_rad = room(h, n * nu, 8),
-    .seed = room(h, nu, 8),
-    .no_radius = room(h, nu, 8) };
-  if (!o->mid || !o->rad || !o->slope_mid || !o->slope_rad || !o->seed || !o->no_radius) return no_memory(h);
-  ambit_status status = s->jet->open(h, p->initial, p->arithmetic, p->actx, 1, 0, NULL, &o->centre);
+  *g = (initial) { 0 };
+  const request list[] = { { &g->value.mid, n }, { &g->value.rad, n }, { &g->slope.mid, n * nu },
+    { &g->slope.rad, n * nu }, { &g->seed, nu } };
+  if (!field_allocate(f->host, sizeof list / sizeof *list, list)) return field_no_memory(f->host);
+  ambit_status status = f->jet->open(f->host, p->initial, p->arithmetic, p->actx, 1, 0, NULL, &g->centre);
   if (status != AMBIT_OK) return status;
-  return s->jet->open(h, p->initial, p->arithmetic, p->actx, 1, p->nu, o->centre, &o->box);
+  return f->jet->open(f->host, p->initial, p->arithmetic, p->actx, 1, p->nu, g->centre, &g->box);
 }
 
-static void close_origin(const lohner *s, origin *o) {
-  if (o->centre) s->jet->close(o->centre);
-  if (o->box) s->jet->close(o->box);
+static void close_initial(const field *f, initial *g) {
+  if (g->centre) f->jet->close(g->centre);
+  if (g->box) f->jet->close(g->box);
 }
 
-/* g and its slopes at u = mid + radius xi; AMBIT_F_* */
-static AMBIT_WORKER uint32_t evaluate_origin(lohner *s, origin *o) {
-  const ambit_problem *p = &s->problem;
+/* g and its slopes at u = about + scale xi; AMBIT_F_* */
+static AMBIT_WORKER uint32_t evaluate_initial(const field *f, initial *g, double *about, double *scale) {
+  const ambit_problem *p = &f->problem;
   for (uint32_t i = 0; i < p->nu; i++) {
     ball u = ball_of(-p->u_lo[i], p->u_hi[i]);
-    s->about[i] = u.mid, s->scale[i] = u.rad;
-    for (uint32_t j = 0; j < p->nu; j++) o->seed[j] = i == j ? u.rad : 0;
-    s->jet->put(o->centre, i, 0, u.mid, 0, NULL, NULL);
-    s->jet->put(o->box, i, 0, u.mid, u.rad, o->seed, o->no_radius);
+    about[i] = u.mid, scale[i] = u.rad;
+    for (uint32_t j = 0; j < p->nu; j++) g->seed[j] = i == j ? u.rad : 0;
+    f->jet->put(g->centre, i, 0, u.mid, 0, NULL, NULL);
+    f->jet->put(g->box, i, 0, u.mid, u.rad, g->seed, NULL);
   }
-  uint32_t flags = s->jet->advance(o->centre, 0);
-  flags |= s->jet->advance(o->box, 0); /* slopes build on the centre */
+  uint32_t flags = f->jet->advance(g->centre, 0);
+  flags |= f->jet->advance(g->box, 0); /* slopes build on the centre */
   for (uint32_t i = 0; i < p->nx + p->np && !flags; i++) {
     double mid, rad;
-    size_t row = (size_t)i * p->nu;
-    s->jet->get(o->centre, p->initial->out[i], 0, &o->mid[i], &o->rad[i], NULL, NULL);
-    s->jet->get(o->box, p->initial->out[i], 0, &mid, &rad, o->slope_mid + row, o->slope_rad + row);
-    for (uint32_t j = 0; j < p->nu; j++) o->rad[i] += o->slope_rad[row + j];
+    balls value = balls_at(g->value, i), slope = balls_at(g->slope, (size_t)i * p->nu);
+    f->jet->get(g->centre, p->initial->out[i], 0, value.mid, value.rad, NULL, NULL);
+    f->jet->get(g->box, p->initial->out[i], 0, &mid, &rad, slope.mid, slope.rad);
+    for (uint32_t j = 0; j < p->nu; j++) *value.rad += slope.rad[j];
   }
   return flags;
 }
 
 /* a box that gets a column of its own */
-static int is_column(const lohner *s, const origin *o, uint32_t i) {
-  return i < s->nx ? o->rad[i] > THIN * fabs(o->mid[i]) + 0x1p-1000 : o->rad[i] > 0;
+static int is_column(uint32_t nx, balls value, uint32_t i) {
+  return i < nx ? value.rad[i] > THIN * fabs(value.mid[i]) + 0x1p-1000 : value.rad[i] > 0;
 }
 
-static uint32_t count_columns(const lohner *s, const origin *o) {
-  uint32_t count = s->problem.nu;
-  for (uint32_t i = 0; i < s->nx + s->np; i++) count += is_column(s, o, i) != 0;
+static uint32_t count_columns(const field *f, const initial *g) {
+  uint32_t count = f->problem.nu;
+  for (uint32_t i = 0; i < f->nx + f->np; i++) count += is_column(f->nx, g->value, i) != 0;
   return count;
 }
 
-static void keep_origin(lohner *s, const origin *o) {
-  uint32_t nu = s->problem.nu, own = nu;
-  for (uint32_t i = 0; i < s->nx + s->np; i++) {
-    double *row = i < s->nx ? s->start_column + (size_t)i * s->nc : s->fixed_column + (size_t)(i - s->nx) * s->nc;
-    if (nu) memcpy(row, o->slope_mid + (size_t)i * nu, nu * sizeof *row);
-    int column = is_column(s, o, i);
-    if (column) row[own++] = o->rad[i];
-    if (i >= s->nx)
-      s->fixed[i - s->nx] = o->mid[i];
+static void keep_origin(const initial *g, field *f, origin *o) {
+  uint32_t nx = f->nx, nc = f->nc, nu = f->problem.nu, own = nu;
+  for (uint32_t i = 0; i < nx + f->np; i++) {
+    double *row = i < nx ? o->column + (size_t)i * nc : f->fixed_column + (size_t)(i - nx) * nc;
+    if (nu) memcpy(row, g->slope.mid + (size_t)i * nu, nu * sizeof *row);
+    int column = is_column(nx, g->value, i);
+    if (column) row[own++] = g->value.rad[i];
+    if (i >= nx)
+      f->fixed[i - nx] = g->value.mid[i];
     else
-      s->start[i] = o->mid[i], s->start_rest[i] = column ? 0 : o->rad[i];
+      o->centre[i] = g->value.mid[i], o->rest[i] = column ? 0 : g->value.rad[i];
   }
 }
 
-/* -- memory */
+/* -- a run */
 
-static int allocate_vectors(lohner *s) {
-  size_t nx = s->nx, np = s->np, nc = s->nc, nd = s->ndir, nin = s->problem.rhs->nin, p = s->options.order,
-         q = s->options.slope_order_max, m = s->options.pieces;
-  const struct {
-    double **array;
-    size_t count;
-  } list[] = { { &s->start, nx }, { &s->start_rest, nx }, { &s->start_column, nx * nc }, { &s->fixed, np },
-    { &s->fixed_column, np * nc }, { &s->centre, nx }, { &s->low, nx }, { &s->column, nx * nc }, { &s->new_centre, nx },
-    { &s->new_low, nx }, { &s->rest, nx }, { &s->radius, nx }, { &s->size, nx }, { &s->unit, nx }, { &s->grown, nx },
-    { &s->euler, nx * (nx + 2) }, { &s->limit, nx }, { &s->series_mid, nx * (p + 1) }, { &s->series_rad, nx * (p + 1) },
-    { &s->slope_mid, nx * (q + 1) * nd }, { &s->slope_rad, nx * (q + 1) * nd }, { &s->excess, nx },
-    { &s->box_excess, nx }, { &s->slope_excess, nx * nd }, { &s->slope_guess, nx * nd }, { &s->tail_in, nin },
-    { &s->dtail_in, nin * nd }, { &s->tail_out, nx }, { &s->dtail_out, nx * nd }, { &s->transfer_mid, m * nx * nd },
-    { &s->transfer_rad, m * nx * nd }, { &s->whole_mid, nx * nd }, { &s->whole_rad, nx * nd }, { &s->matrix, nx * nd },
-    { &s->seed, nd }, { &s->no_radius, nd }, { &s->added, nx }, { &s->curvature, nc }, { &s->all_from, nc },
-    { &s->all_to, nc }, { &s->piece_from, m * nc }, { &s->piece_to, m * nc }, { &s->lo, nx }, { &s->hi, nx },
-    { &s->tube_lo, nx }, { &s->tube_hi, nx } };
-  for (size_t i = 0; i < sizeof list / sizeof *list; i++)
-    if (!(*list[i].array = room(s->host, list[i].count, sizeof(double)))) return 0;
-  for (size_t j = 0; j < nc; j++) s->all_from[j] = -1, s->all_to[j] = 1;
-  s->cuts = room(s->host, nc, sizeof *s->cuts);
-  return s->cuts && history_open(s->host, &s->history, s->nx, s->options.history);
+/* of the field, once its columns are counted, and of the origin */
+static int allocate(field *f, origin *o) {
+  size_t nx = f->nx, np = f->np, nc = f->nc;
+  const request list[] = { { &o->centre, nx }, { &o->rest, nx }, { &o->column, nx * nc }, { &f->fixed, np },
+    { &f->fixed_column, np * nc }, { &f->seed, f->ndir }, { &f->whole.from, nc }, { &f->whole.to, nc } };
+  if (!field_allocate(f->host, sizeof list / sizeof *list, list)) return 0;
+  for (size_t j = 0; j < nc; j++) f->whole.from[j] = -1, f->whole.to[j] = 1;
+  return 1;
 }
 
-static ambit_status open_series(lohner *s) {
-  const ambit_problem *p = &s->problem;
-  ambit_status status =
-      s->jet->open(s->host, p->rhs, p->arithmetic, p->actx, s->options.order, 0, NULL, &s->centre_jet);
-  if (status != AMBIT_OK) return status;
-  return s->jet->open(
-      s->host, p->rhs, p->arithmetic, p->actx, s->options.slope_order_max, s->ndir, s->centre_jet, &s->box_jet);
+static ambit_status open_parts(lohner *s) {
+  const field *f = &s->field;
+  if (!set_open(f, &s->set) || !control_open(f, &s->control) || !extras_open(f, &s->extras))
+    return field_no_memory(f->host);
+  ambit_status status = flow_open(f, &s->flow);
+  if (status == AMBIT_OK) status = slopes_open(f, &s->slopes);
+  return status == AMBIT_OK ? constraint_open(f, &s->set, &s->constraint) : status;
 }
 
-static ambit_status open_set(lohner *s, origin *o) {
-  s->about = room(s->host, s->problem.nu, sizeof(double));
-  s->scale = room(s->host, s->problem.nu, sizeof(double));
-  if (!s->about || !s->scale) return no_memory(s->host);
+static ambit_status open_set(lohner *s, initial *g) {
+  field *f = &s->field;
+  const ambit_host *h = f->host;
+  const request list[] = { { &s->extras.about, f->problem.nu }, { &s->extras.scale, f->problem.nu } };
+  if (!field_allocate(h, sizeof list / sizeof *list, list)) return field_no_memory(h);
   ambit_rounding old = ambit_round_up();
-  uint32_t flags = evaluate_origin(s, o);
+  uint32_t flags = evaluate_initial(f, g, s->extras.about, s->extras.scale);
   ambit_rounding_restore(old);
   if (flags)
-    return s->host->fail_code(s->host, AMBIT_UNABLE, AMBIT_CODE_UNABLE_INITIAL,
+    return h->fail_code(h, AMBIT_UNABLE, AMBIT_CODE_UNABLE_INITIAL,
         "at t = %.9g s the initial values could not be bounded for all values of their uncertain data; narrow the "
         "ranges of the data in `initial`",
-        s->problem.time[0]);
-  s->nc = count_columns(s, o);
-  s->ndir = s->nc + s->nx;
-  if (!allocate_vectors(s) || !lohner_open_extras(s)) return no_memory(s->host);
-  keep_origin(s, o);
-  ambit_status status = open_series(s);
-  if (status == AMBIT_OK && s->options.formula != FORMULA_TAYLOR) status = lohner_open_corrector(s);
-  return status == AMBIT_OK ? lohner_open_invariants(s) : status;
+        f->problem.time[0]);
+  f->nc = count_columns(f, g);
+  f->ndir = f->nc + f->nx;
+  if (!allocate(f, &s->origin)) return field_no_memory(h);
+  keep_origin(g, f, &s->origin);
+  return open_parts(s);
 }
 
 ambit_status lohner_open(const ambit_host *h, const ambit_problem *p, const double *option, void **self) {
@@ -230,16 +219,16 @@ ambit_status lohner_open(const ambit_host *h, const ambit_problem *p, const doub
   ambit_status status = check_options(h, option);
   if (status != AMBIT_OK) return status;
   lohner *s = h->alloc(h, sizeof *s);
-  if (!s) return no_memory(h);
-  *s = (lohner) { .host = h, .jet = h->service(h, AMBIT_JET_SERVICE), .nx = p->nx, .np = p->np };
-  memcpy(&s->problem, p, p->size < sizeof s->problem ? p->size : sizeof s->problem);
-  s->counted = ambit_work_open(h);
-  if (!s->jet) return h->fail(h, AMBIT_INVALID, "lohner: this kernel does not lend `%s`", AMBIT_JET_SERVICE);
-  s->options = choose_options(p, option);
-  origin o;
-  status = open_origin(s, &o);
-  if (status == AMBIT_OK) status = open_set(s, &o);
-  close_origin(s, &o);
+  if (!s) return field_no_memory(h);
+  field *f = &s->field;
+  *s = (lohner) { .field = { .host = h, .jet = h->service(h, AMBIT_JET_SERVICE), .nx = p->nx, .np = p->np } };
+  memcpy(&f->problem, p, p->size < sizeof f->problem ? p->size : sizeof f->problem);
+  if (!f->jet) return h->fail(h, AMBIT_INVALID, "lohner: this kernel does not lend `%s`", AMBIT_JET_SERVICE);
+  f->options = choose_options(p, option);
+  initial g;
+  status = open_initial(f, &g);
+  if (status == AMBIT_OK) status = open_set(s, &g);
+  close_initial(f, &g);
   if (status == AMBIT_OK)
     *self = s;
   else
@@ -249,36 +238,29 @@ ambit_status lohner_open(const ambit_host *h, const ambit_problem *p, const doub
 
 void lohner_close(void *self) {
   lohner *s = self;
-  if (s->centre_jet) s->jet->close(s->centre_jet);
-  if (s->box_jet) s->jet->close(s->box_jet);
-  lohner_close_corrector(s);
-  lohner_close_invariants(s);
+  flow_close(&s->field, &s->flow);
+  slopes_close(&s->field, &s->slopes);
+  constraint_close(&s->field, &s->constraint);
 }
 
 enum why lohner_start(lohner *s) {
-  const ambit_problem *p = &s->problem;
-  size_t bytes = s->nx * sizeof(double);
-  memcpy(s->centre, s->start, bytes);
-  memset(s->low, 0, bytes);
-  if (s->nc) memcpy(s->column, s->start_column, bytes * s->nc);
-  history_clear(&s->history);
-  history_push(&s->history, s->start_rest);
-  s->t = s->t_next = p->time[0];
-  lohner_hull(s);
+  const field *f = &s->field;
+  set *x = &s->set;
+  double *limit = s->control.sizes.limit;
+  size_t bytes = f->nx * sizeof(double);
+  memcpy(x->centre, s->origin.centre, bytes);
+  memset(x->low, 0, bytes);
+  if (f->nc) memcpy(x->column, s->origin.column, bytes * f->nc);
+  history_clear(&x->history);
+  history_push(&x->history, s->origin.rest);
+  x->t = s->flow.t = s->flow.t_next = f->problem.time[0];
+  set_hull(f, x);
   /* of the set as given: the hull of a cut set may be far smaller than the set that is kept (meet_hull) */
-  double given = s->options.width_max, factor = given > 0 ? given : AMBIT_WIDTH;
-  for (uint32_t i = 0; i < s->nx; i++) s->limit[i] = factor * larger(given > 0, larger(fabs(s->lo[i]), fabs(s->hi[i])));
-  if (lohner_contract(s, s->t, 1) != WHY_NOTHING) return WHY_APART;
-  lohner_note_rank(s);
-  for (uint32_t i = 0; i < s->nx; i++) s->size[i] = larger(fabs(s->lo[i]), fabs(s->hi[i]));
-  lohner_start_pace(s);
-  s->next = 1;
-  s->wide = 0, s->varies = 0;
-  s->lenient = LENIENT_NOT;
-  s->longest = INFINITY;
-  s->next_slope_order = s->options.slope_order;
-  /* an instant that is asked for close to the start says nothing about steps */
-  double first = fabs(p->time[1] - p->time[0]), span = fabs(p->time[p->ntime - 1] - p->time[0]);
-  s->guess = smaller(larger(first, SHORT * span), s->options.step_max);
+  double given = f->options.width_max, factor = given > 0 ? given : AMBIT_WIDTH;
+  for (uint32_t i = 0; i < f->nx; i++) limit[i] = factor * larger(given > 0, larger(fabs(x->lo[i]), fabs(x->hi[i])));
+  if (!constraint_cut(f, x, NULL, &s->constraint)) return WHY_APART;
+  constraint_note_rank(f, x, &s->constraint);
+  control_start(f, x, &s->control);
+  s->slopes.wide = 0, s->slopes.varies = 0;
   return WHY_NOTHING;
 }
