@@ -120,6 +120,25 @@ static void find_scores(const zono *z, uint32_t n) {
   }
 }
 
+/* scores of columns that are not kept := 0; of equal ones, many of which may be along one state, the first are */
+static void choose_columns(const zono *z, uint32_t n, uint32_t room) {
+  const proof *p = z->proof;
+  if (n <= room) {
+    for (uint32_t c = 0; c < n; c++) p->score[c] = 1;
+    return;
+  }
+  find_scores(z, n);
+  memcpy(p->sorted, p->score, n * sizeof(double));
+  double least = ranked(p->sorted, n, room - 1);
+  uint32_t ties = room;
+  for (uint32_t c = 0; c < n; c++) ties -= p->score[c] > least;
+  for (uint32_t c = 0; c < n; c++)
+    if (p->score[c] == least && ties > 0)
+      p->score[c] = 1, ties--;
+    else if (!(p->score[c] > least))
+      p->score[c] = 0;
+}
+
 /* sizes of the states' sets at the end, for scores */
 static void find_spread(const zono *z, uint32_t n) {
   proof *p = z->proof;
@@ -158,17 +177,12 @@ static void reduce(zono *z, uint32_t n) {
   proof *p = z->proof;
   uint32_t nx = z->nx, room = z->ngen_max - nx, kept = 0, left = 0;
   if (z->modes->now.any && !z->problem.njump && FEW * nx < room) room = FEW * nx;
-  double least = -1;
   find_spread(z, n);
   n = vary_merge(z, n);
-  if (n > room) {
-    find_scores(z, n);
-    memcpy(p->sorted, p->score, n * sizeof(double));
-    least = ranked(p->sorted, n, room - 1);
-  }
+  choose_columns(z, n, room);
   for (uint32_t c = 0; c < n; c++) {
     const double *g = p->columns + (size_t)c * nx;
-    if (kept < room && (least < 0 || p->score[c] >= least)) {
+    if (p->score[c] > 0) {
       p->from[kept] = p->origin[c], p->made_by[kept] = p->source[c], p->depend->kept[kept] = c;
       memcpy(z->G + (size_t)kept++ * nx, g, nx * sizeof *g);
     } else {
