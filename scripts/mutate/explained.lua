@@ -3,11 +3,11 @@
 return {
   ["plugins/solver/valencia/slope.c | logic 2 | if (!(b.lo > 0 || a.lo > 0 || a.hi < 0)) return (slopes) { unbounded, unbounded };"] =
     "no interval is on both sides of 0: slopes are unbounded more often, and the enclosure wider",
-  ["plugins/solver/zonotope/close.c | relation 1 | while (x[j] < pivot) j--;"] =
+  ["plugins/solver/zonotope/reduce.c | relation 1 | while (x[j] < pivot) j--;"] =
     "which generators are kept is free: all others go to the box",
-  ["plugins/solver/zonotope/close.c | extremum 1 | sum += u, most = fmax(most, u);"] =
+  ["plugins/solver/zonotope/reduce.c | extremum 1 | sum += u, most = fmax(most, u);"] =
     "which generators are kept is free: all others go to the box",
-  ["plugins/solver/zonotope/close.c | relation 1 | if (!(p->spread[i] > 0)) p->spread[i] = 1;"] =
+  ["plugins/solver/zonotope/reduce.c | relation 1 | if (!(p->spread[i] > 0)) p->spread[i] = 1;"] =
     "which generators are kept is free: all others go to the box",
   ["plugins/solver/zonotope/discs.c | guard 1 | if (d->b[k] == 0) continue;"] = "adds 0: a run slower",
   ["plugins/solver/zonotope/discs.c | guard 1 | if (sum == 0) continue;"] = "adds 0: a run slower",

@@ -1,18 +1,15 @@
 /* close.c -- the set at the end of the step.
 **
 ** x(h) = Y(xi) + Y_eps eps + sum_j xi_j Y_j eps + z(h). Old generators move with Y_eps / E; what the mixed terms do to
-** them is in mixed.c, what z(h) adds in distance.c. Then generators are reduced [Girard 2005]: in units of the states'
-** sizes, the columns that are nearest to an axis, or shortest, go into a box, or into discs where there are any.
+** them is in mixed.c, what z(h) adds in distance.c. Then there are fewer: reduce.c.
 */
 #include "basis.h"
 #include "depend.h"
 #include "modes.h"
 #include "proof.h"
 #include "quartic.h"
+#include "reduce.h"
 #include "strip.h"
-#include "vary.h"
-
-#define FEW 4 /* columns for each state, beside discs */
 
 /* -- the polynomials */
 
@@ -78,123 +75,6 @@ static uint32_t move_generators(zono *z) {
   }
   depend_move(z);
   return mixed_add(z, z->ngen);
-}
-
-/* -- reduction */
-
-/* the k-th largest of x [n], which is rearranged */
-static double ranked(double *x, uint32_t n, uint32_t k) {
-  uint32_t from = 0, to = n - 1;
-  while (from < to) {
-    double pivot = x[from + (to - from) / 2];
-    uint32_t i = from, j = to;
-    while (i <= j) {
-      while (x[i] > pivot) i++;
-      while (x[j] < pivot) j--;
-      if (i > j) break;
-      double old = x[i];
-      x[i++] = x[j], x[j] = old;
-      if (j == 0) break;
-      j--;
-    }
-    if (k <= j)
-      to = j;
-    else if (k >= i)
-      from = i;
-    else
-      break;
-  }
-  return x[k];
-}
-
-static void find_scores(const zono *z, uint32_t n) {
-  const proof *p = z->proof;
-  for (uint32_t c = 0; c < n; c++) {
-    const double *g = p->columns + (size_t)c * z->nx;
-    double sum = 0, most = 0;
-    for (uint32_t i = 0; i < z->nx; i++) {
-      double u = (fabs(g[i]) + depend_depth(z, c, i)) / p->spread[i];
-      sum += u, most = fmax(most, u);
-    }
-    p->score[c] = p->source[c] ? INFINITY : sum - most;
-  }
-}
-
-/* scores of columns that are not kept := 0; of equal ones, many of which may be along one state, the first are */
-static void choose_columns(const zono *z, uint32_t n, uint32_t room) {
-  const proof *p = z->proof;
-  if (n <= room) {
-    for (uint32_t c = 0; c < n; c++) p->score[c] = 1;
-    return;
-  }
-  find_scores(z, n);
-  memcpy(p->sorted, p->score, n * sizeof(double));
-  double least = ranked(p->sorted, n, room - 1);
-  uint32_t ties = room;
-  for (uint32_t c = 0; c < n; c++) ties -= p->score[c] > least;
-  for (uint32_t c = 0; c < n; c++)
-    if (p->score[c] == least && ties > 0)
-      p->score[c] = 1, ties--;
-    else if (!(p->score[c] > least))
-      p->score[c] = 0;
-}
-
-/* sizes of the states' sets at the end, for scores */
-static void find_spread(const zono *z, uint32_t n) {
-  proof *p = z->proof;
-  for (uint32_t i = 0; i < z->nx; i++) p->spread[i] = 0;
-  for (uint32_t c = 0; c < n; c++)
-    for (uint32_t i = 0; i < z->nx; i++)
-      p->spread[i] += fabs(p->columns[(size_t)c * z->nx + i]) + depend_depth(z, c, i);
-  for (uint32_t i = 0; i < z->nx; i++) {
-    const double *y = p->end + (size_t)i * z->shape.stride;
-    p->spread[i] += row_l(&z->shape, y) + row_q(&z->shape, y) + row_c(&z->shape, y);
-    for (uint32_t o = 0; o < ORIGINS; o++) p->spread[i] += *box(z, o, i);
-    if (!(p->spread[i] > 0)) p->spread[i] = 1;
-  }
-}
-
-/* the box as columns behind the `kept` ones of G */
-static uint32_t put_box(zono *z, uint32_t kept) {
-  proof *p = z->proof;
-  for (uint32_t i = 0; i < z->nx; i++) {
-    double *g = z->G + (size_t)kept * z->nx, sum = 0, most = -1;
-    for (uint32_t o = 0; o < ORIGINS; o++) {
-      double part = *box(z, o, i);
-      sum += part;
-      if (part > most) most = part, p->from[kept] = (uint8_t)o;
-    }
-    if (sum == 0) continue;
-    memset(g, 0, z->nx * sizeof *g);
-    g[i] = sum * ABOVE;
-    p->made_by[kept++] = 0;
-  }
-  return kept;
-}
-
-/* G := the columns that count most; all others and the box go into discs, or into the box. Discs need few columns. */
-static void reduce(zono *z, uint32_t n) {
-  proof *p = z->proof;
-  uint32_t nx = z->nx, room = z->ngen_max - nx, kept = 0, left = 0;
-  if (z->modes->now.any && !z->problem.njump && FEW * nx < room) room = FEW * nx;
-  find_spread(z, n);
-  n = vary_merge(z, n);
-  choose_columns(z, n, room);
-  for (uint32_t c = 0; c < n; c++) {
-    const double *g = p->columns + (size_t)c * nx;
-    if (p->score[c] > 0) {
-      p->from[kept] = p->origin[c], p->made_by[kept] = p->source[c], p->depend->kept[kept] = c;
-      memcpy(z->G + (size_t)kept++ * nx, g, nx * sizeof *g);
-    } else {
-      for (uint32_t i = 0; i < nx; i++) *box(z, FROM_MIXED, i) += depend_depth(z, c, i) * ABOVE;
-      memmove(p->columns + (size_t)left * nx, g, nx * sizeof *g);
-      p->origin[left++] = p->origin[c];
-    }
-  }
-  for (uint32_t c = 0; c < left; c++) discs_put(z, p->columns + (size_t)c * nx, p->origin[c]);
-  depend_keep(z, kept);
-  discs_finish(z);
-  z->ngen = put_box(z, kept);
 }
 
 static void find_sizes(zono *z) {

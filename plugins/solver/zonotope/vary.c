@@ -7,6 +7,7 @@
 */
 #include "vary.h"
 #include "proof.h"
+#include "reduce.h"
 #include "strip.h"
 
 #define LOSS 0.01     /* of the moments' generators, in parts of those of the means */
@@ -72,50 +73,10 @@ void vary_mark(zono *z, uint32_t source, uint32_t at, uint32_t end) {
   for (uint32_t c = at; c < end; c++) z->proof->source[c] = (uint16_t)(1 + 2 * source + (c - at));
 }
 
-typedef struct joint {
-  double share, sign; /* of the first column in the sum; of the second one */
-  double left;        /* what they leave, in units of the states' sets */
-} joint;
-
-static joint join(const zono *z, const double *a, const double *b) {
-  const double *unit = z->proof->spread;
-  double aa = 0, ab = 0, bb = 0;
-  for (uint32_t i = 0; i < z->nx; i++) {
-    double x = a[i] / unit[i], y = b[i] / unit[i];
-    aa += x * x, ab += x * y, bb += y * y;
-  }
-  joint j = { 0.5, ab < 0 ? -1 : 1, 0 };
-  double whole = aa + 2 * fabs(ab) + bb;
-  if (whole > 0) j.share = fmin(fmax((aa + fabs(ab)) / whole, 0), 1);
-  for (uint32_t i = 0; i < z->nx; i++) j.left += 2 * fabs((1 - j.share) * a[i] - j.share * j.sign * b[i]) / unit[i];
-  return j;
-}
-
-/* a := a + sign b: for symbols p and q, a p + sign b q = (share p + (1 - share) q) (a + sign b) + what goes into the
-** box */
-static void put_together(zono *z, double *a, const double *b, joint j) {
-  for (uint32_t i = 0; i < z->nx; i++) {
-    double other = j.sign * b[i], sum = a[i] + other;
-    double left = fabs(a[i] - j.share * sum) + fabs(other - (1 - j.share) * sum);
-    *box(z, FROM_VARYING, i) += left + 8 * UNIT * (fabs(a[i]) + fabs(other));
-    a[i] = sum;
-  }
-}
-
 static uint32_t next_of(const proof *p, uint32_t n, uint32_t c) {
   uint32_t next = c + 1;
   while (next < n && p->source[next] != p->source[c]) next++;
   return next;
-}
-
-/* what a column in the box is larger by than itself, in units of the states' sets [Girard 2005] */
-static double boxed(const zono *z, const double *g) {
-  double sum = 0, most = 0;
-  for (uint32_t i = 0; i < z->nx; i++) {
-    double u = fabs(g[i]) / z->proof->spread[i];
-    sum += u, most = fmax(most, u);
-  }
-  return 2 * (sum - most);
 }
 
 /* one column of this source less: neighbours become one, or one goes into the box, whichever costs least */
@@ -125,16 +86,16 @@ static void drop_one(zono *z, uint32_t n, uint32_t first) {
   joint least = { 0, 0, INFINITY };
   for (uint32_t c = first, next; c < n; c = next) {
     const double *g = p->columns + (size_t)c * nx;
-    double alone = boxed(z, g);
+    double alone = boxed_size(z, g);
     next = next_of(p, n, c);
     if (alone < least.left) least.left = alone, best = n, with = c;
-    joint j = next < n ? join(z, g, p->columns + (size_t)next * nx) : least;
+    joint j = next < n ? joint_of(z, g, p->columns + (size_t)next * nx) : least;
     if (j.left < least.left) least = j, best = c, with = next;
   }
   if (with == n) return;
   double *g = p->columns + (size_t)with * nx;
   if (best < n)
-    put_together(z, p->columns + (size_t)best * nx, g, least);
+    join(z, p->columns + (size_t)best * nx, g, least, FROM_VARYING);
   else
     for (uint32_t i = 0; i < nx; i++) *box(z, FROM_VARYING, i) += fabs(g[i]);
   memset(g, 0, nx * sizeof *g);
