@@ -73,8 +73,13 @@ static void find_shares(const zono *z, uint32_t k, double power, double before, 
       for (int n = 0; n < KINDS; n++) rate[x * KINDS + (uint32_t)n] += c * worth[n];
     }
   }
-  for (uint32_t x = 0; x < z->nx && k > 0; x++)
-    rate[x * KINDS + KIND_ERRORS] += row_r(&z->shape, coefficient(z, slot_out(z)[x], k - 1)) * before;
+  for (uint32_t x = 0; x < z->nx && k > 0; x++) { /* of x', what the next order of x would not hold */
+    const double *row = coefficient(z, slot_out(z)[x], k - 1);
+    rate[x * KINDS + KIND_PAIRS] += row_q(&z->shape, row) * before;
+    rate[x * KINDS + KIND_MIXED] += row_x(&z->shape, row) * before;
+    rate[x * KINDS + KIND_ERRORS] += row_r(&z->shape, row) * before;
+    rate[x * KINDS + KIND_TRIPLES] += row_c(&z->shape, row) * before;
+  }
   for (uint32_t x = 0; x < z->nx; x++)
     for (int n = 0; n < KINDS; n++) {
       double by = p->budget[x] > 0 ? rate[x * KINDS + (uint32_t)n] / p->budget[x] : INFINITY;

@@ -19,7 +19,7 @@
 #define PARTS 100      /* of the whole time, that a step is at most: it looks for kinks at the starts of steps only */
 #define SOON 0.1       /* of the whole time */
 #define LAST_TERM 1e-3 /* of a state, or of its set, that the last order in time may make in a step */
-#define BENT 2.5e-5    /* of a state's set, that terms of degree 5 with the other data are at most */
+#define BENT 2e-6      /* of a state's set, that terms of degree 5 with the other data are at most */
 #define MUCH 0.05      /* b^2 from which on all are needed */
 #define FADED 0.1      /* of a set that was larger once, as if it still were so large */
 #define LEAST 6        /* data that have triples in rows */
