@@ -53,17 +53,19 @@ end
 
 -- The options of all solvers of a verb, each once, with who knows it.
 local function solver_options(verb)
-  local names, first, by, same = {}, {}, {}, {}
+  local names, first, by, same, usual = {}, {}, {}, {}, {}
   for _, p in ipairs(loaded("solver", function(p) return p.verb == verb end)) do
     for _, param in ipairs(p.parameters) do
       if not first[param.name] then names[#names + 1], first[param.name], by[param.name] = param.name, param, {} end
       table.insert(by[param.name], p.name)
       same[param.name] = first[param.name].shape == param.shape and same[param.name] ~= false
+      usual[param.name] = first[param.name].fallback == param.fallback and usual[param.name] ~= false
     end
   end
   for _, name in ipairs(names) do
     field(name .. "?", same[name] and shape(first[name], "number") or "any",
-      ("%s: %s"):format(table.concat(by[name], ", "), first[name].doc))
+      ("%s: %s%s"):format(table.concat(by[name], ", "), first[name].doc,
+        usual[name] and first[name].fallback and (" (default %s)"):format(first[name].fallback) or ""))
   end
 end
 

@@ -3,9 +3,11 @@
 --   { class = NAME, of = "bases", doc = sentence, member, ... }: a table that is given or got;
 --   { "= NAME", type, sentence }: another name for a type;
 --   { "NAME(parameters)", type of what it gives, sentence }, { "NAME", type, sentence }: a function, a value of ambit.
--- Members are written as the last two; `?` behind a name: it may be missing. Types are those of LuaCATS, without the
--- "ambit." in front of the classes here. What plugins declare is not said again: options_of = VERB stands for the
--- options of its solvers, elements = true for all elements.
+-- Members are written as the last two; `?` behind a name: it may be missing. Two more columns of a member are `unit`,
+-- of a number without one, and `default`, what stands for a key that is missing, as Lua text:
+-- tests/lua/default_spec.lua tries each of them. Types are those of LuaCATS, without the "ambit." in front of the
+-- classes here. What plugins declare is not said again: options_of = VERB stands for the options of its solvers,
+-- elements = true for all elements.
 local core = require "ambit.core"
 
 local interface = { list = {}, classes = {}, functions = {} }
@@ -15,11 +17,20 @@ local function sentence(text) return (text or ""):gsub("%s+", " ") end
 
 function interface.name(member) return (member[1]:match "^[^?(]+") end
 
+-- The sentence of a member, with its unit and its default.
+local function described(member)
+  local text, notes = sentence(member[3]), {}
+  notes[1] = member.unit and "in " .. member.unit
+  if member.default then notes[#notes + 1] = "default " .. member.default end
+  if #notes == 0 then return text end
+  return ("%s(%s)"):format(text == "" and "" or text .. " ", table.concat(notes, ", "))
+end
+
 local function take(entry)
   interface.list[#interface.list + 1] = entry
   entry.doc = sentence(entry.doc)
   for _, member in ipairs(entry.class and entry or { entry }) do
-    member[2], member[3] = sentence(member[2]):gsub("| ", "|"), sentence(member[3])
+    member[2], member[3] = sentence(member[2]):gsub("| ", "|"), described(member)
   end
   if entry.class then
     interface.classes[entry.class] = entry

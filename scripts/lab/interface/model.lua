@@ -157,7 +157,7 @@ return {
       [[(fun(s: table<string, expression>, p: table<string, expression>, t: expression): table<string, datum>)|
       table<string, datum|function>]],
       "the derivatives" },
-    { "check_units?", "boolean", "false: units of derivatives are not compared" },
+    { "check_units?", "boolean", "false: units of derivatives are not compared", default = "true" },
     { "sampled?", "sampled|sampled[]", "controllers with a clock" },
   },
   { "ode(t: ode.request)", "ode",
@@ -188,7 +188,7 @@ return {
       [[values of coordinates by name, where there is no run; they may be uncertain, and may depend on `ambit.time`]] },
     { "t?", "datum[]",
       [[`{ start, end }` of a given motion (joints with `angle` or `displacement`, or `at`, that depend on
-      `ambit.time`)]] },
+      `ambit.time`)]], unit = "s" },
     { "arithmetic?", "arithmetic",
       "in which positions are enclosed; otherwise `gradient`, or `interval` where that would take seconds" },
     { "title?", "string", "the heading" },
