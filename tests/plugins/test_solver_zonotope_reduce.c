@@ -2,6 +2,7 @@
 ** and no farther where columns are nearly parallel, or all but a few are along one state.
 */
 #include "solver/zonotope/reduce.h"
+#include "solver/zonotope/depend.h"
 #include "zonotope_case.h"
 
 #define COLUMNS 60
@@ -134,11 +135,52 @@ static void the_first_of_equals_push_nobody_out(void **unused) {
   }
 }
 
+/* Generators that are known as functions of the data stay what they are: nothing may join them. */
+static void dependent_generators_stay(void **unused) {
+  (void)unused;
+  static few f;
+  for (uint32_t n = 0; n < 100; n++) {
+    open_few(&f);
+    for (uint32_t c = 0; c < COLUMNS; c++) {
+      double *g = add(&f), size = draw(0.5, 1);
+      for (uint32_t i = 0; i < f.nx; i++) g[i] = size * (1 + 1e-6 * draw(-1, 1));
+    }
+    f.z.proof->depend->any = 1;
+    shrink(&f);
+    for (uint32_t c = 0; c < f.z.ngen; c++) {
+      const double *g = f.z.G + (size_t)c * f.nx;
+      uint32_t other = 0, is_old = 0;
+      for (uint32_t i = 0; i < f.nx; i++) other += g[i] != 0;
+      for (uint32_t k = 0; k < f.n; k++) is_old |= memcmp(g, f.before + (size_t)k * f.nx, f.nx * sizeof *g) == 0;
+      assert_true(is_old || other <= 1); /* one of the columns, or a side of the box */
+    }
+    give_back();
+  }
+}
+
+/* What is no number must not take more room than there is. */
+static void no_number_stays_within_the_room(void **unused) {
+  (void)unused;
+  static few f;
+  const double odd[3] = { NAN, INFINITY, 1e308 };
+  for (uint32_t n = 0; n < 400; n++) {
+    open_few(&f);
+    for (uint32_t c = 0; c < COLUMNS; c++) {
+      double *g = add(&f);
+      for (uint32_t i = 0; i < f.nx; i++) g[i] = pick(8) ? draw(-1, 1) : odd[pick(3)];
+    }
+    shrink(&f);
+    give_back();
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(nothing_is_lost),
     cmocka_unit_test(parallel_columns_become_one),
     cmocka_unit_test(the_first_of_equals_push_nobody_out),
+    cmocka_unit_test(dependent_generators_stay),
+    cmocka_unit_test(no_number_stays_within_the_room),
   };
   return cmocka_run_group_tests_name("zonotope: fewer generators", tests, NULL, NULL);
 }

@@ -199,7 +199,7 @@ void reduce(zono *z, uint32_t n) {
   choose_columns(z, n, room);
   for (uint32_t c = 0; c < n; c++) {
     const double *g = p->columns + (size_t)c * nx;
-    if (p->score[c] > 0) {
+    if (kept < room && p->score[c] > 0) { /* with NaN among them, more may have a score */
       p->from[kept] = p->origin[c], p->made_by[kept] = p->source[c], p->depend->kept[kept] = c;
       memcpy(z->G + (size_t)kept++ * nx, g, nx * sizeof *g);
     } else {
