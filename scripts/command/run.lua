@@ -44,24 +44,27 @@ local function worst_of(problem)
   return session.worst
 end
 
+local MOST_PLOTS = 50 -- of one scene: files that nobody asked for one by one
+
 -- A picture of each simulation of the scene. Were all of them written?
-local function write_plots(file)
-  local all = true
-  for i, entry in ipairs(session.runs) do
+local function write_plots(file, problem)
+  local all, runs = true, session.runs
+  for i = 1, math.min(#runs, MOST_PLOTS) do
     local name = i == 1 and file or file:gsub("(%.%w+)$", ("-%d%%1"):format(i))
     sandbox.output(name)
-    local good, problem = pcall(require "ambit.plot".plot, { entry.run, file = name })
-    if not good then complain(problem) end
+    local good, why = pcall(require "ambit.plot".plot, { runs[i].run, file = name })
+    if not good then complain(why) end
     all = all and good
   end
-  if #session.runs == 0 then complain "--plot: the scene simulates nothing: there is no picture" end
-  return all and #session.runs > 0
+  if #runs > MOST_PLOTS then complain(("--plot: %d of %d simulations are drawn"):format(MOST_PLOTS, #runs)) end
+  if #runs == 0 and not problem then complain "--plot: the scene calls no ambit.simulate: there is nothing to draw" end
+  return all and #runs > 0
 end
 
 -- The end of the scene, however it came: the last record, what is to be said, the exit code. problem: the error that
 -- ended it; asked: what os.exit asked for, which may not make it better; plot: the file of --plot.
 local function finish(problem, asked, plot)
-  local drawn = not plot or core.interrupted() or write_plots(plot)
+  local drawn = not plot or core.interrupted() or write_plots(plot, problem)
   local worst, stopped, by_stop, _, limit = worst_of(problem), core.interrupted()
   local exit = code.exit(worst)
   if asked and asked ~= 0 then exit = asked end
@@ -88,14 +91,17 @@ local known = sandbox.with { json = true, plot = true, quiet = false }
 function command.run(list)
   local options, file, words = scene.arguments(list, known)
   if not options then return 2, file end
-  local wrong = scene.prepare(options, { scene = file, outputs = { options.plot } })
+  local wrong = scene.prepare(options, { scene = file, outputs = { options.plot }, is_late = true })
   if wrong then return 2, wrong end
   core.progress(not options.quiet)
   core.notes(not options.quiet)
   if not options.quiet then scene.note_strays(words, known) end
   if options.plot then
     local good, problem = pcall(require "ambit.plot".check_file, options.plot)
-    if not good then return 2, (tostring(problem):gsub("^.-plot: file", "--plot")) end
+    if not good then return 2, (tostring(problem):gsub("^.-plot: ", "--plot: "):gsub("plot: file", "plot")) end
+    if options.sandbox and options.plot:find "%.[pP][nNdD][gGfF]$" then
+      return 2, "--plot: .png and .pdf are made by another program, which --sandbox lets nobody start"
+    end
     session.runs = {}
   end
   if options.json then

@@ -226,7 +226,7 @@ function sandbox.output(name) outputs[name] = true end
 
 -- What verbs write when they are asked to (pictures, results) goes through one function.
 local function guard_writing(about)
-  for _, file in pairs(about.outputs or {}) do sandbox.output(file) end
+  for _, file in pairs(not about.is_late and about.outputs or {}) do sandbox.output(file) end
   local write = core.write_file
   core.write_file = function(name, text)
     if not outputs[name] then return ("%s: not in a sandbox"):format(tostring(name)) end
@@ -265,8 +265,8 @@ local function check_readable()
 end
 
 -- Reads the options, sets the limits; nil, or what is wrong. about: scene = its file, outputs = { files that the
--- command writes when the scene has run }, children: it forks; is_open: what is run sees Ambit's own environment, so
--- that the system alone keeps files from it.
+-- command writes when the scene has run }, is_late: it names them by sandbox.output then, children: it forks; is_open:
+-- what is run sees Ambit's own environment, so that the system alone keeps files from it.
 function sandbox.begin(options, about)
   if not options.sandbox then
     return options["allow-read"] and "option `--allow-read` needs `--sandbox`" or limits.begin(options)

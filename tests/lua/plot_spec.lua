@@ -42,6 +42,7 @@ end
 
 local room = 1e-12 -- of the closed forms, which are calculated in doubles
 
+-- f(x, v, t) of all solutions is within the bounds.
 local function holds_all(rows, column, f)
   local tried = 0
   for _, row in ipairs(rows) do
@@ -106,11 +107,12 @@ describe("plot", function()
 
   it("draws the set at the end in a plane by its outline", function()
     local plot = oscillator():plot { quantities = { "x", "v" }, against = "x" }
-    local polygon = plot.outlines[2]
+    local polygon, middle = plot.outlines[2], plot.outlines[2].middle
     assert.is_true(#polygon >= 4)
     for a = 0.9, 1.1, 0.05 do -- each point of the set is on one side of every edge
       for b = -0.1, 0.1, 0.05 do
-        local x, v = a * math.cos(4) + b * math.sin(4), b * math.cos(4) - a * math.sin(4)
+        local x = a * math.cos(4) + b * math.sin(4) - middle[1]
+        local v = b * math.cos(4) - a * math.sin(4) - middle[2]
         local side = 0
         for i, p in ipairs(polygon) do
           local q = polygon[i % #polygon + 1]
@@ -123,6 +125,88 @@ describe("plot", function()
       end
     end
     assert.truthy(plot:text "svg":find('<path class="line"', 1, true))
+  end)
+
+  it("knows nothing of what the run says nothing about", function()
+    local foreign
+    ambit.ode { states = { "y" }, equations = function(s) foreign = s.y return { y = 1 } end }
+    local problem = message(ambit.plot, { oscillator { 0, 1 }, quantities = { q = foreign } })
+    assert.truthy(problem:find("plot: quantities.q: the run says nothing about `y`", 1, true), problem)
+  end)
+
+  it("is not deceived by steps that were not kept", function()
+    for _, solver in ipairs { "lohner", "gsl" } do
+      local run = ambit.simulate { ambit.ode { states = { "x", "v" }, equations = function(s)
+        return { x = s.v, v = -s.x }
+      end }, initial = { x = 1, v = 0 }, t = { 0, "6.28" }, keep = "last", solver = solver }
+      assert.is_true(run:plot { limits = { x = { "0.9", nil } } }.verdicts.x ~= "holds")
+    end
+    local many = {}
+    for k = 0, 200 do many[k + 1] = 6.28 * k / 200 end
+    local run = ambit.simulate { ambit.ode { states = { "x", "v" }, equations = function(s)
+      return { x = s.v, v = -s.x }
+    end }, initial = { x = 1, v = 0 }, t = many, keep = "last", solver = "gsl" }
+    for _, row in ipairs(rows_of(run:csv { quantities = { "x" } })) do
+      assert.is_true(row[1] == row[2] or row[3] ~= row[3] or row[2] - row[1] < 1 or row[3] < -0.9)
+    end
+  end)
+
+  it("judges no limit of what is not defined for all data", function()
+    local run = ambit.simulate { ambit.ode { states = { "x" }, equations = function() return { x = 0 } end },
+      initial = { x = ambit.between(-1, 1) }, t = 1 }
+    local plot = run:plot { quantities = { l = function(s) return ambit.log(s.x) end }, limits = { l = { nil, 1 } } }
+    assert.equal("undecided", plot.verdicts.l)
+    assert.truthy(plot:text "svg":find("only where it is defined", 1, true))
+    assert.truthy(plot:text "csv":find("0,0,,", 1, true))
+  end)
+
+  it("ends where an event ends the run", function()
+    local run = ambit.simulate { ambit.ode { states = { "y", "v" }, equations = function(s)
+      return { y = s.v, v = -"9.81" }
+    end }, initial = { y = ambit.around(10, "1%"), v = 0 }, t = { 0, 3 },
+      events = { { g = function(s) return s.y end, name = "ground", direction = "falling", stop = true } } }
+    assert.equal("ground", run.ended_by)
+    local function verdict(pair) return run:plot { limits = { y = pair } }.verdicts.y end
+    assert.is_true(verdict { 0, nil } ~= "fails")
+    assert.equal("holds", verdict { -5, "10.2" })
+    assert.equal("fails", verdict { 5, nil })
+    local rows = rows_of(run:csv { quantities = { "y" } })
+    assert.is_true(rows[#rows][2] <= run.events[1].t.hi)
+  end)
+
+  it("samples what leaps", function()
+    local run = ambit.simulate { ambit.map { states = { "x" }, next = function(s) return { x = 2 * s.x } end },
+      initial = { x = ambit.between("0.9", "1.1") }, t = 5 }
+    local plot = run:plot { quantities = { "x", twice = function(s) return 2 * s.x end } }
+    local hull = plot.hull
+    assert.is_true(hull.hi[hull.k[1]][#hull.t] > 30)
+    assert.is_nil(hull.k[2])
+  end)
+
+  it("holds at instants that are no doubles", function()
+    local run = ambit.simulate { ambit.ode { states = { "x" }, equations = function() return { x = 1e6 } end },
+      initial = { x = 0 }, t = { "1/3", 1 } }
+    local third = ambit.number "1/3"
+    local function inside(t, row) -- 1e6 (t - 1/3), exactly
+      local x = ambit.interval(1e6 * (ambit.number(t) - third))
+      return row[3] <= x.lo and x.hi <= row[4]
+    end
+    local rows = rows_of(run:csv())
+    assert.is_true(rows[1][1] < rows[1][2] and not inside(rows[1][1], rows[1]))
+    for _, row in ipairs(rows) do
+      if row[2] - row[1] > 1e-9 then assert.is_true(inside(row[1], row) and inside(row[2], row)) end
+    end
+  end)
+
+  it("outlines sets that are small beside where they are", function()
+    local run = ambit.simulate { ambit.ode { states = { "x", "y" }, equations = function()
+      return { x = 1, y = 1 }
+    end }, initial = { x = ambit.around(7e6, 2e-8), y = ambit.around(1, 1) }, t = 1 }
+    local polygon = run:plot { against = "x" }.outlines[2]
+    if not polygon then return end -- rounding is as large as the set
+    local left, right = math.huge, -math.huge
+    for _, p in ipairs(polygon) do left, right = math.min(left, p[1]), math.max(right, p[1]) end
+    assert.is_true(right - left >= 2e-8)
   end)
 
   it("says what is wrong with its input", function()
@@ -211,11 +295,25 @@ describe("ambit run --plot", function()
     os.remove(base .. ".svg")
   end)
 
+  it("leaves records as they are", function()
+    write(simulate)
+    local function records(words)
+      local code, text = run(words .. "--json " .. base .. ".json")
+      assert.equal(0, code, text)
+      local steps = select(2, read(base .. ".json"):gsub('"record":"step"', ""))
+      os.remove(base .. ".json")
+      return steps
+    end
+    assert.equal(records "", records("--plot " .. base .. ".svg "))
+    os.remove(base .. ".svg")
+  end)
+
   it("says what is wrong before and after", function()
     write "print(1)"
     for words, expected in pairs { ["--plot x.foo"] = "--plot: expected a name that ends with one of .svg",
+      ["--sandbox --plot x.png"] = "which --sandbox lets nobody start",
       ["--plot /nowhere/x.svg"] = "--plot: cannot write",
-      ["--plot " .. base .. ".svg"] = "the scene simulates nothing" } do
+      ["--plot " .. base .. ".svg"] = "there is nothing to draw" } do
       local code, text = run(words)
       assert.is_true(code ~= 0)
       assert.truthy(text:find(expected, 1, true), text)

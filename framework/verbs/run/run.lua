@@ -148,7 +148,10 @@ function methods:overestimation(sample) return require "ambit.sample.overestimat
 -- What was proved as a picture or a page over time, or as a table: see plot.lua.
 function methods:plot(t)
   local own = { self }
-  for key, value in pairs(t == nil and {} or check.table(t, "plot")) do own[key] = value end
+  for key, value in pairs(t == nil and {} or check.table(t, "plot")) do
+    if math.type(key) then check.fail("plot: unexpected entry [%s]: quantities = { ... } says what is drawn", key) end
+    own[key] = value
+  end
   return require "ambit.plot".plot(own)
 end
 

@@ -199,11 +199,9 @@ function verb.solve(q)
   facts.track, facts.states, facts.report = track, q.system.states, report
   facts.solver, facts.arithmetic, facts.t_start, facts.initial = q.solver, report.arithmetic, q.times[1],
     initial_enclosures(q)
-  facts.times, facts.system = q.times, q.system
-  facts.question = { system = q.system, initial = q.initial, times = q.times, again = function(options)
-    return verb.solve(setmetatable({ run_options = setmetatable(options, { __index = q.run_options }) },
-      { __index = q }))
-  end }
+  facts.times, facts.system, facts.keeps_last = q.times, q.system, q.run_options and q.run_options.last
+  facts.question = { system = q.system, initial = q.initial, times = q.times,
+    again = function(options, times) return verb.again(q, options, times) end }
   facts.solver_reason = q.suggestion and q.suggestion.reason or "named in the scene"
   facts.parts = { { solver = q.solver, t_from = q.times[1], t = facts.t_reached } }
   event.finish(q, facts)
@@ -212,6 +210,16 @@ function verb.solve(q)
   local hint = failed and q.system.mechanism and loops.hint(q.system.mechanism, result)
   if hint then facts.reason = facts.reason .. "; " .. hint end
   return result
+end
+
+-- The same question once more, for what its answer is shown with: nothing is recorded, no event looked for.
+function verb.again(q, options, times)
+  local own = {}
+  for key, value in pairs(q) do own[key] = value end
+  options.silent = true
+  own.watch, own.events, own.times = nil, nil, times or q.times
+  own.run_options = setmetatable(options, { __index = q.run_options })
+  return verb.solve(setmetatable(own, getmetatable(q)))
 end
 
 -- Asks a solver, the suggested one or another, with some fields of the request changed.

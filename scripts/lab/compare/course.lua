@@ -80,11 +80,13 @@ local function add_tube(track, k, x)
   track.tube.lo[k][#track.t], track.tube.hi[k][#track.t] = x and x.lo or 0 / 0, x and x.hi or 0 / 0
 end
 
--- Where each state is from the end of step `first` - 1 on to that of step `last`: bounds of the tubes; NaN without one.
+-- Where each state is from the end of step `first` - 1 on to that of step `last`: bounds of the tubes; NaN without one,
+-- or where steps before it were not kept.
 local function add_tubes(track, run, ends, first, last)
+  local whole = core.track_step(run.track, ends[first]) == track.t[#track.t]
   for k in ipairs(run.states) do
     local all
-    for i = first, last do
+    for i = first, whole and last or first - 1 do
       local x = core.track_value(run.track, ends[i], k, true)
       if not x then all = nil break end
       all = all and all:hull(x) or x

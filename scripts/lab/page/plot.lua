@@ -22,7 +22,7 @@ local function data_of(plot)
     local place = plot.hull.k[k]
     if place then hull.lo[k], hull.hi[k] = plot.hull.lo[place], plot.hull.hi[place] end
   end
-  local row = { label = plot.run.solver, status = plot.run.status, rigorous = plot.run.rigorous, track = track }
+  local row = { label = plot.run.solver, status = plot.run.status, rigorous = plot.proved, track = track }
   return compare_data.of { names = names, units = units, rows = { row }, t = plot.course.t, sample = hull }
 end
 

@@ -1,7 +1,9 @@
 -- plot/course.lua -- what a run proved of quantities along its time, as plain numbers.
 --
--- A course is { t, [k] = { lo, hi, tube = { lo, hi } } }: quantity k is within [lo[i], hi[i]] at t[i], and within its
--- tube i at all times from t[i] to t[i + 1]; NaN where nothing is known.
+-- A course is { t, t_lo, t_hi, [k] = { lo, hi, partial, tube = { lo, hi, partial } } }: quantity k is within [lo[i],
+-- hi[i]] at the instant i, which is within [t_lo[i], t_hi[i]] (equal, but where a time is no double), and within its
+-- tube i at all times from this instant to the next; NaN where nothing is known, partial[i] where it is not defined for
+-- all data. ends_early: a run that an event ended goes to the last instant at most, at which nothing is known.
 local core = require "ambit.core"
 local instant = require "ambit.run.instant"
 local states_of = require "ambit.compare.course"
@@ -14,13 +16,28 @@ local EVALUATING = 10   -- seconds for all enclosures in gradient arithmetic; if
 
 local nan = 0 / 0
 
--- A run whose steps are long says more about the way from one to the next when it is asked for dense output. Where
--- that proves less, the first answer stands.
+-- The times of a run up to what it reached.
+local function times_of(run)
+  local times = run.question.times
+  if run.t_reached == times[#times] then return times end
+  local list, forward = {}, times[#times] >= times[1]
+  for i, t in ipairs(times) do
+    if i == 1 or forward and t < run.t_reached or not forward and t > run.t_reached then list[#list + 1] = t end
+  end
+  list[#list + 1] = run.t_reached
+  list.shift, list.start = times.shift, times.start
+  return list
+end
+
+-- A run whose steps are long, or that kept only the last, says more about the way from one to the next when it is asked
+-- once more, for dense output. Where that proves less, the first answer stands.
 function course.finer(run)
-  local question = run.question
-  if not (question and question.again) or run.step_count >= FEW or run.cpu_seconds > MOST_SECONDS then return run end
-  local good, again = pcall(question.again, { dense = true, last = false })
-  return good and again.status == run.status and again.t_reached == run.t_reached and again or run
+  local question, few = run.question, run.step_count < FEW or run.keeps_last
+  if not (question and question.again) or not few or run.cpu_seconds > MOST_SECONDS or run.step_count == 0 then
+    return run
+  end
+  local good, again = pcall(question.again, { dense = true, last = false }, times_of(run))
+  return good and again.status == "complete" and again.t_reached == run.t_reached and again or run
 end
 
 local function leaves_of(expressions)
@@ -40,7 +57,9 @@ local function evaluator(run, expressions, arithmetic)
   for k, name in ipairs(run.states) do index[name] = k end
   return function(t, x)
     local values = {}
-    for i, name in ipairs(names) do values[i] = core.expression(name and x[index[name]] or t) end
+    for i, name in ipairs(names) do
+      if name then values[i] = core.expression(x[index[name]]) else values[i] = core.expression(t) end
+    end
     return core.evaluate { arithmetic = arithmetic, expressions = expressions, leaves = leaves, values = values }
   end
 end
@@ -68,15 +87,32 @@ local function affordable(run, expressions, track)
 end
 
 local function put(to, i, x)
-  to.lo[i], to.hi[i] = x and not x:is_empty() and x.lo or nan, x and not x:is_empty() and x.hi or nan
+  local known = x and not x:is_empty()
+  to.lo[i], to.hi[i] = known and x.lo or nan, known and x.hi or nan
+  to.partial[i] = x ~= nil and (x.partial or not known)
 end
 
-local function span(a, b) return core.enclosure(math.min(a, b), math.max(a, b)) end
+-- From a to b; of sampled systems, whose samples are at doubles in place of the decimals next to them, an ulp more.
+local function span(a, b, is_sampled)
+  local lo, hi = math.min(a, b), math.max(a, b)
+  local ulp = is_sampled and 0x1p-51 * math.max(math.abs(lo), math.abs(hi)) or 0
+  return core.enclosure(lo - ulp, hi + ulp)
+end
 
-local function fill(found, quantities, enclose, track)
+-- States leap at instants: a tube holds what is behind the leap, the instant what was before it.
+local function hull_of(a, b)
+  if not (a and b) then return a end
+  local list = {}
+  for k, x in ipairs(a) do list[k] = x:hull(b[k]) end
+  return list
+end
+
+local function fill(found, quantities, enclose, track, is_sampled)
   for i, t in ipairs(track.t) do
     local at, over = states_at(track, i, track), track.t[i + 1] and states_at(track, i, track.tube)
-    local now, till = at and enclose(span(t, t), at), over and enclose(span(t, track.t[i + 1]), over)
+    if is_sampled then over = hull_of(over, at) end
+    local now = at and enclose(span(t, t, is_sampled), at)
+    local till = over and enclose(span(t, track.t[i + 1], is_sampled), over)
     for k in ipairs(quantities) do
       put(found[k], i, now and now[k])
       put(found[k].tube, i, till and till[k])
@@ -84,18 +120,43 @@ local function fill(found, quantities, enclose, track)
   end
 end
 
--- quantities: { { g = expression of the run's states and clock }, ... }
-function course.of(run, quantities)
-  local track, found, expressions = states_of.track(run), {}, {}
-  for k, quantity in ipairs(quantities) do
-    found[k], expressions[k] = { lo = {}, hi = {}, tube = { lo = {}, hi = {} } }, quantity.g
+-- Each solution ends at its own time of the event: no instant from the first such time on has them all.
+local function cut(found, track, run)
+  local last
+  for _, e in ipairs(run.events or {}) do if e.name == run.ended_by then last = e.t end end
+  if not last then return end
+  local forward = track.t[#track.t] >= track.t[1]
+  local function is_from(t, other) if forward then return t >= other end return t <= other end
+  local first, final = forward and last.lo or last.hi, forward and last.hi or last.lo
+  local n = #track.t
+  while n > 2 and is_from(found.t[n - 1], final) do n = n - 1 end
+  for i = #found.t, n + 1, -1 do found.t[i], found.t_lo[i], found.t_hi[i] = nil, nil, nil end
+  found.ends_early = true
+  found.t[n], found.t_lo[n], found.t_hi[n] = final, final, final
+  for i = 2, n do
+    if i == n or is_from(found.t[i], first) then
+      for _, of in ipairs(found) do of.lo[i], of.hi[i] = nan, nan end
+    end
   end
-  fill(found, quantities, affordable(run, expressions, track), track)
-  found.t = {}
+end
+
+local function bounds() return { lo = {}, hi = {}, partial = {} } end
+
+-- quantities: { { g = expression of the run's states and clock }, ... }; finer: the run, or the same asked for more
+function course.of(run, finer, quantities)
+  local track, found, expressions = states_of.track(finer), { t = {}, t_lo = {}, t_hi = {} }, {}
+  for k, quantity in ipairs(quantities) do
+    found[k], expressions[k] = bounds(), quantity.g
+    found[k].tube = bounds()
+  end
+  fill(found, quantities, affordable(finer, expressions, track), track, run.system.sampled ~= nil)
   for i, t in ipairs(track.t) do
     local time = instant.of_clock(t, run.times.shift)
-    found.t[i] = type(time) == "number" and time or time:mid()
+    local is_double = type(time) == "number"
+    found.t[i] = is_double and time or time:mid()
+    found.t_lo[i], found.t_hi[i] = is_double and time or time.lo, is_double and time or time.hi
   end
+  if run.ended_by then cut(found, track, run) end
   return found
 end
 

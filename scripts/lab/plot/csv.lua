@@ -14,7 +14,7 @@ local function row(from, to, course, i, of)
   local cells = { number(from), number(to) }
   for k in ipairs(course) do
     local bounds = of(course[k])
-    local known = bounds.lo[i] and bounds.lo[i] <= bounds.hi[i]
+    local known = bounds.lo[i] and bounds.lo[i] <= bounds.hi[i] and not bounds.partial[i]
     cells[#cells + 1], cells[#cells + 2] = known and number(bounds.lo[i]) or "", known and number(bounds.hi[i]) or ""
   end
   return table.concat(cells, ",")
@@ -27,9 +27,11 @@ function csv.text(course, quantities)
     head[#head + 1], head[#head + 2] = cell(name .. " lo"), cell(name .. " hi")
   end
   local lines = { table.concat(head, ",") }
-  for i, t in ipairs(course.t) do
-    lines[#lines + 1] = row(t, t, course, i, function(c) return c end)
-    if course.t[i + 1] then lines[#lines + 1] = row(t, course.t[i + 1], course, i, function(c) return c.tube end) end
+  local lo, hi = course.t_lo, course.t_hi
+  if #lo > 1 and lo[#lo] < lo[1] then lo, hi = hi, lo end
+  for i in ipairs(course.t) do
+    lines[#lines + 1] = row(lo[i], hi[i], course, i, function(c) return c end)
+    if lo[i + 1] then lines[#lines + 1] = row(hi[i], lo[i + 1], course, i, function(c) return c.tube end) end
   end
   return table.concat(lines, "\n") .. "\n"
 end

@@ -9,6 +9,8 @@ local outline = {}
 
 local DIRECTIONS = 72
 
+local ROUNDING = 1e-9 -- parts of the box that the polygon is made wider by: more than all of its arithmetic is off by
+
 -- The part of a convex polygon { { x, y }, ... } where a x + b y <= c.
 local function clipped(polygon, a, b, c)
   local part, n = {}, #polygon
@@ -24,24 +26,38 @@ local function clipped(polygon, a, b, c)
   return part
 end
 
--- Corners in order for the quantities gx and gy (expressions of the run's states and clock), or nil: a box is all that
--- is known.
-function outline.of(run, gx, gy, box)
+-- The quantities at the end as functions of the data, each as its distance from the middle of its box in parts of half
+-- the box.
+local function ends_of(run, quantities, middle, half)
   local set, values, leaves = run:set(), { core.expression(run.t_reached) }, { core.time() }
   for k, name in ipairs(run.states) do leaves[k + 1], values[k + 1] = run.system.symbols[k], set[name] end
-  local ends = core.substitute({ gx, gy }, leaves, values)
-  local wide, high = box[2] - box[1], box[4] - box[3]
-  if not (wide > 0 and high > 0 and wide < math.huge and high < math.huge) then return nil end
-  local directions, forms = {}, {}
-  for i = 1, DIRECTIONS do -- in parts of the box, so that both quantities count alike
+  local ends = core.substitute(quantities, leaves, values)
+  for i, e in ipairs(ends) do ends[i] = (e - core.expression(middle[i])) / core.expression(half[i]) end
+  return ends
+end
+
+-- Corners in order for the quantities gx and gy (expressions of the run's states and clock), whose box at the end is
+-- [x_lo, x_hi] x [y_lo, y_hi], relative to the middle of that: { middle = { x, y }, { x, y }, ... }; nil: a box is all
+-- that is known. A run that ends at a time which is no double knows its set there, and its box at the double beside it.
+function outline.of(run, gx, gy, box)
+  local half = { (box[2] - box[1]) / 2, (box[4] - box[3]) / 2 }
+  local middle = { box[1] + half[1], box[3] + half[2] }
+  if run.times.last or not (half[1] > 0 and half[2] > 0 and half[1] < math.huge and half[2] < math.huge) then
+    return nil
+  end
+  local ends, directions, forms = ends_of(run, { gx, gy }, middle, half), {}, {}
+  for i = 1, DIRECTIONS do
     local angle = 2 * math.pi * i / DIRECTIONS
-    directions[i] = { math.cos(angle) / wide, math.sin(angle) / high }
+    directions[i] = { math.cos(angle), math.sin(angle) }
     forms[i] = core.expression(directions[i][1]) * ends[1] + core.expression(directions[i][2]) * ends[2]
   end
   local good, bounds = pcall(core.evaluate, { arithmetic = "gradient", expressions = forms })
   if not good then return nil end
-  local polygon = { { box[1], box[3] }, { box[2], box[3] }, { box[2], box[4] }, { box[1], box[4] } }
-  for i, d in ipairs(directions) do polygon = clipped(polygon, d[1], d[2], bounds[i].hi) end
+  local most = 1 + 1e-6
+  local polygon = { { -most, -most }, { most, -most }, { most, most }, { -most, most } }
+  for i, d in ipairs(directions) do polygon = clipped(polygon, d[1], d[2], bounds[i].hi + ROUNDING) end
+  for _, p in ipairs(polygon) do p[1], p[2] = p[1] * half[1], p[2] * half[2] end
+  polygon.middle = middle
   return #polygon >= 3 and polygon or nil
 end
 

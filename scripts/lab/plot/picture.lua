@@ -6,7 +6,7 @@ local svg = require "ambit.report.svg"
 local picture = {}
 
 local WIDE, PAIR, HIGH = 900, 620, 300 -- pixels of a panel: alone in its row, one of two
-local HEAD, LINE = 84, 20
+local HEAD, LINE = 48, 18           -- above the panels: the title, each line of the legend
 local sampled_colour = "#333333"
 
 local function finite(x) return x and x == x and math.abs(x) < 1e300 end
@@ -20,10 +20,15 @@ local function each_bound(plot, k, f)
       if finite(bounds.hi[i]) then f(bounds.hi[i]) end
     end
   end
-  local l = plot.limits[k] or {}
+  local l, place = plot.limits[k] or {}, plot.hull and plot.hull.k[k]
   if finite(l.lo) then f(l.lo) end
   if finite(l.hi) then f(l.hi) end
+  for _, bounds in ipairs(place and { plot.hull.lo[place], plot.hull.hi[place] } or {}) do
+    for i in ipairs(plot.hull.t) do if finite(bounds[i]) then f(bounds[i]) end end
+  end
 end
+
+local function is_bounded(of, i) return finite(of.lo[i]) and finite(of.hi[i]) end
 
 local function axis_of(plot, k)
   local lo, hi = math.huge, -math.huge
@@ -69,9 +74,12 @@ function Panel:frame(canvas, across, upwards)
     { anchor = "middle", turned = true })
 end
 
-function Panel:limits(canvas, l)
+function Panel:limits(canvas, l, across)
   for _, v in pairs { l and l.lo, l and l.hi } do
     canvas:rule(self.left, self:up(v), self.right, self:up(v), "bound")
+  end
+  for _, v in pairs { across and across.lo, across and across.hi } do
+    canvas:rule(self:across(v), self.top, self:across(v), self.bottom, "bound")
   end
 end
 
@@ -80,10 +88,10 @@ function Panel:over_time(canvas, plot, k, colour)
   local course, of = plot.course, plot.course[k]
   for i, t in ipairs(course.t) do
     local next_t = course.t[i + 1]
-    if next_t and of.tube.lo[i] == of.tube.lo[i] and of.tube.lo[i] then
+    if next_t and is_bounded(of.tube, i) then
       canvas:box(self:across(t), self:up(of.tube.lo[i]), self:across(next_t), self:up(of.tube.hi[i]), colour)
     end
-    if of.lo[i] == of.lo[i] then
+    if is_bounded(of, i) then
       canvas:line({ { self:across(t), self:up(of.lo[i]) }, { self:across(t), self:up(of.hi[i]) } }, colour)
     end
   end
@@ -112,12 +120,15 @@ end
 function Panel:over_other(canvas, plot, a, k, colour)
   local x, y = plot.course[a].tube, plot.course[k].tube
   for i = 1, #plot.course.t - 1 do
-    if finite(x.lo[i]) and finite(y.lo[i]) then
+    if is_bounded(x, i) and is_bounded(y, i) then
       canvas:box(self:across(x.lo[i]), self:up(y.lo[i]), self:across(x.hi[i]), self:up(y.hi[i]), colour)
     end
   end
   local line = {}
-  for i, p in ipairs(plot.outlines[k] or {}) do line[i] = { self:across(p[1]), self:up(p[2]) } end
+  local outline = plot.outlines[k] or {}
+  for i, p in ipairs(outline) do
+    line[i] = { self:across(outline.middle[1] + p[1]), self:up(outline.middle[2] + p[2]) }
+  end
   line[#line + 1] = line[1]
   if #line > 1 then canvas:line(line, svg.colours[2]) end
 end
@@ -127,16 +138,16 @@ end
 local words = { holds = "within its limits at all times, proved", fails = "beyond its limits, proved",
   undecided = "limits: not decided" }
 
-local function panel_at(plot, n, count)
+local function panel_at(n, count, head)
   local columns = count == 1 and 1 or 2
   local width = columns == 1 and WIDE or PAIR
   local column, row = (n - 1) % columns, (n - 1) // columns
-  local left, top = column * width, HEAD + row * HIGH
+  local left, top = column * width, head + row * HIGH
   return setmetatable({ left = left + 96, right = left + width - 24, top = top + 26, bottom = top + HIGH - 52 }, Panel)
 end
 
-local function write_panel(canvas, plot, n, k, count)
-  local panel, q, colour = panel_at(plot, n, count), plot.quantities[k], svg.colours[(k - 1) % #svg.colours + 1]
+local function write_panel(canvas, plot, n, k, count, head)
+  local panel, q, colour = panel_at(n, count, head), plot.quantities[k], svg.colours[(k - 1) % #svg.colours + 1]
   panel.y = axis_of(plot, k)
   panel.x = plot.against and axis_of(plot, plot.against) or time_axis(plot.course)
   panel:frame(canvas, plot.against and title_of(plot.quantities[plot.against]) or "t, s", title_of(q))
@@ -147,20 +158,47 @@ local function write_panel(canvas, plot, n, k, count)
     panel:over_time(canvas, plot, k, colour)
     panel:sampled(canvas, plot.hull, k)
   end
-  panel:limits(canvas, plot.limits[k])
+  panel:limits(canvas, plot.limits[k], plot.against and plot.limits[plot.against])
   local verdict = plot.verdicts[q.name]
   if verdict then canvas:text(panel.left + 8, panel.top - 8, words[verdict], 400, { class = "small" }) end
 end
 
+-- Of how many boxes nothing is known, or no bound.
+local function count_open(plot)
+  local count = 0
+  for k in ipairs(plot.quantities) do
+    for i = 1, #plot.course.t - 1 do if not is_bounded(plot.course[k].tube, i) then count = count + 1 end end
+  end
+  return count
+end
+
+local function partial_names(plot)
+  local names = {}
+  for k, q in ipairs(plot.quantities) do
+    for i in ipairs(plot.course.t) do
+      if plot.course[k].partial[i] or plot.course[k].tube.partial[i] then
+        names[#names + 1] = q.name
+        break
+      end
+    end
+  end
+  return names
+end
+
 -- What is drawn, in one line each.
 function picture.legend(plot)
-  local run = plot.run
-  local list = { run.rigorous and "boxes: proved to hold every motion that the data allow, at all times"
+  local run, open, partial = plot.run, count_open(plot), partial_names(plot)
+  local list = { plot.proved and "boxes: proved to hold every motion that the data allow, at all times"
     or "boxes: not proved: solver " .. run.solver }
   if plot.hull and next(plot.hull.k) and not plot.against then
     list[#list + 1] = ("dashed: the hull of %d sampled motions"):format(plot.hull.draws)
   end
   if plot.against and next(plot.outlines) then list[#list + 1] = "outline: the set at the end" end
+  if open > 0 then list[#list + 1] = ("%d boxes have no bound and are not drawn"):format(open) end
+  if #partial > 0 then
+    list[#list + 1] = table.concat(partial, ", ") .. ": only where it is defined, which is not for all data"
+  end
+  if run.ended_by then list[#list + 1] = ("up to the event %s"):format(run.ended_by) end
   if run.status ~= "complete" then
     list[#list + 1] = ("%s at t = %.6g"):format(run.status, run.t_reached)
   end
@@ -173,14 +211,16 @@ function picture.text(plot, is_inside)
   for k in ipairs(plot.quantities) do if k ~= plot.against then shown[#shown + 1] = k end end
   local columns = #shown == 1 and 1 or 2
   local width = columns == 1 and WIDE or 2 * PAIR
-  local canvas = svg.canvas(width, HEAD + (#shown + columns - 1) // columns * HIGH + 8, plot.title,
-    is_inside)
+  local legend = is_inside and {} or picture.legend(plot)
+  local head = HEAD + LINE * #legend
+  local canvas = svg.canvas(width, head + (#shown + columns - 1) // columns * HIGH + 8, plot.title, is_inside)
   if not is_inside then
     canvas:text(width / 2, 28, plot.title, width - 40, { anchor = "middle", class = "title" })
-    canvas:text(width / 2, 28 + LINE, table.concat(picture.legend(plot), "; "), width - 40,
-      { anchor = "middle", class = "small" })
   end
-  for n, k in ipairs(shown) do write_panel(canvas, plot, n, k, #shown) end
+  for n, line in ipairs(legend) do
+    canvas:text(width / 2, 30 + n * LINE, line, width - 40, { anchor = "middle", class = "small" })
+  end
+  for n, k in ipairs(shown) do write_panel(canvas, plot, n, k, #shown, head) end
   return is_inside and canvas:finish() or require "ambit.provenance".svg(canvas:finish())
 end
 

@@ -86,19 +86,28 @@ end
 -- -- what is drawn
 
 -- The hull of sampled motions of the quantities: { t, lo, hi, draws, k = { [quantity] = its place in lo and hi } }, or
--- nil: there is none. A quantity that is no state is carried along as one.
+-- nil: there is none. A formula is carried along as a further state, which needs rates: not where states leap.
 local function hull_of(subject, quantities, draws)
   local question = subject.question
   if not question or not question.again or (subject.report.unknowns or 0) == 0 then return nil end
-  local conditions = {}
-  for k, q in ipairs(quantities) do conditions[k] = { name = q.name, g = q.g } end
-  local q, outputs = require "ambit.verify.carry".of(question, conditions)
+  local place, carried, of = {}, {}, {}
+  for k, q in ipairs(quantities) do
+    place[k] = q.state
+    if not q.state and not subject.system.sampled then
+      carried[#carried + 1], of[#of + 1] = { name = q.name, g = q.g }, k
+    end
+  end
+  local q = question
+  if #carried > 0 then
+    local outputs
+    q, outputs = require "ambit.verify.carry".of(question, carried)
+    local numbers = {}
+    for i, symbol in ipairs(q.system.symbols) do numbers[symbol] = i end
+    for n, symbol in pairs(outputs) do place[of[n]] = numbers[symbol] end
+  end
   local inner = require "ambit.sample".inner(q, draws, 1, { cpu = SECONDS })
   if not inner or inner.failed > 0 then return nil end
-  local place = {}
-  for i, symbol in ipairs(q.system.symbols) do place[symbol] = i end
-  inner.k = {}
-  for k, symbol in pairs(outputs) do inner.k[k] = place[symbol] end
+  inner.k = place
   return inner
 end
 
@@ -110,10 +119,9 @@ end
 
 local function outlines_of(plot)
   local list, of = {}, plot.course
-  local i = #of.t
+  local i, x = #of.t, of[plot.against]
   for k, q in ipairs(plot.quantities) do
-    local x = of[plot.against]
-    if k ~= plot.against and plot.run.rigorous then
+    if k ~= plot.against and plot.proved and not of.ends_early and not x.partial[i] and not of[k].partial[i] then
       list[k] = outline.of(plot.run, plot.quantities[plot.against].g, q.g,
         { x.lo[i], x.hi[i], of[k].lo[i], of[k].hi[i] })
     end
@@ -148,12 +156,13 @@ function verb.plot(t)
   plot.limits = limit.list(t.limits, plot.quantities)
   plot.against = t.against ~= nil and t.against ~= "t" and quantity.find(plot.quantities, t.against, "plot: against")
     or nil
-  plot.course = course.of(course.finer(subject), plot.quantities)
+  plot.proved = subject.rigorous and subject.status ~= "broken"
+  plot.course = course.of(subject, course.finer(subject), plot.quantities)
   plot.hull = draws and hull_of(subject, plot.quantities, draws)
   plot.outlines = plot.against and outlines_of(plot) or {}
   plot.verdicts = {}
   for k, l in pairs(plot.limits) do
-    plot.verdicts[plot.quantities[k].name] = limit.judge(subject, plot.course, k, l)
+    plot.verdicts[plot.quantities[k].name] = limit.judge(plot, k, l)
   end
   write(plot, files)
   return plot

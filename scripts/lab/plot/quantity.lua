@@ -13,13 +13,25 @@ local axes = { "x", "y", "z" }
 
 local function state_named(system, name)
   for i, state in ipairs(system.states) do
-    if state == name then return { name = name, unit = ode.unit(system, i) or "", g = system.symbols[i] } end
+    if state == name then return { name = name, unit = ode.unit(system, i) or "", g = system.symbols[i], state = i } end
   end
 end
 
 local function unit_of(g)
   local good, unit = pcall(core.unit_of, g)
   return good and unit or ""
+end
+
+-- What a run says nothing about, such as the speeds that a loop implies, has no bounds to enclose the formula over.
+local function check_known(g, system, what)
+  local known = {}
+  for _, state in ipairs(system.states) do known[state] = true end
+  for _, leaf in ipairs(core.leaves { g }) do
+    if leaf.kind == "symbol" and not known[leaf.name] then
+      check.fail("%s: the run says nothing about `%s`: its states are %s; m:of_states writes speeds and accelerations "
+        .. "of a mechanism as formulas of these", what, leaf.name, table.concat(system.states, ", "))
+    end
+  end
 end
 
 -- Appends { name, unit, g } for the value, or for each of its entries.
@@ -39,8 +51,9 @@ local function add(list, system, name, value, what)
       add(list, system, ("%s.%s"):format(name or "quantity", part), value[key], ("%s.%s"):format(what, part))
     end
   else
-    list[#list + 1] = { name = name or ("quantity %d"):format(#list + 1), unit = unit_of(value),
-      g = event.formula(value, system, what) }
+    local g = event.formula(value, system, what)
+    check_known(g, system, what)
+    list[#list + 1] = { name = name or ("quantity %d"):format(#list + 1), unit = unit_of(value), g = g }
   end
 end
 

@@ -5,7 +5,6 @@
 -- of a run), together for all times from t[i] to t[i + 1].
 local core = require "ambit.core"
 local instant = require "ambit.run.instant"
-local simulate = require "ambit.simulate"
 
 local motion = {}
 
@@ -63,7 +62,7 @@ local function refined(run, question, count)
   if steps == 0 or steps >= count / 2 or run.cpu_seconds / steps * count > MOST_SECONDS then return run end
   local times = finer(question.times, run.t_reached, count)
   if not times then return run end
-  local good, again = pcall(simulate.solve, setmetatable({ times = times }, { __index = question }))
+  local good, again = pcall(run.question.again, {}, times)
   return good and again.status == "complete" and again or run
 end
 
