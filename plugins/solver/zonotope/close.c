@@ -60,7 +60,7 @@ static double size_by_errors(const zono *z, const double *y) {
 static uint32_t move_generators(zono *z) {
   proof *p = z->proof;
   const shape *s = &z->shape;
-  double *moved = p->turned + (size_t)z->nx * z->ngen;
+  double *moved = p->turned + z->nx * mixed_stride(z);
   mixed_prepare(z);
   memcpy(p->origin, p->from, z->ngen), memcpy(p->source, p->made_by, z->ngen * sizeof *p->source);
   for (uint32_t i = 0; i < z->nx; i++) {

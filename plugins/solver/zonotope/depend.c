@@ -83,7 +83,7 @@ static void move_datum(zono *z, uint32_t j) {
     for (uint32_t k = 0; k < z->nx; k++) {
       if (y[k] != 0) z->proof->quartic->add(to, y[k], row_of(z, d->now, j, k), z->ngen);
       if (row_x(s, end) > 0 && m[k] != 0)
-        z->proof->quartic->add(to, m[k], z->proof->turned + (size_t)k * z->ngen, z->ngen);
+        z->proof->quartic->add(to, m[k], z->proof->turned + k * mixed_stride(z), z->ngen);
     }
     for (uint32_t c = 0; c < z->ngen; c++) d->depth[i * d->stride + c] += fabs(to[c]);
   }

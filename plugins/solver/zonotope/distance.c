@@ -65,13 +65,11 @@ static uint32_t add_known(zono *z, uint32_t at, const sums *sum) {
   double *c = p->grow;
   int carried = discs_carry(z);
   for (uint32_t l = 0; l < z->nx; l++) {
-    double size = quartic_square(z, l), known = quartic_sum(z, l), kept = size;
+    double size = quartic_square(z, l), known = quartic_sum(z, l), kept = size, resolved = 0;
     if (p->link[l] == LINK_STATE) continue;
-    for (uint32_t n = 0; n < p->quartic->pairs; n++) {
-      double *near = quartic_near(z, l, n);
-      double resolved = basis_resolve(z, near), all = mixed_size(z, near);
-      size += resolved + all, kept += resolved + (carried ? mixed_kept(z, near) : all);
-    }
+    for (uint32_t n = 0; n < p->quartic->pairs; n++) resolved += basis_resolve(z, quartic_near(z, l, n));
+    double few, all = mixed_sizes(z, quartic_near(z, l, 0), p->quartic->pairs, &few);
+    size += resolved + all, kept += resolved + (carried ? few : all);
     size *= ABOVE, kept *= ABOVE;
     for (uint32_t i = 0; i < z->nx; i++) c[i] = i == l;
     sum->centre[l] += known, sum->path[l] += known;

@@ -110,7 +110,7 @@ static int open_states(zono *z) {
          doubles(h, nx, &p->grow_path) && doubles(h, ORIGINS * nx, &p->boxes) && doubles(h, nx, &p->spread) &&
          doubles(h, nx, &p->largest) && doubles(h, nx, &p->budget) && doubles(h, nx, &p->natural) &&
          doubles(h, 4 * nx, &p->worth) && doubles(h, nx, &p->unit) && doubles(h, 4 * (nx + z->na), &p->work) &&
-         doubles(h, columns * nx, &p->columns) && doubles(h, (z->ngen_max + nx) * (nx + 1), &p->turned) &&
+         doubles(h, columns * nx, &p->columns) && doubles(h, (z->ngen_max + nx + 7) * (nx + 1), &p->turned) &&
          doubles(h, nx * (nx + 3), &p->moves) && doubles(h, columns, &p->score) &&
          (p->origin = h->alloc(h, columns + 1)) != NULL && (p->from = h->alloc(h, z->ngen_max + nx + 1)) != NULL &&
          (p->source = h->alloc(h, (columns + 1) * sizeof *p->source)) != NULL &&

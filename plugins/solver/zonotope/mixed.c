@@ -11,12 +11,15 @@
 #include "proof.h"
 #include "quartic.h"
 
+#define SUMS 128 /* that are measured together */
+
 void mixed_prepare(zono *z) {
   proof *p = z->proof;
-  uint32_t n = z->ngen;
+  size_t n = mixed_stride(z);
   for (uint32_t i = 0; i < z->nx; i++) {
-    double *to = p->turned + (size_t)i * n;
-    for (uint32_t c = 0; c < n; c++) to[c] = z->G[(size_t)c * z->nx + i];
+    double *to = p->turned + i * n;
+    for (uint32_t c = 0; c < z->ngen; c++) to[c] = z->G[(size_t)c * z->nx + i];
+    for (size_t c = z->ngen; c < n; c++) to[c] = 0;
   }
 }
 
@@ -25,17 +28,24 @@ void mixed_through(const zono *z, const double *y, double *to) {
   uint32_t n = z->ngen;
   memset(to, 0, n * sizeof *to);
   for (uint32_t k = 0; k < z->nx; k++) {
-    const double *from = p->turned + (size_t)k * n;
+    const double *from = p->turned + k * mixed_stride(z);
     if (y[k] == 0) continue;
     for (uint32_t c = 0; c < n; c++) to[c] += y[k] * from[c];
   }
 }
 
-/* a bound of sum_k y_k (G rho)_k */
-static double of_generators(const zono *z, const double *y) {
-  double *to = z->proof->turned + (size_t)z->nx * z->ngen, sum = 0;
-  mixed_through(z, y, to);
-  for (uint32_t c = 0; c < z->ngen; c++) sum += fabs(to[c]);
+/* a bound of sum_k y_k (G rho)_k, y [count x nx]: of all y together */
+static double of_generators(const zono *z, const double *y, size_t count) {
+  const proof *p = z->proof;
+  size_t n = mixed_stride(z);
+  double sum = 0;
+  while (count > 0) {
+    uint32_t some = count < SUMS ? (uint32_t)count : SUMS;
+    double each[SUMS] = { 0 };
+    p->depend->measure(p->turned, n, n, z->nx, y, some, each);
+    for (uint32_t r = 0; r < some; r++) sum += each[r];
+    y += (size_t)some * z->nx, count -= some;
+  }
   return sum;
 }
 
@@ -46,10 +56,16 @@ static double of_quartic(const zono *z, const double *y) {
   return sum;
 }
 
-double mixed_kept(const zono *z, const double *y) { return of_generators(z, y) + depend_through(z, y); }
+double mixed_sizes(const zono *z, const double *y, size_t count, double *kept) {
+  double sum = 0;
+  *kept = of_generators(z, y, count);
+  for (; count > 0; count--, y += z->nx) *kept += depend_through(z, y), sum += of_quartic(z, y) + discs_size(z, y);
+  return *kept + sum;
+}
 
 double mixed_size(const zono *z, const double *y) {
-  return of_generators(z, y) + depend_through(z, y) + of_quartic(z, y) + discs_size(z, y);
+  double kept;
+  return mixed_sizes(z, y, 1, &kept);
 }
 
 /* -- crosses */
@@ -106,14 +122,14 @@ uint32_t mixed_add(zono *z, uint32_t at) {
       split(z, B, i, k, p->columns + (size_t)at++ * nx, d->turn + (size_t)crosses++ * nx);
     for (uint32_t a = 0; a < nx; a++) {
       const double *y = B + (size_t)a * nx;
-      double old = d->any ? depend_through(z, y) : of_generators(z, y);
+      double old = d->any ? depend_through(z, y) : of_generators(z, y, 1);
       *box(z, FROM_MIXED, a) += (old + (carried ? 0 : of_quartic(z, y))) * ABOVE;
     }
   }
   depend_along(z, d->turn, crosses, d->along);
   for (uint32_t c = 0; c < crosses; c++) {
     double *u = p->columns + (size_t)(first + c) * nx, *w = d->turn + (size_t)c * nx;
-    double size = ((d->any ? d->along[c] : of_generators(z, w)) + (carried ? 0 : quartic_through(z, w))) * ABOVE;
+    double size = ((d->any ? d->along[c] : of_generators(z, w, 1)) + (carried ? 0 : quartic_through(z, w))) * ABOVE;
     for (uint32_t a = 0; a < nx; a++) u[a] *= size, *box(z, FROM_START, a) += UNIT * fabs(u[a]);
     p->source[first + c] = 0, p->origin[first + c] = FROM_MIXED;
   }

@@ -69,7 +69,7 @@ typedef struct proof {
   double *power, *power_new, *size, *size_new, *jacobian_size; /* [nx x nx] */
   double *grow, *grow_path;                                    /* [nx] per state: sums for bounds */
   double *columns;                                             /* [(ngen_max + 2 (nslot + nout) + nx + 2 m) x nx] */
-  double *turned;             /* [nx x (ngen_max + 4)] old generators, state by state */
+  double *turned;             /* [nx x mixed_stride] old generators, state by state, and 0; one more row */
   double *moves;              /* [nx x (nx + 3)] mixed.c */
   double *score, *sorted;     /* one of each column */
   double *end;                /* [nx x stride] rows at the end of the step */
@@ -124,14 +124,15 @@ void parts_choose(zono *z);
 /* set.c, dense.c; 0: no memory */
 int set_open(zono *z);
 int dense_open(zono *z);
+/* of old generators, state by state: a multiple of 8 */
+static inline size_t mixed_stride(const zono *z) { return (z->ngen + (size_t)7) / 8 * 8; }
 /* mixed.c: prepares what follows, from G and E; */
 void mixed_prepare(zono *z);
 /* to [ngen] := sum_k y_k e_k, column by column; */
 void mixed_through(const zono *z, const double *y, double *to);
-/* a bound of it, with terms of degree 4 and discs; */
+/* a bound of it, with terms of degree 4 and discs; of y [count x nx], all together; kept: without these two; */
 double mixed_size(const zono *z, const double *y);
-/* of generators alone; */
-double mixed_kept(const zono *z, const double *y);
+double mixed_sizes(const zono *z, const double *y, size_t count, double *kept);
 /* what the mixed terms do: columns from number `at` on, and the box of what they leave; returns the number of
 ** columns */
 uint32_t mixed_add(zono *z, uint32_t at);
