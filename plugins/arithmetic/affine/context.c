@@ -124,7 +124,8 @@ void affine_bounds(void *ctx, const void *src, size_t n, double *lo, double *hi)
 static const void *get(const char *interface_id) {
   int any = strcmp(interface_id, AMBIT_ARITHMETIC) == 0;
 #if defined(__x86_64__)
-  if ((any || strcmp(interface_id, INTERFACE "avx512/1") == 0) && __builtin_cpu_supports("avx512f"))
+  if ((any || strcmp(interface_id, INTERFACE "avx512/1") == 0) && __builtin_cpu_supports("avx512f") &&
+      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
     return &affine_avx512;
   if ((any || strcmp(interface_id, INTERFACE "avx2/1") == 0) && __builtin_cpu_supports("avx2") &&
       __builtin_cpu_supports("fma"))

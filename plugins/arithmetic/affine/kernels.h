@@ -8,7 +8,6 @@
 #include "affine.h"
 #include "vector.h"
 
-#define INLINE __attribute__((always_inline))
 #define SIGN INT64_MIN
 
 /* one vector of results and its share of the sums */
@@ -19,7 +18,7 @@
     size += magnitude(u);                                                                                              \
   } while (0)
 
-static inline INLINE void copied(double *r, const double *x, size_t n, bits sign, vector *size) {
+INLINE void copied(double *r, const double *x, size_t n, words sign, vector *size) {
   for (size_t i = 0; i < n; i += WIDTH) {
     vector u = flip(load(x + i), sign);
     store(r + i, u);
@@ -27,23 +26,22 @@ static inline INLINE void copied(double *r, const double *x, size_t n, bits sign
   }
 }
 
-static inline INLINE void sum(
-    double *r, const double *x, size_t nx, const double *y, size_t ny, int negate, affine_sums *s) {
+INLINE void sum(double *r, const double *x, size_t nx, const double *y, size_t ny, int negate, affine_sums *s) {
   size_t both = AFFINE_BLOCK * (nx < ny ? nx : ny);
-  bits sign = splat_bits(negate ? SIGN : 0);
+  words sign = splat_words(negate ? SIGN : 0);
   vector gap = splat(0), size = splat(0);
   for (size_t i = 0; i < both; i += WIDTH) {
     vector a = load(x + i), b = flip(load(y + i), sign);
-    vector u = a + b, d = flip(a, splat_bits(SIGN)) - b;
+    vector u = a + b, d = flip(a, splat_words(SIGN)) - b;
     KEEP(r + i, u, d);
   }
-  if (nx > ny) copied(r + both, x + both, AFFINE_BLOCK * (nx - ny), splat_bits(0), &size);
+  if (nx > ny) copied(r + both, x + both, AFFINE_BLOCK * (nx - ny), splat_words(0), &size);
   if (ny > nx) copied(r + both, y + both, AFFINE_BLOCK * (ny - nx), sign, &size);
   s->gap = total(gap), s->size = total(size);
 }
 
 /* the rest of the longer operand */
-static inline INLINE void scaled(double *r, double p, const double *x, size_t n, vector *gaps, vector *sizes) {
+INLINE void scaled(double *r, double p, const double *x, size_t n, vector *gaps, vector *sizes) {
   vector up = splat(p), down = splat(-p), gap = *gaps, size = *sizes;
   for (size_t i = 0; i < n; i += WIDTH) {
     vector a = load(x + i), u = up * a, d = down * a;
@@ -58,8 +56,8 @@ static void scale(double *r, double p, const double *x, size_t nx, affine_sums *
   s->gap = total(gap), s->size = total(size);
 }
 
-static inline INLINE void tail(double *r, double p, const double *x, size_t nx, double q, const double *y, size_t ny,
-    size_t both, vector *gap, vector *size) {
+INLINE void tail(double *r, double p, const double *x, size_t nx, double q, const double *y, size_t ny, size_t both,
+    vector *gap, vector *size) {
   if (nx > ny) scaled(r + both, p, x + both, AFFINE_BLOCK * (nx - ny), gap, size);
   if (ny > nx) scaled(r + both, q, y + both, AFFINE_BLOCK * (ny - nx), gap, size);
 }
@@ -78,8 +76,7 @@ static void combine(
 }
 
 /* r := p x + q y, and sums for the quadratic part; gap is of the places that one operand only has (multiply.h) */
-static inline INLINE totals product(
-    double *r, double p, const double *x, size_t nx, double q, const double *y, size_t ny) {
+INLINE totals product(double *r, double p, const double *x, size_t nx, double q, const double *y, size_t ny) {
   size_t both = AFFINE_BLOCK * (nx < ny ? nx : ny);
   vector gap = splat(0), size = splat(0), dot = splat(0), absdot = splat(0);
   vector p_up = splat(p), q_up = splat(q);
@@ -109,10 +106,10 @@ static double pairs(const double *x, const double *y, size_t n) {
   for (size_t i = 0; i < AFFINE_BLOCK * n; i++) {
     size_t own = i - i % WIDTH;
     vector a = splat(x[i]), b = splat(y[i]);
-    bits later;
+    words later;
     memcpy(&later, behind + 7 - i % WIDTH, sizeof later);
     vector v = magnitude(multiply_add(a, load(y + own), b * load(x + own)));
-    sum += (vector)((bits)v & later);
+    sum += (vector)((words)v & later);
     for (size_t j = own + WIDTH; j < AFFINE_BLOCK * n; j += WIDTH)
       sum += magnitude(multiply_add(a, load(y + j), b * load(x + j)));
   }
@@ -122,8 +119,7 @@ static double pairs(const double *x, const double *y, size_t n) {
 /* -- whole operations */
 
 /* affine_finish, the usual case inline */
-static inline INLINE uint32_t finish(
-    const affine_context *c, affine_element *r, pair hull, double size, double err, int64_t symbol) {
+INLINE uint32_t finish(const affine_context *c, affine_element *r, pair hull, double size, double err, int64_t symbol) {
   double rad = size + err;
   pair reach = both(rad) + (pair) { -r->centre, r->centre }, least = smaller_pair(hull, reach);
   double half = 0.5 * (least[0] + least[1]);
@@ -138,8 +134,8 @@ static inline INLINE uint32_t finish(
   return 0;
 }
 
-static inline INLINE uint32_t add_inline(const affine_context *c, affine_element *r, const affine_element *x,
-    const affine_element *y, int negate, int64_t symbol) {
+INLINE uint32_t add_inline(const affine_context *c, affine_element *r, const affine_element *x, const affine_element *y,
+    int negate, int64_t symbol) {
   affine_sums s;
   pair hull = load_pair(&x->nlo) + (negate ? (pair) { y->hi, y->nlo } : load_pair(&y->nlo));
   double x0 = x->centre, y0 = negate ? -y->centre : y->centre, own = x->err + y->err;
@@ -167,11 +163,11 @@ static uint32_t apply(const affine_context *c, affine_element *r, const affine_e
       c, r, load_pair(&r->nlo), s.size, (radius + fabs(slope) * x->err) + (s.gap + (r->centre + below)), symbol);
 }
 
-static inline INLINE uint32_t add_up(
+INLINE uint32_t add_up(
     const affine_context *c, affine_element *r, const affine_element *x, const affine_element *y, int64_t symbol) {
   return add_inline(c, r, x, y, 0, symbol);
 }
-static inline INLINE uint32_t subtract(
+INLINE uint32_t subtract(
     const affine_context *c, affine_element *r, const affine_element *x, const affine_element *y, int64_t symbol) {
   return add_inline(c, r, x, y, 1, symbol);
 }

@@ -16,13 +16,13 @@ typedef struct halfway {
 } halfway;
 
 /* both bounded */
-static inline INLINE pair multiply_hulls(const affine_element *x, const affine_element *y) {
+INLINE pair multiply_hulls(const affine_element *x, const affine_element *y) {
   double a = -x->nlo, A = x->hi;
   pair from = { x->nlo, a }, to = { -A, A }, b = both(-y->nlo), B = both(y->hi);
   return larger_pair(larger_pair(from * b, to * B), larger_pair(from * B, to * b));
 }
 
-static inline INLINE void begin_product(halfway *h) {
+INLINE void begin_product(halfway *h) {
   const affine_element *x = h->x, *y = h->y;
   h->hull = multiply_hulls(x, y);
   h->sums = product(h->r->coef, y->centre, x->coef, x->blocks, x->centre, y->coef, y->blocks);
@@ -31,11 +31,11 @@ static inline INLINE void begin_product(halfway *h) {
 /* What n common coefficients lose, from sums instead of one by one: fma(y0, x_i, x0 y_i) is rounded twice, by at most
 ** 2^-52 (|x0 y_i| + (|y0 x_i| + |x0 y_i|)(1 + 2^-52)) + 2^-1073 (without FMA three times, by at most
 ** 2^-52 (|x0 y_i| + |y0 x_i|)(2 + 2^-51) + 2^-1072); the sums of |x_i| and |y_i| are at most X and Y. */
-static inline INLINE double roundings(double n, double x0, double y0, double X, double Y) {
+INLINE double roundings(double n, double x0, double y0, double X, double Y) {
   return n > 0 ? 0x1.0001p-51 * (fabs(x0) * Y + fabs(y0) * X) + n * 0x1p-1022 : 0;
 }
 
-static inline INLINE uint32_t end_product(const affine_context *c, const halfway *h, int64_t symbol) {
+INLINE uint32_t end_product(const affine_context *c, const halfway *h, int64_t symbol) {
   const affine_element *x = h->x, *y = h->y;
   affine_element *r = h->r;
   totals s = h->sums;
@@ -67,7 +67,7 @@ typedef struct batch {
 } batch;
 
 /* one lane more: the next instruction takes the next symbol */
-static inline INLINE void settle(batch *g, uint32_t outcome) {
+INLINE void settle(batch *g, uint32_t outcome) {
   g->outcome |= outcome;
   if (++g->lane < g->lanes) return;
   g->c->next += g->outcome >> 31;
@@ -75,12 +75,12 @@ static inline INLINE void settle(batch *g, uint32_t outcome) {
   g->outcome = 0, g->lane = 0, g->dst++;
 }
 
-static inline INLINE void complete(batch *g) {
+INLINE void complete(batch *g) {
   for (size_t i = 0; i < g->n; i++) settle(g, end_product(g->c, &g->pending[i], affine_symbol(g->c, *g->dst)));
   g->n = 0;
 }
 
-static inline INLINE int is_usual(const affine_context *c, const affine_element *x) {
+INLINE int is_usual(const affine_context *c, const affine_element *x) {
   return affine_has_form(x) && (x->blocks <= c->vblocks || x->epoch == c->epoch);
 }
 

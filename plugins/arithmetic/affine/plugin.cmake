@@ -2,5 +2,5 @@
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
   set(affine ${PROJECT_SOURCE_DIR}/plugins/arithmetic/affine)
   set_source_files_properties(${affine}/avx2.c PROPERTIES COMPILE_OPTIONS "-mavx2;-mfma")
-  set_source_files_properties(${affine}/avx512.c PROPERTIES COMPILE_OPTIONS "-mavx512f;-mfma;-mprefer-vector-width=512")
+  set_source_files_properties(${affine}/avx512.c PROPERTIES COMPILE_OPTIONS "-mavx512f;-mavx512dq;-mavx512vl;-mfma;-mprefer-vector-width=512")
 endif()

@@ -1,43 +1,7 @@
-/* vector.h -- the few vector operations that the passes are written in, for the instruction set of the including file:
-** 8 doubles with AVX-512, 4 with AVX2 and FMA, otherwise 2 (SSE2 on x86-64, compiler vectors elsewhere). */
+/* vector.h -- what the passes need of vectors besides shared/vector.h: pairs, and sums of elements. */
 #ifndef VECTOR_H
 #define VECTOR_H
-#include <stdint.h>
-#include <string.h>
-#if defined(__SSE2__)
-#include <immintrin.h>
-#endif
-#if defined(__AVX512F__)
-#define WIDTH 8
-#elif defined(__AVX2__) && defined(__FMA__)
-#define WIDTH 4
-#else
-#define WIDTH 2
-#endif
-
-typedef double vector __attribute__((vector_size(8 * WIDTH)));
-typedef int64_t bits __attribute__((vector_size(8 * WIDTH)));
-
-static inline vector load(const double *p) {
-  vector v;
-  memcpy(&v, p, sizeof v);
-  return v;
-}
-static inline void store(double *p, vector v) { memcpy(p, &v, sizeof v); }
-
-#if WIDTH == 8
-static inline vector splat(double x) { return (vector)_mm512_set1_pd(x); }
-static inline vector multiply_add(vector a, vector b, vector c) { return (vector)_mm512_fmadd_pd(a, b, c); }
-static inline bits splat_bits(int64_t x) { return (bits) { x, x, x, x, x, x, x, x }; }
-#elif WIDTH == 4
-static inline vector splat(double x) { return (vector)_mm256_set1_pd(x); }
-static inline vector multiply_add(vector a, vector b, vector c) { return (vector)_mm256_fmadd_pd(a, b, c); }
-static inline bits splat_bits(int64_t x) { return (bits) { x, x, x, x }; }
-#else
-static inline vector splat(double x) { return (vector) { x, x }; }
-static inline vector multiply_add(vector a, vector b, vector c) { return a * b + c; } /* rounded twice, both upward */
-static inline bits splat_bits(int64_t x) { return (bits) { x, x }; }
-#endif
+#include "shared/vector.h"
 
 /* two bounds side by side */
 typedef double pair __attribute__((vector_size(16)));
@@ -60,9 +24,6 @@ static inline pair smaller_pair(pair a, pair b) {
   return (pair) { a[0] < b[0] ? a[0] : b[0], a[1] < b[1] ? a[1] : b[1] };
 }
 #endif
-
-static inline vector magnitude(vector x) { return (vector)((bits)x & splat_bits(INT64_MAX)); }
-static inline vector flip(vector x, bits sign) { return (vector)((bits)x ^ sign); }
 
 /* a sum of the elements, in upward mode rounded upward */
 static inline double total(vector x) {

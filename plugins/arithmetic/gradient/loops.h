@@ -6,37 +6,10 @@
 ** Operands are finite, so no NaN arises: products overflow to +inf upward and to -DBL_MAX downward.
 */
 #include "gradient.h"
-#include <string.h>
-#if defined(__SSE2__)
-#include <immintrin.h>
-#endif
+#define VECTOR_MOST 4 /* directions are few */
+#include "shared/vector.h"
 
-#if defined(__AVX2__)
-#define STEP 4
-#else
-#define STEP 2
-#endif
-typedef double vector __attribute__((vector_size(8 * STEP)));
-
-#if defined(__AVX2__)
-static inline vector larger(vector a, vector b) { return _mm256_max_pd(a, b); }
-static inline vector splat(double x) { return _mm256_set1_pd(x); }
-#elif defined(__SSE2__)
-static inline vector larger(vector a, vector b) { return _mm_max_pd(a, b); }
-static inline vector splat(double x) { return _mm_set1_pd(x); }
-#else
-static inline vector larger(vector a, vector b) {
-  return (vector) { a[0] > b[0] ? a[0] : b[0], a[1] > b[1] ? a[1] : b[1] };
-}
-static inline vector splat(double x) { return (vector) { x, x }; }
-#endif
-
-static inline vector load(const double *p) {
-  vector v;
-  memcpy(&v, p, sizeof v);
-  return v;
-}
-static inline void store(double *p, vector v) { memcpy(p, &v, sizeof v); }
+#define STEP WIDTH
 
 /* four partial sums, whatever the vectors, so that variants agree */
 typedef struct total {
@@ -59,16 +32,16 @@ static inline source source_of(size_t n, factor p, const double *x) {
   return (source) { splat(p.u), splat(p.v), half[p.turn_u], half[!p.turn_u], half[p.turn_v], half[!p.turn_v] };
 }
 static inline vector product_n(const source *s, size_t j) {
-  return larger(s->u * load(s->un + j), s->v * load(s->vn + j));
+  return larger_each(s->u * load(s->un + j), s->v * load(s->vn + j));
 }
 static inline vector product_h(const source *s, size_t j) {
-  return larger(s->u * load(s->uh + j), s->v * load(s->vh + j));
+  return larger_each(s->u * load(s->uh + j), s->v * load(s->vh + j));
 }
 
 static inline void keep(total *t, int which, double *r, size_t n, size_t j, vector rn, vector rh) {
   store(r + j, rn);
   store(r + n + j, rh);
-  t->part[which] += larger(rn, rh);
+  t->part[which] += larger_each(rn, rh);
 }
 
 static AMBIT_WORKER double scale(size_t n, double *r, factor p, const double *x) {
@@ -98,7 +71,7 @@ static AMBIT_WORKER double hull(size_t n, double *r, const double *x, const doub
   for (size_t j = 0; j < n; j += 4)
     for (int k = 0; k < 4 / STEP; k++) {
       size_t at = j + STEP * (size_t)k;
-      keep(&t, k, r, n, at, larger(load(x + at), load(y + at)), larger(load(x + n + at), load(y + n + at)));
+      keep(&t, k, r, n, at, larger_each(load(x + at), load(y + at)), larger_each(load(x + n + at), load(y + n + at)));
     }
   return sum_of(&t);
 }

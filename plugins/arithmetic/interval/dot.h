@@ -9,7 +9,7 @@
 
 INLINE vector bounded_product(vector x, vector y) {
   vector a = first(x), b = second(x), z = swap(y);
-  return larger(larger(a * z, b * y), larger((-a) * y, (-b) * z));
+  return larger_each(larger_each(a * z, b * y), larger_each((-a) * y, (-b) * z));
 }
 
 typedef struct sums {

@@ -82,7 +82,7 @@ static inline lanes lanes_divide(lanes t, row b, double scale) {
 }
 
 static inline void settle_lanes(jets *j, const slot *s, spot at, lanes t) {
-  vector mid = splat(0.5) * (t.h - t.l), rad = t.r + larger(t.h - mid, mid + t.l);
+  vector mid = splat(0.5) * (t.h - t.l), rad = t.r + larger_each(t.h - mid, mid + t.l);
   mask good = above(splat(DBL_MAX), rad); /* see settle */
   if (any(~good)) {
     mid = keep(good, mid), rad = choose(good, rad, splat(DBL_MAX));
@@ -156,7 +156,7 @@ static inline lanes integral_slope(const slot *f, const slot *a, spot at) {
 }
 
 static inline lanes lanes_hull(lanes a, lanes b) {
-  return (lanes) { larger(a.h + a.r, b.h + b.r), larger(a.l + a.r, b.l + b.r), splat(0) };
+  return (lanes) { larger_each(a.h + a.r, b.h + b.r), larger_each(a.l + a.r, b.l + b.r), splat(0) };
 }
 
 /* An open choice (of constants; otherwise order 0 is lost): |u| - |u0| = phi (u - u0) with phi in [-1, 1], and a

@@ -42,9 +42,9 @@ INLINE vector neg(findings *f, vector x, vector unused) {
 ** either, A >= 0 times that infinity or 0 is one. */
 INLINE vector product(vector x, vector y) {
   vector a = first(x), b = second(x), z = swap(y);
-  vector p = larger(a * z, number(b * y));
-  vector q = larger((-a) * y, number((-b) * z));
-  return larger(p, q);
+  vector p = larger_each(a * z, number(b * y));
+  vector q = larger_each((-a) * y, number((-b) * z));
+  return larger_each(p, q);
 }
 
 INLINE vector mul(findings *f, vector x, vector y) { return finish(f, is_empty(x) | is_empty(y), product(x, y)); }
@@ -68,8 +68,8 @@ INLINE vector divide(findings *f, vector x, vector y) {
 }
 
 /* min |v| in both halves: max(0, a, -A) */
-INLINE vector least(vector x) { return larger(larger(-first(x), -second(x)), splat(0)); }
-INLINE vector most(vector x) { return larger(first(x), second(x)); }
+INLINE vector least(vector x) { return larger_each(larger_each(-first(x), -second(x)), splat(0)); }
+INLINE vector most(vector x) { return larger_each(first(x), second(x)); }
 
 INLINE vector sqr(findings *f, vector x, vector unused) {
   (void)unused;
@@ -92,15 +92,15 @@ INLINE vector root_down(vector v) {
 INLINE vector square_root(findings *f, vector x, vector unused) {
   (void)unused;
   mask none = is_empty(x), negative = above(splat(0), second(x));
-  vector lo = root_down(larger(-first(x), splat(0))), hi = root(larger(second(x), splat(0)));
+  vector lo = root_down(larger_each(-first(x), splat(0))), hi = root(larger_each(second(x), splat(0)));
   f->partial |= above(first(x), splat(0)) & ~none;
   return finish(f, none | negative, choose(FIRST_HALVES, -lo, hi));
 }
 
 INLINE vector minimum(findings *f, vector x, vector y) {
-  return finish(f, is_empty(x) | is_empty(y), choose(FIRST_HALVES, larger(x, y), smaller(x, y)));
+  return finish(f, is_empty(x) | is_empty(y), choose(FIRST_HALVES, larger_each(x, y), smaller_each(x, y)));
 }
 
 INLINE vector maximum(findings *f, vector x, vector y) {
-  return finish(f, is_empty(x) | is_empty(y), choose(FIRST_HALVES, smaller(x, y), larger(x, y)));
+  return finish(f, is_empty(x) | is_empty(y), choose(FIRST_HALVES, smaller_each(x, y), larger_each(x, y)));
 }

@@ -14,12 +14,7 @@ INLINE int any(mask m) { return _mm256_movemask_pd((vector)m) != 0; }
 INLINE mask swap_mask(mask m) { return __builtin_shufflevector(m, m, 1, 0, 3, 2); }
 INLINE vector bits_below(vector v, mask m) { return (vector)((words)v + m); }
 
-INLINE vector splat(double x) { return _mm256_set1_pd(x); }
-INLINE vector larger(vector a, vector b) { return _mm256_max_pd(a, b); }
-INLINE vector smaller(vector a, vector b) { return _mm256_min_pd(a, b); }
 INLINE vector root(vector a) { return _mm256_sqrt_pd(a); }
-INLINE vector multiply_add(vector a, vector b, vector c) { return _mm256_fmadd_pd(a, b, c); }
-INLINE vector subtract_product(vector a, vector b, vector c) { return _mm256_fnmadd_pd(a, b, c); }
 
 INLINE vector swap(vector x) { return __builtin_shufflevector(x, x, 1, 0, 3, 2); }
 INLINE vector first(vector x) { return __builtin_shufflevector(x, x, 0, 0, 2, 2); }

@@ -16,12 +16,7 @@ INLINE vector bits_below(vector v, mask m) {
   return (vector)_mm512_mask_sub_epi64((__m512i)v, (__mmask8)m, (__m512i)v, _mm512_set1_epi64(1));
 }
 
-INLINE vector splat(double x) { return _mm512_set1_pd(x); }
-INLINE vector larger(vector a, vector b) { return _mm512_max_pd(a, b); }
-INLINE vector smaller(vector a, vector b) { return _mm512_min_pd(a, b); }
 INLINE vector root(vector a) { return _mm512_sqrt_pd(a); }
-INLINE vector multiply_add(vector a, vector b, vector c) { return _mm512_fmadd_pd(a, b, c); }
-INLINE vector subtract_product(vector a, vector b, vector c) { return _mm512_fnmadd_pd(a, b, c); }
 
 INLINE vector swap(vector x) { return _mm512_permute_pd(x, 0x55); }
 INLINE vector first(vector x) { return _mm512_movedup_pd(x); }

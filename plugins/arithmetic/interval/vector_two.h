@@ -14,8 +14,6 @@ INLINE vector choose(mask m, vector yes, vector no) {
   return _mm_or_pd(_mm_and_pd((vector)m, yes), _mm_andnot_pd((vector)m, no));
 }
 INLINE int any(mask m) { return _mm_movemask_pd((vector)m) != 0; }
-INLINE vector larger(vector a, vector b) { return _mm_max_pd(a, b); }
-INLINE vector smaller(vector a, vector b) { return _mm_min_pd(a, b); }
 INLINE vector root(vector a) { return _mm_sqrt_pd(a); }
 #else
 INLINE mask equal(vector a, vector b) { return (mask)(a == b); }
@@ -23,19 +21,12 @@ INLINE mask above(vector a, vector b) { return (mask)(a > b); }
 INLINE mask reaches(vector a, vector b) { return (mask)(a >= b); }
 INLINE vector choose(mask m, vector yes, vector no) { return (vector)((m & (mask)yes) | (~m & (mask)no)); }
 INLINE int any(mask m) { return (m[0] | m[1]) != 0; }
-INLINE vector larger(vector a, vector b) { return choose(above(a, b), a, b); }
-INLINE vector smaller(vector a, vector b) { return choose(above(b, a), a, b); }
 INLINE vector root(vector a) { return (vector) { sqrt(a[0]), sqrt(a[1]) }; }
 #endif
 INLINE vector keep(mask m, vector v) { return (vector)(m & (mask)v); }
 INLINE mask swap_mask(mask m) { return __builtin_shufflevector(m, m, 1, 0); }
 /* where m: the bit pattern less 1, which is the double below if v is positive */
 INLINE vector bits_below(vector v, mask m) { return (vector)((words)v + m); }
-
-INLINE vector splat(double x) { return (vector) { x, x }; }
-/* c + a b and c - a b, rounded once where there is FMA, here twice: an upper bound in upward mode either way */
-INLINE vector multiply_add(vector a, vector b, vector c) { return a * b + c; }
-INLINE vector subtract_product(vector a, vector b, vector c) { return (-a) * b + c; }
 
 /* within each pair: exchanged; the first half twice; the second half twice */
 INLINE vector swap(vector x) { return __builtin_shufflevector(x, x, 1, 0); }

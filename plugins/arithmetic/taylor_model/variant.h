@@ -18,11 +18,11 @@ typedef struct survey_sums {
   vector norm, down, up;
 } survey_sums;
 
-static inline void survey_vector(survey_sums *s, vector v, mask odd) {
+static inline void survey_vector(survey_sums *s, vector v, words odd) {
   vector n = negated(v);
   s->norm += magnitude(v);
-  s->up += larger(v, (vector)((mask)n & odd));
-  s->down += larger(n, (vector)((mask)v & odd));
+  s->up += larger_each(v, (vector)((words)n & odd));
+  s->down += larger_each(n, (vector)((words)v & odd));
 }
 
 static void survey_mixed(const monomials *m, uint32_t block, const double *c, double *norm, double *down, double *up) {
