@@ -90,12 +90,14 @@ static void choose_units(const zono *z, double *scale) {
   for (uint32_t i = 0; i < z->nx; i++) scale[i] = fmax(scale[i], most > 0 ? SMALLEST * most : 1);
 }
 
-/* c->V from c->map; 0: none was found */
+/* c->V from c->map; 0: none was found. Where something varies in between, its columns come at every step and go soon;
+** discs along directions that a jump wipes out are wider than these, and feed them all. */
 static int find_directions(zono *z) {
   modes *m = z->modes;
   cycle *c = m->cycle;
   size_t n = z->nx;
   double *a = m->work, *q = a + n * n, *scale = q + n * n, *work = scale + n;
+  if (z->nvarying) return 0;
   for (size_t e = 0; e < n * n; e++)
     if (!isfinite(a[e] = c->map[e])) return 0;
   choose_units(z, scale);

@@ -160,7 +160,7 @@ double zono_choose_step(zono *z, double h_most) {
     p->spread[i] = set > 0 ? fmax(set, SCALE * size) : size;
     p->largest[i] = fmax(fmax(p->largest[i], z->expected[i]), set);
     find_sizes(z, i, most, &size, &set);
-    if (!(p->spread[i] > 0)) p->spread[i] = size > 0 ? size : 1;
+    if (!(p->spread[i] > LEAST / UNIT)) p->spread[i] = size > LEAST / UNIT ? size : 1;
   }
   if (!defect_evaluate(z, 0) || !sweep_weights(z)) return 0;
   kinks_start(z, most);

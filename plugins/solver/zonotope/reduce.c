@@ -119,7 +119,7 @@ static void find_spread(const zono *z, uint32_t n) {
     const double *y = p->end + (size_t)i * z->shape.stride;
     p->spread[i] += row_l(&z->shape, y) + row_q(&z->shape, y) + row_c(&z->shape, y);
     for (uint32_t o = 0; o < ORIGINS; o++) p->spread[i] += *box(z, o, i);
-    if (!(p->spread[i] > 0)) p->spread[i] = 1;
+    if (!(p->spread[i] > LEAST / UNIT)) p->spread[i] = 1; /* nothing but what underflows */
   }
 }
 
