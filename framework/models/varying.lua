@@ -55,6 +55,12 @@ function varying.of(leaf) return rated[leaf.number] end
 
 local function copy(list) return table.move(list, 1, #list, 1, {}) end
 
+-- How often a function may cross its range in a second.
+local function speed_of(one)
+  local rate = one.about.rate
+  return math.max(-core.tight(rate.lo).lo, core.tight(rate.hi).hi) / (one.leaf.hi - one.leaf.lo)
+end
+
 -- Of each: its name as a state, symbol, rate, start. Returns the bounds of all states.
 local function states_of(found, system, formulas)
   local used, bounds = fresh.set(system.states), {}
@@ -74,8 +80,10 @@ local function states_of(found, system, formulas)
   return bounds
 end
 
--- The system with its functions of bounded rate as states; itself if there are none.
-function varying.carried(system)
+-- The system with its functions of bounded rate as states; itself if there are none. Of the fastest `forgotten` ones
+-- (none) the equations have any value within the bounds instead: that is true, too, and says more of one that crosses
+-- its range faster than the system moves.
+function varying.carried(system, forgotten)
   if next(rated) == nil then return system end
   local formulas = copy(system.rates)
   for _, jump in ipairs(core.system_jumps(system.system)) do
@@ -83,13 +91,17 @@ function varying.carried(system)
   end
   local found = found_in(formulas)
   if #found == 0 then return system end
+  table.sort(found, function(a, b)
+    local x, y = speed_of(a), speed_of(b)
+    return x > y or x == y and a.leaf.number < b.leaf.number
+  end)
   local bounds = states_of(found, system, formulas)
   local names, units, symbols = copy(system.states), copy(system.units), copy(system.symbols)
   local from, to, defaults, further = {}, {}, {}, {}
   for name, value in pairs(system.defaults or {}) do defaults[name] = value end
-  for _, one in ipairs(found) do
+  for k, one in ipairs(found) do
     names[#names + 1], units[#units + 1], symbols[#symbols + 1] = one.name, one.about.unit or "1", one.symbol
-    from[#from + 1], to[#to + 1] = one.leaf.expression, one.symbol
+    if k > (forgotten or 0) then from[#from + 1], to[#to + 1] = one.leaf.expression, one.symbol end
     defaults[one.name] = { initial = one.start }
   end
   local rates = core.substitute(system.rates, from, to)

@@ -8,8 +8,9 @@
 -- in the set for just these data (run:set()), which is much narrower. Needs the test module
 -- `equations` in LUA_CPATH. --beyond 2: data are drawn from twice their ranges, so that solutions must be found
 -- outside. --varying: about half of the parameters are functions of time, drawn as steps between the ends of their
--- ranges at random times. --kinks: with abs, min and max that solutions cross, forces with two slopes and dead zones
--- among them. Exit 1 if a solution is outside by more than the oracle may be off.
+-- ranges at random times, or, where their rate is bounded, which is so of half of them, as lines. --kinks: with abs,
+-- min and max that solutions cross, forces with two slopes and dead zones among them. Exit 1 if a solution is outside
+-- by more than the oracle may be off.
 local ambit = require "ambit"
 local core = require "ambit.core"
 local session = require "ambit.session"
@@ -164,10 +165,11 @@ local function random_data(s)
   local function range(middle, tolerance) return { middle, middle == 0 and tolerance or math.abs(middle) * tolerance } end
   local tolerance = unit() < 0.5 and 0.02 + 0.08 * unit() or 10 ^ (-4 + 3 * unit())
   s.p, s.x = {}, {}
-  s.varies = {}
+  s.varies, s.rate = {}, {}
   for i = 1, s.np do
     s.p[i] = range(2 * unit() - 1, tolerance)
     s.varies[i] = o.varying and (i == 1 or unit() < 0.5)
+    if s.varies[i] and unit() < 0.5 then s.rate[i] = s.p[i][2] * 10 ^ (2 * unit() - 0.5) end
   end
   for i = 1, s.nx do s.x[i] = range(unit() < 0.2 and 0 or 2 * unit() - 1, unit() < 0.3 and 0 or tolerance) end
   s.from = unit() < 0.3 and 2 * unit() - 1 or 0
@@ -188,29 +190,67 @@ local function draw(s)
   return point
 end
 
+-- The instructions for parameters a_i + b_i t in place of those with a rate; a is where these were, b behind all.
+local function with_lines(s)
+  local rated, code, place = {}, {}, {}
+  for i = 1, s.np do
+    if s.rate[i] then rated[#rated + 1] = i end
+  end
+  local inputs = s.inputs + #rated
+  for j = 1, s.nx + s.np do place[j] = j end
+  place[s.inputs] = inputs
+  for k, i in ipairs(rated) do
+    code[#code + 1] = { "mul", s.nx + s.np + k, inputs }
+    code[#code + 1] = { "add", s.nx + i, inputs + #code }
+    place[s.nx + i] = inputs + #code
+  end
+  for k, c in ipairs(s.code) do
+    local is_number = c[1] == "number"
+    code[#code + 1] = { c[1], is_number and c[2] or place[c[2]], not is_number and c[3] and place[c[3]] or nil }
+    place[s.inputs + k] = inputs + #code
+  end
+  local out = {}
+  for i, slot in ipairs(s.out) do out[i] = place[slot] end
+  return code, out, rated
+end
+
+-- The parameter i, which is `value` at t, goes to another one until `till`: a, b, what it is then.
+local function line(s, i, value, target, t, till)
+  local rate, span = (1 - 1e-9) * s.rate[i], math.abs(till - t)
+  local slope = span > 0 and math.max(-rate, math.min(rate, (target - value) / span)) or 0
+  if till < t then slope = -slope end
+  return value - slope * t, slope, value + slope * (till - t)
+end
+
 -- The solution at the times, and a function that finds it once more, by other steps; what varies takes other values at
 -- random times. In one call, since states that are rounded to doubles in between are off by more than an ulp where
 -- solutions run away.
 local function solve(s, point, times)
   local list, steps, places, p = { times[1] }, {}, { 1 }, table.move(point.p, 1, s.np, 1, {})
+  local code, out, rated = with_lines(s)
+  local now = table.move(p, 1, s.np, 1, {})
+  for k = 1, #rated do p[s.np + k] = 0 end
   local pieces = o.varying and pick(12) or 1
   for k = 2, #times do
     local t = times[k - 1]
     for n = 1, pieces do
       local next_one = n == pieces and times[k] or t + (times[k] - t) * unit()
       for i = 1, o.varying and s.np or 0 do
-        if s.varies[i] and unit() < 0.7 then p[i] = point.value(s.p[i]) end
+        if s.varies[i] and not s.rate[i] and unit() < 0.7 then p[i] = point.value(s.p[i]) end
+      end
+      for k, i in ipairs(rated) do
+        p[i], p[s.np + k], now[i] = line(s, i, now[i], unit() < 0.7 and point.value(s.p[i]) or now[i], t, next_one)
       end
       if next_one ~= t then
         list[#list + 1] = next_one
-        steps[#list] = table.move(p, 1, s.np, 1, {})
+        steps[#list] = table.move(p, 1, s.np + #rated, 1, {})
       end
       t = next_one
     end
     places[k] = #list
   end
   local function at(tolerance)
-    local values = equations.solve { x = point.x, p = point.p, code = s.code, out = s.out, times = list, steps = steps,
+    local values = equations.solve { x = point.x, p = p, code = code, out = out, times = list, steps = steps,
       tolerance = tolerance }
     local states = {}
     for k, place in ipairs(values and places or {}) do states[k] = values[place] end
@@ -244,7 +284,8 @@ local function prove(s)
   end
   for i = 1, s.np do
     local r = s.p[i]
-    parameters["p" .. i] = s.varies[i] and ambit.varying(r[1] - r[2], r[1] + r[2]) or datum(r, i, false)
+    parameters["p" .. i] = s.varies[i] and ambit.varying(r[1] - r[2], r[1] + r[2], { rate = s.rate[i] }) or
+      datum(r, i, false)
   end
   local ode = ambit.ode { states = states, parameters = parameters,
     equations = function(x, p, t) return build(s, x, p, t) end }

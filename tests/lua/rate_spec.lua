@@ -92,6 +92,22 @@ describe("what varies at a bounded rate", function()
     assert.equal("complete", ambit.simulate { inverse, initial = { x = 1 }, t = { 0, 4 } }.status)
   end)
 
+  it("makes no set wider than it is without the bound", function()
+    for _, rate in ipairs { 1, 3, 10 } do
+      local slow = ambit.varying(-1, 1, { rate = rate })
+      local free = from_rest(ambit.varying(-1, 1), { 0, 5 }).x.x
+      local run = from_rest(slow, { 0, 5 })
+      assert.is_true(run.x.x:width() < 1.002 * free:width(), tostring(run.x.x))
+      -- one is slow and one is fast
+      local push = ambit.varying(-1, 1, { rate = "0.1" })
+      local both = from_rest(push + slow, { 0, 5 }).x.x
+      assert.is_true(both:width() < 1.01 * (free:width() + from_rest(push, { 0, 5 }).x.x:width()), tostring(both))
+      local oscillation = oscillator(slow)
+      assert.equal("proved", ambit.verify { oscillation, initial = { x = 0, v = 0 }, t = 5,
+        at_end = function(s) return s.x - 1.002 * free.hi end }.status)
+    end
+  end)
+
   it("holds every motion of a pendulum that such a function moves", function()
     math.randomseed(194)
     local torque, damping = ambit.varying("-0.5", "1.5", { rate = { "-0.2", "0.4" } }), ambit.around("0.3", "20%")

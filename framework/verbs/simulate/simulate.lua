@@ -105,9 +105,16 @@ function verb.request(t, what, default_solver, own_keys)
   end
   if t.solver ~= nil then q.solver = check.text(t.solver, what .. ": solver") else q.solver = default_solver or nil end
   local varying = package.loaded["ambit.varying"] -- before that, nothing varies at a known rate
+  local bare = q.system
   if varying and carries[what] then q.system = varying.carried(q.system) end
   local asked, jitter = q.system, q.system.jitter and require "ambit.jitter"
   if jitter then q.system = what == "sample" and jitter.for_samples(q.system, t.t) or jitter.windows(q.system) end
+  -- the same request about the system without the rates of its fastest functions
+  q.without_rates = asked.carried and function(count)
+    local system = varying.carried(bare, count)
+    if jitter then system = jitter.windows(system) end
+    return setmetatable({ system = verb.on_clock(system, q.times.shift) }, { __index = q })
+  end
   local fitting
   if q.solver then
     check_options(t, q, known, what)
@@ -250,6 +257,7 @@ function verb.simulate(t)
   event.request(t.events, q)
   session.ask_simulation(q)
   local result = q.suggestion and require "ambit.simulate.choice".solve(q, asking(t, q)) or verb.solve(q)
+  if q.without_rates then result = require "ambit.simulate.rates".tightest(q, result, verb.solve) end
   session.finish("simulate", result, result.report,
     { "solver", result.solver, "arithmetic", result.arithmetic, "options", q.settings, "t_start",
       instant.first(q.times), "t_end", instant.final(q.times) })

@@ -62,9 +62,10 @@ end
 local own = table.move(conditions.keys, 1, #conditions.keys, 3, { "budget", "expect" })
 local verdicts = { "proved", "refuted", "undecided" }
 
--- The answer to a request about finite times, and what was asked.
-local function answer(t)
+-- The answer to a request about finite times, and what was asked; without the rates of so many functions of time.
+local function answer_with(t, count)
   local q = simulate.request(t, "verify", nil, own)
+  if count then q.system = q.without_rates(count).system end
   if not option.declaration("solver", q.solver).rigorous then
     check.fail("verify: solver `%s` proves nothing", q.solver)
   end
@@ -75,6 +76,17 @@ local function answer(t)
     sound_points = uncertain.are_points_starts(q), budget = read_budget(t.budget), tolerance_of = tolerance_of }
   search.run(job)
   return report.of(job), job
+end
+
+-- The same, and where nothing is decided without the rates of the fastest functions of time.
+local function answer(t)
+  local result, job = answer_with(t)
+  local q = job.asked
+  for count = 1, q.without_rates and #q.system.carried or 0 do
+    if result.status ~= "undecided" then break end
+    result, job = answer_with(t, count)
+  end
+  return result, job
 end
 
 local function finish(t, result, settings)

@@ -19,14 +19,14 @@ typedef struct strip {
 
 static double *end_of(const zono *z, uint32_t i) { return z->proof->end + (size_t)i * z->shape.stride; }
 
-static int is_bounded(const zono *z, uint32_t i) {
+int strip_bounds(const zono *z, uint32_t i) {
   const ambit_problem *p = &z->problem;
   return p->x_least && p->x_least[i] > -INFINITY && p->x_most[i] < INFINITY;
 }
 
 uint32_t strip_columns(const zono *z) {
   uint32_t count = 0;
-  for (uint32_t i = 0; i < z->nx; i++) count += is_bounded(z, i) ? 2 : 0;
+  for (uint32_t i = 0; i < z->nx; i++) count += strip_bounds(z, i) ? 2 : 0;
   return count;
 }
 
@@ -133,7 +133,7 @@ static uint32_t cut(zono *z, strip *t) {
 uint32_t strip_all(zono *z, uint32_t n) {
   const ambit_problem *p = &z->problem;
   for (uint32_t d = 0; d < z->nx; d++) {
-    if (!is_bounded(z, d)) continue;
+    if (!strip_bounds(z, d)) continue;
     double middle = 0.5 * p->x_least[d] + 0.5 * p->x_most[d];
     double half = fmax(p->x_most[d] - middle, middle - p->x_least[d]) * ABOVE + LEAST;
     strip t = { .d = d, .n = n, .middle = middle, .half = half, .gain = z->proof->gain, .off = z->proof->gain + z->nx };
@@ -144,7 +144,7 @@ uint32_t strip_all(zono *z, uint32_t n) {
 
 void strip_within(const zono *z, double *lo, double *hi) {
   for (uint32_t i = 0; i < z->nx; i++) {
-    if (!is_bounded(z, i)) continue;
+    if (!strip_bounds(z, i)) continue;
     double least = fmax(lo[i], z->problem.x_least[i]), most = fmin(hi[i], z->problem.x_most[i]);
     if (least <= most) lo[i] = least, hi[i] = most;
   }

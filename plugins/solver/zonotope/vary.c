@@ -26,12 +26,20 @@ static double through(const zono *z, const double *kernel, uint32_t i, uint32_t 
   return fabs(sum);
 }
 
+/* a state within bounds that no other one depends on: how it moves matters to nobody */
+static int is_idle(const zono *z, uint32_t i) {
+  for (uint32_t k = 0; k < z->nx; k++)
+    if (k != i && z->proof->J[(size_t)k * z->nx + i] != 0) return 0;
+  return strip_bounds(z, i);
+}
+
 /* moments' generators by means', each in the units of the norm in which the step is short */
 static double loss(const zono *z) {
   const proof *p = z->proof;
   double means = 0, moments = 0;
   for (uint32_t i = 0; i < z->nx; i++) {
     double mean = 0, moment = 0;
+    if (is_idle(z, i)) continue;
     for (uint32_t v = 0, slot = vary_first(z); v < z->nvarying; v++, slot++) {
       mean += through(z, p->mean, i, slot) * z->rr[slot];
       moment += 0.5 * through(z, p->tilt, i, slot) * z->rr[slot];
