@@ -454,6 +454,29 @@ static void what_axes_miss_is_turned(void **unused) {
 
 /* -- what data make of generators */
 
+/* Sizes of many sums at once: of each, what generators make, and the one term of degree 4. */
+static void check_many(const zono *z, const double *unit) {
+  enum { SUMS = 300 };
+  static double y[SUMS * MOST];
+  const quartic *q = z->proof->quartic;
+  long double moved = 0, fourth = 0;
+  double kept;
+  for (uint32_t r = 0; r < SUMS; r++) {
+    long double term = 0;
+    for (uint32_t i = 0; i < z->nx; i++) y[r * z->nx + i] = draw(-1, 1) / unit[i];
+    for (uint32_t c = 0; c < z->ngen; c++) {
+      long double sum = 0;
+      for (uint32_t i = 0; i < z->nx; i++) sum += (long double)y[r * z->nx + i] * z->G[c * z->nx + i];
+      moved += fabsl(sum);
+    }
+    for (uint32_t i = 0; i < z->nx && q->n; i++) term += (long double)y[r * z->nx + i] * q->term[i];
+    fourth += fabsl(term);
+  }
+  double all = mixed_sizes(z, y, SUMS, &kept);
+  assert_true(kept >= moved * (1 - 1e-12L) && kept <= moved * (1 + 1e-12L));
+  assert_true(all - kept >= fourth * (1 - 1e-9L));
+}
+
 static void data_move_generators(void **unused) {
   (void)unused;
   static zono z;
@@ -475,6 +498,7 @@ static void data_move_generators(void **unused) {
       z.E[i] += q->size[i];
     }
     mixed_prepare(&z);
+    check_many(&z, unit);
     uint32_t found = mixed_add(&z, 0);
     for (int turn = 0; turn < 100; turn++) {
       long double l[MOST], moved[MOST] = { 0 }, truth = 0, bound = 0;
