@@ -76,7 +76,7 @@ static void separate(const zono *z, number *T, number *X) {
       number rest = T[i * n + j];
       for (size_t k = i + 1; k < j; k++) rest += T[i * n + k] * X[k * n + j];
       number gap = T[j * n + j] - T[i * n + i];
-      if (cabs(rest) <= LONGEST * cabs(gap) && cabs(gap) > 0) X[i * n + j] = rest / gap;
+      if (modulus(rest) <= LONGEST * modulus(gap) && modulus(gap) > 0) X[i * n + j] = rest / gap;
     }
 }
 

@@ -24,16 +24,16 @@ static void put(zono *z, const number *x, double by) {
   for (uint32_t k = 0; k < n; k++) {
     c[k] = 0;
     for (uint32_t i = 0; i < n; i++) c[k] += m->now.W[k * n + i] * x[i];
-    m->in[k] += cabs(c[k]) * by * ABOVE;
+    m->in[k] += modulus(c[k]) * by * ABOVE;
   }
   for (uint32_t i = 0; i < n; i++) {
     number left = x[i];
-    double size = cabs(x[i]);
+    double size = modulus(x[i]);
     for (uint32_t k = 0; k < n; k++) {
       number part = m->now.V[i * n + k] * c[k];
-      left -= part, size += cabs(part);
+      left -= part, size += modulus(part);
     }
-    m->box[i] += by * (cabs(left) + 8 * (n + 4) * UNIT * size) * ABOVE;
+    m->box[i] += by * (modulus(left) + 8 * (n + 4) * UNIT * size) * ABOVE;
   }
 }
 
@@ -51,8 +51,9 @@ static int suits_box(const zono *z, const double *x) {
   for (uint32_t k = 0; k < n && turned <= WIDER * boxed; k++) {
     number c = 0;
     double size = 0;
-    for (uint32_t i = 0; i < n; i++) c += d->W[k * n + i] * x[i], size += cabs(d->V[i * n + k]) / z->proof->spread[i];
-    turned += cabs(c) * size;
+    for (uint32_t i = 0; i < n; i++)
+      c += d->W[k * n + i] * x[i], size += modulus(d->V[i * n + k]) / z->proof->spread[i];
+    turned += modulus(c) * size;
   }
   return turned > WIDER * boxed;
 }
@@ -179,9 +180,9 @@ double discs_along(const zono *z, const discs *d, const double *y) {
     double size = 0;
     for (uint32_t l = 0; l < n; l++) {
       number part = y[l] * d->V[l * n + k];
-      sum += part, size += cabs(part);
+      sum += part, size += modulus(part);
     }
-    along[k] = cabs(sum), rounded[k] = 8 * (n + 4) * UNIT * size;
+    along[k] = modulus(sum), rounded[k] = 8 * (n + 4) * UNIT * size;
   }
   for (uint32_t k = 0; k < n; k++) {
     double turned = 0, by_turns = 0;
@@ -203,7 +204,7 @@ double discs_width(const zono *z, uint32_t i) {
   double sum = 0;
   for (uint32_t k = 0; k < z->nx && d->any; k++) {
     size_t e = (size_t)i * z->nx + k;
-    sum += (cabs(d->V[e]) + d->S[e]) * d->b[k] + d->S[e] * d->a[k];
+    sum += (modulus(d->V[e]) + d->S[e]) * d->b[k] + d->S[e] * d->a[k];
   }
   return sum * ABOVE;
 }
@@ -258,8 +259,8 @@ void discs_turn(zono *z) {
       continue;
     }
     for (uint32_t i = 0; i < n; i++) re[i] = creal(row[i]), im[i] = cimag(row[i]);
-    m->now.a[k] = hypot(quartic_through(z, re), quartic_through(z, im)) * ABOVE;
-    fresh[k] = discs_carry(z) ? hypot(quartic_fresh(z, re), quartic_fresh(z, im)) * ABOVE : m->now.a[k];
+    m->now.a[k] = length(quartic_through(z, re), quartic_through(z, im)) * ABOVE;
+    fresh[k] = discs_carry(z) ? length(quartic_fresh(z, re), quartic_fresh(z, im)) * ABOVE : m->now.a[k];
   }
   for (uint32_t k = 0; k < n; k++) {
     double turned = 0, rounded = 0; /* U_j W P_4 is V T_j W P_4 but for it */
@@ -268,7 +269,7 @@ void discs_turn(zono *z) {
       turned += tilt * fresh[l], rounded += tilt * (fresh[l] + m->now.a[l]);
     }
     m->in[k] += turned * ABOVE;
-    for (uint32_t i = 0; i < n; i++) m->box[i] += 8 * (n + 4) * UNIT * cabs(m->now.V[i * n + k]) * rounded;
+    for (uint32_t i = 0; i < n; i++) m->box[i] += 8 * (n + 4) * UNIT * modulus(m->now.V[i * n + k]) * rounded;
   }
 }
 
@@ -288,7 +289,7 @@ void discs_finish(zono *z) {
   for (uint32_t i = 0; i < n; i++) {
     double rounding = LEAST; /* U_j is V T_j but for it */
     for (uint32_t l = 0; l < n && m->now.any; l++)
-      for (uint32_t k = 0; k < n; k++) rounding += cabs(m->now.V[i * n + l]) * m->now.tilt[l * n + k] * m->now.b[k];
+      for (uint32_t k = 0; k < n; k++) rounding += modulus(m->now.V[i * n + l]) * m->now.tilt[l * n + k] * m->now.b[k];
     *box(z, FROM_MIXED, i) += (m->box[i] + 8 * (n + 4) * UNIT * rounding) * ABOVE;
   }
 }

@@ -32,7 +32,7 @@ static void through(const zono *z, const uint32_t *j, const number *x, number *t
       double y = j ? modes_mixed(z, *j, i, l) : modes_flow(z, i, l);
       for (uint32_t k = 0; k < n && y != 0; k++) {
         number part = y * x[l * n + k];
-        to[i * n + k] += part, size[i * n + k] += cabs(part);
+        to[i * n + k] += part, size[i * n + k] += modulus(part);
       }
     }
 }
@@ -47,9 +47,9 @@ static void leave(zono *z, const number *P, const number *c, const double *size,
       double all = 2 * size[i * n + k]; /* twice: T_j is V^-1 U_j but for rounding */
       for (uint32_t l = 0; l < n; l++) {
         number part = m->now.V[i * n + l] * c[l * n + k];
-        left -= part, all += cabs(part);
+        left -= part, all += modulus(part);
       }
-      double bound = (cabs(left) + 16 * (n + 4) * UNIT * all) * ABOVE;
+      double bound = (modulus(left) + 16 * (n + 4) * UNIT * all) * ABOVE;
       if (rest)
         rest[i * n + k] += bound;
       else
@@ -75,8 +75,8 @@ static void add_bound(uint32_t n, const double *a, const double *b, double *to) 
 
 /* x, times a symbol, beside C_e */
 static void beside(const modes *m, const sizes *s, size_t e, number x) {
-  double c = cabs(m->C[e]);
-  number by = c > TINY ? x * conj(m->C[e]) / c : cabs(x);
+  double c = modulus(m->C[e]);
+  number by = c > TINY ? x * conj(m->C[e]) / c : modulus(x);
   s->along[e] += fabs(creal(by)), s->across[e] += fabs(cimag(by));
 }
 
@@ -105,7 +105,7 @@ static void map_datum(zono *z, const sizes *s, uint32_t j, double *rest) {
   modes_product(n, m->now.T + j * square, m->C, m->B);
   for (size_t e = 0; e < square; e++) {
     D[e] -= m->B[e];
-    beside(m, s, e, D[e]), s->D[e] += cabs(D[e]), s->G[e] += cabs(G[e]);
+    beside(m, s, e, D[e]), s->D[e] += modulus(D[e]), s->G[e] += modulus(G[e]);
   }
 }
 
@@ -128,7 +128,7 @@ static void map_pair(zono *z, const sizes *s, uint32_t i, uint32_t j) {
   add_product(z, 1, m->G + i * square, T + j * square), add_product(z, -1, T_new + i * square, m->D + j * square);
   if (i != j) add_product(z, 1, m->G + j * square, T + i * square);
   if (i != j) add_product(z, -1, T_new + j * square, m->D + i * square);
-  for (size_t e = 0; e < square; e++) beside(m, s, e, m->A[e]), s->S[e] += cabs(m->A[e]);
+  for (size_t e = 0; e < square; e++) beside(m, s, e, m->A[e]), s->S[e] += modulus(m->A[e]);
 }
 
 /* slack := what D and S are off by: sums are, by 16 (nx + 4) UNIT of the sum of their terms' sizes. S += its own
@@ -138,7 +138,7 @@ static void add_slack(zono *z, const sizes *s) {
   uint32_t n = z->nx;
   size_t square = (size_t)n * n;
   double *of_D = s->slack, *of_S = s->terms, by = 16.0 * (n + 4) * UNIT;
-  for (size_t e = 0; e < square; e++) s->work[e] = cabs(m->C[e]), of_D[e] = by * s->D[e], of_S[e] = by * s->S[e];
+  for (size_t e = 0; e < square; e++) s->work[e] = modulus(m->C[e]), of_D[e] = by * s->D[e], of_S[e] = by * s->S[e];
   bound_product(n, m->now.tilt, s->work, by, of_D);
   bound_product(n, s->G, m->old.tilt, by, of_S), bound_product(n, m->now.tilt, of_D, 2, of_S);
   for (size_t e = 0; e < square; e++) of_D[e] += of_S[e], s->S[e] += of_S[e];
@@ -155,9 +155,9 @@ static void find_rest(const zono *z, double *to) {
       double size = 1;
       for (uint32_t k = 0; k < n; k++) {
         number part = m->old.V[i * n + k] * m->old.W[k * n + l];
-        left -= part, size += cabs(part);
+        left -= part, size += modulus(part);
       }
-      to[i] += (cabs(left) + 8 * (n + 4) * UNIT * size) * quartic_size(z, l);
+      to[i] += (modulus(left) + 8 * (n + 4) * UNIT * size) * quartic_size(z, l);
     }
   }
 }
@@ -175,11 +175,11 @@ static void leave_fourth(zono *z) {
   memset(moved, 0, 2 * n * sizeof *moved);
   for (uint32_t l = 0; l < n; l++) {
     double off = rest[l];
-    for (uint32_t k = 0; k < n; k++) off += 16 * (n + 4) * UNIT * cabs(m->old.V[l * n + k]) * m->old.a[k];
+    for (uint32_t k = 0; k < n; k++) off += 16 * (n + 4) * UNIT * modulus(m->old.V[l * n + k]) * m->old.a[k];
     for (uint32_t i = 0; i < n; i++) moved[i] += fabs(modes_flow(z, i, l)) * off;
   }
   for (uint32_t k = 0; k < n; k++)
-    for (uint32_t i = 0; i < n; i++) along[k] += cabs(m->now.W[k * n + i]) * moved[i];
+    for (uint32_t i = 0; i < n; i++) along[k] += modulus(m->now.W[k * n + i]) * moved[i];
   add_bound(n, m->now.tilt, along, m->in);
 }
 
@@ -196,7 +196,7 @@ static void grow(zono *z, const sizes *s) {
   double *off = s->work;
   memset(m->now.b, 0, n * sizeof *m->now.b);
   for (size_t e = 0; e < (size_t)n * n; e++) {
-    m->growth[e] = (hypot(cabs(m->C[e]) + s->along[e], s->across[e]) + s->slack[e]) * ABOVE;
+    m->growth[e] = (length(modulus(m->C[e]) + s->along[e], s->across[e]) + s->slack[e]) * ABOVE;
     off[e] = s->D[e] + s->S[e] + s->slack[e];
   }
   add_bound(n, m->growth, m->old.b, m->now.b);
@@ -255,11 +255,11 @@ void map_pairs(zono *z) {
       for (uint32_t l = 0; l < n; l++)
         for (uint32_t k = 0; k < n && size[i * n + l] != 0; k++) {
           m->A[i * n + k] += M[i * n + l] * m->old.V[l * n + k];
-          s.terms[i * n + k] += 2 * size[i * n + l] * cabs(m->old.V[l * n + k]);
+          s.terms[i * n + k] += 2 * size[i * n + l] * modulus(m->old.V[l * n + k]);
         }
     modes_product(n, m->now.W, m->A, m->B);
     leave(z, m->A, m->B, s.terms, left);
-    for (size_t e = 0; e < square; e++) beside(m, &s, e, m->B[e]), second[e] += cabs(m->B[e]);
+    for (size_t e = 0; e < square; e++) beside(m, &s, e, m->B[e]), second[e] += modulus(m->B[e]);
     for (uint32_t i = 0; i < n; i++)
       for (uint32_t l = 0; l < n; l++) m->box[i] += size[i * n + l] * m->rest_of_fourth[l] * ABOVE;
   }

@@ -46,8 +46,8 @@ int modes_invert(size_t n, const number *V, number *W, number *A) {
   for (size_t k = 0; k < n; k++) {
     size_t pivot = k;
     for (size_t i = k; i < n; i++)
-      if (cabs(A[i * n + k]) > cabs(A[pivot * n + k])) pivot = i;
-    if (!(cabs(A[pivot * n + k]) > 0)) return 0;
+      if (modulus(A[i * n + k]) > modulus(A[pivot * n + k])) pivot = i;
+    if (!(modulus(A[pivot * n + k]) > 0)) return 0;
     for (size_t j = 0; j < n; j++) {
       number a = A[k * n + j], w = W[k * n + j];
       A[k * n + j] = A[pivot * n + j], A[pivot * n + j] = a;
@@ -111,8 +111,8 @@ static double find_turns(zono *z, double most) {
   for (uint32_t j = 0; j < z->shape.mixed; j++)
     for (size_t e = 0; e < square; e++) {
       number *t = m->now.T + j * square + e;
-      if (cabs(*t) > most) *t = 0;
-      m->now.tilt[e] += cabs(*t) * ABOVE;
+      if (modulus(*t) > most) *t = 0;
+      m->now.tilt[e] += modulus(*t) * ABOVE;
     }
   for (size_t i = 0; i < n; i++) {
     double sum = 0;
@@ -138,7 +138,7 @@ static void divide_turns(zono *z) {
     for (size_t i = 0; i < n; i++)
       for (size_t k = 0; k < n; k++) {
         number *t = T + i * n + k, apart = mu[k] - mu[i];
-        *t = i != k && cabs(*t) < cabs(apart) ? *t / apart : 0;
+        *t = i != k && modulus(*t) < modulus(apart) ? *t / apart : 0;
       }
   }
 }
@@ -154,7 +154,7 @@ static void turn_by_data(zono *z) {
   for (uint32_t j = 0; j < z->shape.mixed; j++) {
     number *U = m->now.U + j * square;
     modes_product(n, m->now.V, m->now.T + j * square, U);
-    for (size_t i = 0; i < square; i++) m->now.S[i] += cabs(U[i]) * ABOVE;
+    for (size_t i = 0; i < square; i++) m->now.S[i] += modulus(U[i]) * ABOVE;
   }
 }
 

@@ -6,6 +6,13 @@
 
 typedef double complex number;
 
+/* sqrt(a^2 + b^2) but for 4 2^-53 of it; where squares would underflow, no less */
+static inline double length(double a, double b) {
+  a = fabs(a), b = fabs(b);
+  return a + b > 1e-140 ? sqrt(a * a + b * b) : a + b;
+}
+static inline double modulus(number x) { return length(creal(x), cimag(x)); }
+
 /* { Re((V + sum_j xi_j U_j) w) : |w_k| <= b_k }, U_j = V T_j but for rounding. Matrices [nx x nx] by rows. P_4 turns
 ** with them: the set has sum_j xi_j Re(U_j W) P_4 besides, where a is not 0. */
 typedef struct discs {

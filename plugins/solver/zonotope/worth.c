@@ -65,7 +65,7 @@ static void enclose(const zono *z, double *b) {
     for (uint32_t c = 0; c < z->ngen; c++) {
       number x = 0;
       for (uint32_t i = 0; i < n; i++) x += m->now.W[k * n + i] * z->G[(size_t)c * n + i];
-      b[k] += cabs(x);
+      b[k] += modulus(x);
     }
 }
 
@@ -84,7 +84,7 @@ enum worth worth_enclosing(zono *z) {
     double own = 0;
     reach += most[i] / z->proof->spread[i];
     for (uint32_t k = 0; k < n; k++)
-      own += (cabs(m->now.V[i * n + k]) + m->now.S[i * n + k]) * b[k] / z->proof->spread[i];
+      own += (modulus(m->now.V[i * n + k]) + m->now.S[i * n + k]) * b[k] / z->proof->spread[i];
     width += own, widest = fmax(widest, own);
   }
   if (width < (is_urgent(z) ? BEARABLE : EXCESS) * reach) return WORTH_KEEPING;
