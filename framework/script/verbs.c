@@ -66,7 +66,7 @@ static settings read_settings(lua_State *L, int idx) {
     AMBIT_LUA_LIST(settings, "band_hi", AMBIT_LUA_NUMBERS, AMBIT_LUA_SAME, band.hi, nband),
     AMBIT_LUA_ONE(settings, "band_runs", AMBIT_LUA_COUNT, 0, band.most),
     AMBIT_LUA_ONE(settings, "band_limit", AMBIT_LUA_NUMBER, 0, band.limit),
-    AMBIT_LUA_ONE(settings, "band_seconds", AMBIT_LUA_NUMBER, 0, band.seconds),
+    AMBIT_LUA_ONE(settings, "band_work", AMBIT_LUA_NUMBER, 0, band.work),
     { "cuts", AMBIT_LUA_ROWS, 0, offsetof(settings, cut), offsetof(settings, ncut), &cuts } };
 #undef ONE
   static const ambit_lua_fields fields = AMBIT_LUA_FIELDS(settings, field);

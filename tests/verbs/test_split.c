@@ -38,7 +38,8 @@ typedef struct mischief {
   long sleep_us;                  /* per step, times a number that depends on the piece */
   double fail_at[64], open_fails; /* time from which the piece by its least x fails; x whose open() is INVALID */
   bool skips, no_tube, domain, domain_everywhere, signed_zero;
-  double top; /* not 0: x is known within an eighth of the piece's width in x, y is -(x - top)^2 */
+  uint32_t dear; /* the piece with this least x does as much as a hundred others; 0: none */
+  double top;    /* not 0: x is known within an eighth of the piece's width in x, y is -(x - top)^2 */
   _Atomic uint32_t shared;
 } mischief;
 
@@ -49,6 +50,7 @@ typedef struct walker {
   ambit_problem p;
   double lo[NX], hi[NX];
   uint32_t cell; /* floor of the least x */
+  ambit_work *counted;
 } walker;
 
 static ambit_status walk_open(const ambit_host *h, const ambit_problem *p, const double *option, void **self) {
@@ -57,6 +59,7 @@ static ambit_status walk_open(const ambit_host *h, const ambit_problem *p, const
   w->host = h;
   w->p = *p;
   w->cell = (uint32_t)p->x0_lo[0];
+  w->counted = ambit_work_open(h);
   if (behaviour.open_fails == p->x0_lo[0]) return (h->fail)(h, AMBIT_INVALID, "not this piece");
   if (behaviour.domain_everywhere || (behaviour.domain && p->x0_lo[0] >= 2))
     return (h->fail)(h, AMBIT_DOMAIN, "nothing from here");
@@ -74,6 +77,7 @@ static void spread(walker *w) {
 
 static int32_t walk_step(walker *w, ambit_sink *s, double from, double to) {
   double tube_lo[NX], tube_hi[NX];
+  w->counted->operations += behaviour.dear > 0 && w->cell == behaviour.dear ? 1000 : 10;
   for (int i = 0; i < NX; i++) {
     w->lo[i] = w->p.x0_lo[i] - to;
     w->hi[i] = w->p.x0_hi[i] + to;
@@ -243,7 +247,7 @@ static outcome *play(stage *g, uint32_t threads, uint32_t x_parts, uint32_t y_pa
 }
 
 /* Cut where x reaches beyond [0, 8] by more than a 64th of that. */
-static outcome *refine(stage *g, uint32_t threads, uint32_t most, double seconds, bool stop) {
+static outcome *refine(stage *g, uint32_t threads, uint32_t most, double work, bool stop) {
   static _Atomic uint32_t inside[THREADS_MAX];
   static const double lo[NX * (NTIME - 1)] = { 0 };
   static const double hi[NX * (NTIME - 1)] = { [NX * (NTIME - 2)] = 8 }; /* at the end, and nothing else counts */
@@ -256,7 +260,7 @@ static outcome *refine(stage *g, uint32_t threads, uint32_t most, double seconds
       ambit_pieces_cut(g->arena, NX, g->problem.u_lo, g->problem.u_hi, parts, &pieces, &o->failure), AMBIT_OK);
   o->heard = (listener) { .sink = { sizeof(ambit_sink), hear, hear_progress }, .thread = pthread_self(), .stop = stop };
   static const char *const unknown[] = { "x", NULL };
-  const ambit_cut_band band = { most, 1.0 / 64, seconds, lo, hi };
+  const ambit_cut_band band = { most, 1.0 / 64, work, lo, hi };
   ambit_split s = { &g->problem, g->start, &pieces, unknown, g->registry, &walking, "walking", NULL, threads, context,
     &o->heard.sink, &band };
   o->returned = ambit_split_run(&s, g->arena, &o->split, &o->failure);
@@ -498,7 +502,35 @@ static void parts_that_fail_replace_nothing(void **state) {
   close_stage(&g);
 }
 
-static void a_band_is_kept_to_its_runs_and_its_time(void **state) {
+#define RUN (20.0 * (NTIME - 1)) /* operations of a run in two steps for each interval */
+
+/* Counted, so that neither time nor threads have a part in it. */
+static void a_band_is_kept_to_its_work(void **state) {
+  (void)state;
+  stage g;
+  open_stage(&g);
+  for (uint32_t threads = 1; threads <= 3; threads++) {
+    behave((mischief) { .top = 3, .sleep_us = threads == 2 ? 100 : 0 });
+    outcome *o = refine(&g, threads, 100, 28.5 * RUN, false); /* the whole, 8 parts; not 20 more */
+    assert_int_equal(o->split.said, AMBIT_OK);
+    assert_int_equal(o->split.pieces, 8);
+    free(o);
+    o = refine(&g, threads, 100, 29 * RUN, false);
+    assert_int_equal(o->split.said, AMBIT_OK);
+    assert_in_range(o->split.pieces, 9, 20);
+    free(o);
+    behave((mischief) { .top = 3, .dear = 5 }); /* what takes too long is not waited for; what it is a part of counts */
+    o = refine(&g, threads, 100, 1000 * RUN, false);
+    assert_int_equal(o->split.said, AMBIT_OK);
+    assert_int_equal(o->heard.records, NTIME - 1);
+    assert_true(o->split.pieces > 1 && o->split.work.operations < 300 * RUN);
+    assert_true(o->heard.value[NTIME - 2][0] <= 0 && o->heard.value[NTIME - 2][NX] >= 8);
+    free(o);
+  }
+  close_stage(&g);
+}
+
+static void a_band_is_kept_to_its_runs(void **state) {
   (void)state;
   stage g;
   open_stage(&g);
@@ -511,11 +543,11 @@ static void a_band_is_kept_to_its_runs_and_its_time(void **state) {
   assert_int_equal(o->split.pieces, 1);
   assert_true(o->heard.value[NTIME - 2][NX] == 9);
   free(o);
-  o = refine(&g, 1, 100, 1e-9, false);
+  o = refine(&g, 1, 100, RUN / 2, false);
   assert_int_equal(o->split.said, AMBIT_UNABLE);
-  assert_non_null(strstr(o->split.why.message, "CPU time"));
+  assert_non_null(strstr(o->split.why.message, "the work that cutting"));
   assert_string_equal(o->split.why.code, AMBIT_CODE_UNABLE_SHORT_STEPS);
-  assert_int_equal(o->heard.records, 0);
+  assert_in_range(o->heard.records, 1, NTIME - 2);
   free(o);
   o = refine(&g, 2, 100, 0, true);
   assert_int_equal(o->split.said, AMBIT_STOPPED);
@@ -541,7 +573,8 @@ int main(void) {
     cmocka_unit_test(stops_within_a_fifth_of_a_second),
     cmocka_unit_test(cuts_where_sets_are_too_wide),
     cmocka_unit_test(parts_that_fail_replace_nothing),
-    cmocka_unit_test(a_band_is_kept_to_its_runs_and_its_time),
+    cmocka_unit_test(a_band_is_kept_to_its_work),
+    cmocka_unit_test(a_band_is_kept_to_its_runs),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -13,11 +13,10 @@ typedef struct ambit_cut {
 /* A run of parts that are cut again only where its sets reach far beyond a band about the truth, such as a sampled
 ** hull; the band proves nothing, and nothing that is proved depends on it. At the k-th time behind the first, state i
 ** is wide where it reaches beyond lo[k nx + i] or hi[k nx + i] by more than `limit` (hi - lo); where hi > lo does not
-** hold, it does not count. The same parts come out for any number of threads, unless CPU time ends them, or would end
-** before the next ones are done. */
+** hold, it does not count. The same parts come out for any number of threads, and on every machine. */
 typedef struct ambit_cut_band {
   uint32_t most;         /* runs */
-  double limit, seconds; /* of CPU time, after which no part is cut any more; 0: no such limit */
+  double limit, work;    /* operations (ambit/work.h) after which no part is cut any more; 0: no such limit */
   const double *lo, *hi; /* [ntime - 1][nx] */
 } ambit_cut_band;
 #endif

@@ -14,7 +14,7 @@ local TIGHT = 1.2       -- ... and from what is not, another one can go on
 local PATIENCE = 2      -- s of CPU time after which it is asked whether the end is in reach
 local MORE, LEAST = 4, 8 -- CPU time of all that follows the first run: so many times its own, and at least so many s
 local REACH = 8         -- times what a steady try has taken, that its rest may take for it to go on
-local CUT = 6           -- times that, for the parts of a run that came to the end
+local CUT, WORK = 24, 1e9 -- operations of the parts of a run that came to the end: times its own, and at least so many
 local PART = 0.5        -- of what is left of that: what one try has without question, or one hull of draws
 local AGAIN = 2         -- times what a run took that was stopped for its pace, after which it must be steady
 local TOO_FAR = "unable.short-steps"
@@ -140,13 +140,10 @@ local function is_through(run) return run.status == "complete" or run.status == 
 
 -- -- the CPU time of everything that follows the first run
 
--- Other solvers may take half of it, so that there is as much for cutting the data. Where a run came to the end it is
--- known what its parts take, and that they do: they may cost more.
+-- Other solvers may take half of it, so that there is as much for cutting the data.
 local function budget_after(seconds) return core.cpu() + math.max(LEAST, MORE * seconds) / 2 end
 
 local function budget_of_parts(state)
-  local spent = state.best.cpu_seconds
-  if is_through(state.best) then return core.cpu() + CUT * math.max(LEAST, MORE * spent) end
   return math.max(core.cpu(), state.ends) + math.max(LEAST, MORE * state.first_seconds) / 2
 end
 
@@ -267,9 +264,8 @@ local function try_one(state, try)
   record_way(state, try)
   local is_cut = try.pieces or try.band
   left.patience = not is_cut and not try.reach and PATIENCE or nil -- pieces pass the instants late, all at once
-  if try.band then
-    left.band, try.band.seconds = try.band, part_of(state.ends, true)
-  else
+  left.band = try.band
+  if not try.band then
     left.due, left.reach = part_of(state.ends, try.pieces == PIECES[#PIECES]), try.reach or REACH
   end
   local run = state.ask(try, left)
@@ -286,7 +282,7 @@ end
 -- One after the other of the ways to go on, while there is CPU time left -> is the best run good, or was it stopped?
 local function try_all(state, ways)
   for try in ways do
-    if part_of(state.ends) <= 0 then
+    if not try.band and part_of(state.ends) <= 0 then
       state.untried[#state.untried + 1] = { solver = try.solver, pieces = try.pieces }
     else
       core.records_hold()
@@ -314,8 +310,11 @@ local function other_solvers(state)
 end
 
 -- What core.simulate cuts again: parts whose sets are wider than LOOSE allows, half of that on each side of the hull.
+-- It is known what they take, so that this is counted, and the same on every machine.
 local function band_of(run, hull)
-  local band = { lo = {}, hi = {}, limit = 0.5 * (LOOSE - 1), runs = RUNS }
+  local operations = run.report.operations
+  local band = { lo = {}, hi = {}, limit = 0.5 * (LOOSE - 1), runs = operations > 0 and RUNS or PIECES[#PIECES],
+    work = math.max(WORK, CUT * operations) }
   local counts = counted(run, hull)
   for k = 2, #hull.t do
     for i in ipairs(run.states) do

@@ -39,8 +39,12 @@ static void end_interval(ambit_piece *p, const ambit_record *r) {
   begin_interval(p);
 }
 
+static bool is_too_much(const ambit_piece *p) {
+  return p->allowed > 0 && p->scope && (double)ambit_scope_work(p->scope).operations > p->allowed;
+}
+
 static int32_t go_on(ambit_piece *p) {
-  if (p->look(p->user) || ambit_merge_is_over(p->merge, p->number, p->completed)) p->over = true;
+  if (p->look(p->user) || is_too_much(p) || ambit_merge_is_over(p->merge, p->number, p->completed)) p->over = true;
   return p->over;
 }
 
@@ -184,6 +188,8 @@ ambit_status ambit_piece_run(ambit_piece *p, const ambit_split *s, ambit_merge *
   p->number = number;
   p->completed = 0;
   p->over = p->skipped = false;
+  p->scope = NULL;
+  p->done = 0;
   p->look = look;
   p->user = user;
   if (go_on(p)) return AMBIT_OK;
@@ -196,8 +202,11 @@ ambit_status ambit_piece_run(ambit_piece *p, const ambit_split *s, ambit_merge *
     report_failure(p, &f);
     return status;
   }
+  p->scope = scope;
   status = run(p, scope);
+  p->scope = NULL;
   ambit_work work = ambit_scope_work(scope);
+  p->done = work.operations;
   ambit_work_add(&p->work, &work);
   ambit_scope_close(scope);
   return status;

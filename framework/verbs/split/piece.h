@@ -14,6 +14,9 @@ typedef struct ambit_piece {
   ambit_merge *merge;
   uint32_t number, completed; /* intervals */
   bool over, skipped;         /* told to stop; a step went over an instant */
+  const ambit_scope *scope;   /* of the run that is on */
+  uint64_t done;              /* operations of the last run */
+  double allowed;             /* after so many it is told to stop; 0: any number */
   int32_t (*look)(void *user);
   void *user;
   ambit_problem problem;             /* its hulls are the arrays below */

@@ -13,6 +13,7 @@
 #define CANDIDATES 8 /* data that the worst part is halved across */
 #define AT_ONCE 2    /* data that a part is cut across in one round */
 #define WORST 0.5    /* of the worst excess: parts below that wait for a later round */
+#define CREEP 8      /* times the operations of the whole, after which a part does not go on */
 #define DULL 0.9     /* what is left of an excess where little was gained; two such rounds end it */
 
 typedef struct part {
@@ -21,6 +22,7 @@ typedef struct part {
   const ambit_merge *of; /* the run of what it is a part of, or NULL */
   double excess;         /* how far its sets reach beyond the band, in widths of the band; infinite: it did not end */
   bool complete;         /* it came to the end, or holds no solution */
+  uint64_t done;         /* operations of its run */
 } part;
 
 typedef struct part_list { /* parts that are run together */
@@ -42,8 +44,8 @@ typedef struct refinement {
   double gain[CANDIDATES]; /* of datum[]: what half a part still has of its excess; ascending */
   bool starved;            /* of memory: a part is missing */
   bool alone;              /* the caller's thread does the parts, so it must look at the sink meanwhile */
-  double began, ends;
-  _Atomic bool spent, stopped; /* the CPU time is; the sink says so */
+  double done, allowed;    /* operations until now; of one part */
+  _Atomic bool stopped;    /* the sink says so */
 } refinement;
 
 /* -- runs of parts */
@@ -52,18 +54,20 @@ static int32_t meanwhile(void *user) {
   refinement *r = user;
   ambit_sink *sink = r->s->sink;
   if (sink->progress && sink->progress(sink, (double)r->runs / r->s->band->most, "parts") != 0) r->stopped = true;
-  if (r->ends > 0 && ambit_context_seconds() >= r->ends) r->spent = true;
-  return r->stopped || r->spent;
+  return r->stopped;
 }
 
 static int32_t look(void *user) {
   refinement *r = user;
-  return r->alone ? meanwhile(user) : r->stopped || r->spent;
+  return r->alone ? meanwhile(user) : r->stopped;
 }
 
 static ambit_status do_part(void *user, uint32_t item, uint32_t worker) {
   refinement *r = user;
-  return ambit_piece_run(&r->piece[worker], &r->asked, r->now->part[item].own, item, look, r);
+  r->piece[worker].allowed = r->allowed;
+  ambit_status status = ambit_piece_run(&r->piece[worker], &r->asked, r->now->part[item].own, item, look, r);
+  r->now->part[item].done = r->piece[worker].done;
+  return status;
 }
 
 static double excess_of(const refinement *r, const part *p) {
@@ -97,11 +101,12 @@ static ambit_status run_round(refinement *r, const part_list *now, bool *done, a
   ambit_allocation_forbid(0);
   for (uint32_t i = 0; status != AMBIT_OK && status != AMBIT_STOPPED && i < now->count; i++)
     if (ambit_merge_outcome(now->part[i].own, f) == status) return status;
-  *done = status == AMBIT_OK && !r->stopped && !r->spent;
+  *done = status == AMBIT_OK && !r->stopped;
   r->runs += now->count;
   for (uint32_t i = 0; i < now->count; i++) {
     part *p = &now->part[i];
     if (p->of) ambit_merge_narrow(p->own, p->of);
+    r->done += (double)p->done;
     p->complete = ambit_merge_is_complete(p->own);
     p->excess = p->complete ? excess_of(r, p) : INFINITY;
   }
@@ -273,10 +278,10 @@ static ambit_status cut_round(refinement *r, bool *done, ambit_failure *f) {
   return status;
 }
 
-/* Is there CPU time for so many runs, as long as those until now? What is not done when it ends is lost. */
-static bool has_time(const refinement *r, uint32_t runs) {
-  double now = ambit_context_seconds();
-  return !(r->ends > 0) || now + runs * (now - r->began) / (r->runs > 0 ? r->runs : 1) <= r->ends;
+/* Are so many runs allowed, if they take what those until now did? */
+static bool is_allowed(const refinement *r, uint32_t runs) {
+  double each = r->runs > 0 ? r->done / r->runs : 0;
+  return !(r->s->band->work > 0) || r->done + runs * each <= r->s->band->work;
 }
 
 static ambit_status refine(refinement *r, const double *influence, bool *done, ambit_failure *f) {
@@ -287,7 +292,7 @@ static ambit_status refine(refinement *r, const double *influence, bool *done, a
     const part *worst = &r->kept[worst_of(r->kept, r->nkept)];
     double before = worst->excess;
     const uint32_t least = 2 * CANDIDATES + (1u << AT_ONCE);
-    if (!(before > band->limit) || r->runs + least > band->most || !has_time(r, least)) return AMBIT_OK;
+    if (!(before > band->limit) || r->runs + least > band->most || !is_allowed(r, least)) return AMBIT_OK;
     ambit_status status = try_data(r, worst, influence, done, f);
     if (status != AMBIT_OK || !*done || r->ndatum == 0) return status;
     status = cut_round(r, done, f);
@@ -332,12 +337,18 @@ static ambit_status run_all(refinement *r, ambit_failure *f) {
   if (!influence || ambit_probe_influence(p, r->s->initial, r->arena, influence) != AMBIT_OK) return ambit_no_memory(f);
   bool done = true;
   for (size_t n = 0; n < sizeof totals / sizeof *totals; n++) {
-    if (n > 0 && (totals[n] > r->s->band->most / 4 || !has_time(r, totals[n]))) break;
+    if (n > 0 && (totals[n] > r->s->band->most / 4 || !is_allowed(r, totals[n]))) break;
     ambit_status status = start(r, influence, totals[n], &done, f);
     if (status != AMBIT_OK || !done) return status;
+    if (n == 0 && r->s->band->work > 0) r->allowed = CREEP * r->done;
     if (!(r->kept[worst_of(r->kept, r->nkept)].excess > r->s->band->limit)) return AMBIT_OK;
   }
   return refine(r, influence, &done, f);
+}
+
+/* for its work? */
+static bool was_stopped(const refinement *r, const part *whole) {
+  return r->s->band->work > 0 && (double)whole->done > r->s->band->work;
 }
 
 static ambit_status tell(refinement *r, ambit_failure *f) {
@@ -347,9 +358,9 @@ static ambit_status tell(refinement *r, ambit_failure *f) {
   bool stopped = ambit_merge_forward(all, r->s->sink) != 0 || r->stopped;
   if (stopped)
     r->out->said = AMBIT_STOPPED;
-  else if (r->spent && r->nkept == 1 && !r->kept[0].complete)
+  else if (r->nkept == 1 && !r->kept[0].complete && was_stopped(r, &r->kept[0]))
     r->out->said = ambit_fail_code(&r->out->why, AMBIT_UNABLE, AMBIT_CODE_UNABLE_SHORT_STEPS,
-        "the CPU time for cutting the data was spent before they had been followed whole");
+        "the work that cutting the data may take was done before they had been followed whole");
   else
     r->out->said = ambit_merge_outcome(all, &r->out->why);
   r->out->pieces = r->nkept;
@@ -371,8 +382,7 @@ ambit_status ambit_refine_run(const ambit_split *s, ambit_arena *arena, ambit_sp
   refinement r = { .s = s, .arena = arena, .out = out, .asked = *s };
   *out = (ambit_split_outcome) { 0 };
   r.asked.pieces = &r.boxes;
-  r.began = ambit_context_seconds();
-  if (s->band->seconds > 0) r.ends = r.began + s->band->seconds;
+  r.allowed = s->band->work;
   ambit_status status = open_pieces(&r, f);
   if (status == AMBIT_OK) {
     out->threads = ambit_pool_threads(r.pool);

@@ -179,7 +179,7 @@ void fields_run(fields *f) {
   const ambit_tape *t = f->tape;
   const ambit_meter_service *meter = f->base->meter;
   if (meter) meter->enter("tape in fields");
-  ambit_work_evaluate(f->base->counted, t->ninstr, 1);
+  ambit_work_evaluate(f->base->counted, t->ninstr, f->terms->count);
   for (uint32_t i = 0; i < t->ninstr; i++) {
     field *r = &f->slot[t->dst[i]];
     if (meter) meter->operation(t->op[i]);

@@ -48,9 +48,13 @@ void shape_lean(shape *s) {
 }
 
 int shape_open(const ambit_host *h, shape *s, uint32_t m, uint32_t nx) {
-  *s = (shape) {
-    .m = m, .nx = nx, .mixed = m, .cubic = m <= CUBIC_ALL ? m : CUBIC_MOST, .room = CUBED, .sum = sum_portable
-  };
+  *s = (shape) { .m = m,
+    .nx = nx,
+    .mixed = m,
+    .cubic = m <= CUBIC_ALL ? m : CUBIC_MOST,
+    .room = CUBED,
+    .sum = sum_portable,
+    .counted = ambit_work_open(h) };
   shape_hold_all(s);
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx2")) s->sum = sum_avx2;
@@ -198,6 +202,8 @@ double row_dropped_cube(const shape *s, const double *x) {
 
 /* -- sums */
 
+#define LANES 8 /* as an operation is counted, whatever vectors the machine has */
+
 void terms_moving(const shape *s, terms *t, double scale, const double *x) {
   if (scale == 0 || row_moving(s, x) == 0) return;
   t->row[t->nrow].scale = scale, t->row[t->nrow++].x = x;
@@ -247,12 +253,20 @@ void terms_share(const shape *s, terms *t, double scale, uint32_t j, uint32_t k,
   add_product(s, t, j == k ? dd_make(scale, 0) : dd_div(dd_make(scale * j, 0), dd_make(k, 0)), a, b);
 }
 
+/* vectors of LANES doubles that are multiplied and added */
+static uint64_t vectors_of(const shape *s, const terms *t, uint32_t parts) {
+  uint64_t pairs = parts & PAIRS ? s->mix - s->pair[0] : 0, mixed = parts & MIXED ? s->norms - s->mix : 0;
+  uint64_t triples = parts & TRIPLES ? s->triples : 0, all = 1 + s->m + s->nx + pairs + mixed + triples;
+  return (t->nrow * all + t->nouter * (pairs + mixed) + t->nbend * triples) / LANES + 1;
+}
+
 void terms_sum(const shape *s, const terms *t, double *to, uint32_t parts) {
   dd middle = two_sum(t->c, t->low);
   if (!t->nrow && !t->nouter && !t->nbend)
     row_constant(s, to, 0);
   else
     s->sum(s, t, to, parts);
+  if (s->counted) s->counted->operations += vectors_of(s, t, parts);
   to[0] = middle.hi, to[s->norms + LOW] = middle.lo;
 }
 

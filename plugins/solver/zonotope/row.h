@@ -11,6 +11,7 @@
 */
 #ifndef ZONOTOPE_ROW_H
 #define ZONOTOPE_ROW_H
+#include <ambit/work.h>
 #include <ambit/base.h>
 #include <ambit/double_double.h>
 #include <math.h>
@@ -37,6 +38,7 @@ typedef struct shape {
   uint32_t stride; /* doubles of a row with triples, a multiple of 4 */
   double *scratch; /* [3 x stride] */
   uint32_t *pair;  /* [m + 1] where row i of the pairs starts: xi_i xi_j is at pair[i] + j - i; pair[0] = 1 + m + nx */
+  ambit_work *counted;                                                                   /* or NULL */
   void (*sum)(const struct shape *s, const struct terms *t, double *to, uint32_t parts); /* portable.c, avx2.c */
 } shape;
 

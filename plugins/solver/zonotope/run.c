@@ -72,6 +72,7 @@ static int prove_some(zono *z, double h) {
   for (;;) {
     set_end(z, h);
     z->why = WHY_NOTHING, z->detail = NULL;
+    ambit_work_try(z->shape.counted);
     if (zono_defects(z) && zono_prove(z)) {
       if (vary_fits(z)) return 1;
       z->why = WHY_GROWTH;

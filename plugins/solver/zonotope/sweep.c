@@ -207,6 +207,8 @@ static void sweep_target(const zono *z, const sweeps *w, uint32_t n, const coeff
 
 static int sweep(zono *z, const sweeps *w, double h, const coefficients *k) {
   if (!slope_forms(z, w, h)) return 0;
+  ambit_work *counted = z->shape.counted;
+  if (counted) counted->operations += (uint64_t)z->proof->ntarget * z->program.tape->ninstr * (w->forms.n / 8 + 1);
   fill_matrix(z, w);
   if (!inverse_find(z, w)) return 0;
   for (uint32_t n = 0; n < z->proof->ntarget; n++) sweep_target(z, w, n, k);
