@@ -50,6 +50,10 @@ static void nearest_names(void **unused) {
   assert_string_equal(ambit_names_nearest("revolut", known, 3), "revolute");
   assert_string_equal(ambit_names_nearest("ridig_link", known, 3), "rigid_link");
   assert_null(ambit_names_nearest("spring", known, 3));
+  const char *const states[] = { "top.3", "top.3'", "op.3" };
+  assert_string_equal(ambit_names_nearest("top'.3", states, 3), "top.3'");
+  assert_string_equal(ambit_names_nearest("tpo.3", states, 3), "top.3");
+  assert_string_equal(ambit_names_nearest("top.33", states, 3), "top.3");
   assert_null(ambit_names_nearest("x", known, 0));
 }
 

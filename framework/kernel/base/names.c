@@ -1,5 +1,6 @@
-/* names.c -- edit distance (Levenshtein 1966) over short names. */
+/* names.c -- edit distance (Levenshtein 1966) over short names; the same letters in another order are nearer still. */
 #include "base/names.h"
+#include <stdbool.h>
 #include <string.h>
 
 #define LONGEST 63
@@ -22,11 +23,20 @@ static size_t distance(const char *a, const char *b) {
   return row[nb];
 }
 
+static bool has_same_letters(const char *a, const char *b) {
+  int count[256] = { 0 };
+  for (; *a; a++) count[(unsigned char)*a]++;
+  for (; *b; b++) count[(unsigned char)*b]--;
+  for (int i = 0; i < 256; i++)
+    if (count[i] != 0) return false;
+  return true;
+}
+
 const char *ambit_names_nearest(const char *name, const char *const *candidate, size_t count) {
   const char *best = NULL;
   size_t limit = strlen(name) / 3 + 1, least = limit + 1;
   for (size_t i = 0; i < count; i++) {
-    size_t d = distance(name, candidate[i]);
+    size_t d = has_same_letters(name, candidate[i]) ? 0 : distance(name, candidate[i]);
     if (d < least) {
       least = d;
       best = candidate[i];
