@@ -381,7 +381,7 @@ return {
     allocations_run = 0,
     steps = 116,
     coefficients = 0,
-    operations = 0,
+    operations = 1041088,
     megabytes = 11,
   },
   {
