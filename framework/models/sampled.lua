@@ -78,18 +78,7 @@ local function read_delay(value)
   return n
 end
 
--- By how much samples are early or late, at most; nil: not at all. It leaves them in their order.
-local function read_jitter(value, period)
-  if value == nil then return nil end
-  local e, size = read_time(value, "sampled: jitter")
-  if not (size.lo >= 0 and size.hi < core.tight(core.expression(period) / 2).lo) then
-    check.fail("sampled: jitter: expected a time of 0 s or more, less than half of the period, got %s",
-      check.shown(value))
-  end
-  return size.hi > 0 and e or nil
-end
-
-local keys = { "name", "period", "start", "outputs", "memory", "delay", "jitter", "quantum", "law" }
+local keys = { "name", "period", "start", "outputs", "memory", "delay", "quantum", "law" }
 
 function sampled.new(t)
   check.table(t, "sampled")
@@ -106,7 +95,6 @@ function sampled.new(t)
   self.start, start = read_time(t.start, "sampled: start", 0)
   if not (period.lo > 0) then check.fail("sampled: period: expected more than 0 s, got %s", tostring(t.period)) end
   if not (start.lo >= 0) then check.fail("sampled: start: expected 0 s or more, got %s", tostring(t.start)) end
-  self.jitter = read_jitter(t.jitter, self.period)
   self.outputs, self.units = read_outputs(t.outputs)
   self.memory, self.initial = read_memory(t.memory)
   return setmetatable(self, Sampled)
@@ -241,7 +229,6 @@ end
 function sampled.attach(system, list)
   if #list == 0 then return end
   system.sampled, system.defaults = list, {}
-  for _, self in ipairs(list) do system.jitter = system.jitter or self.jitter ~= nil end
   for _, self in ipairs(list) do
     for _, state in ipairs(sampled.states(self)) do system.defaults[state.name] = state end
   end

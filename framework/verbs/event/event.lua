@@ -21,7 +21,6 @@ function event.formula(value, system, what, label)
   local g = core.expression(value, nil, what)
   core.refuse_plain({ g }, what, true)
   core.name_data({ g }, label or what)
-  if system.held then g = require "ambit.jitter".seen(system, g) end
   return instant.formulas({ g }, system.shift)[1]
 end
 

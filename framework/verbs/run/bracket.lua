@@ -28,7 +28,7 @@ local function hull(run, first, from, to)
     local begins, ends = core.track_step(run.track, i)
     local a = (begins - from) * direction > 0 and begins or from
     local b = (ends - to) * direction < 0 and ends or to
-    for k in ipairs(run.system.states) do
+    for k in ipairs(run.states) do
       local x = over(run.track, i, k, a, b)
       if not x then return nil end
       list[k] = list[k] and list[k]:hull(x) or x
@@ -84,13 +84,13 @@ end
 
 local function ends_of(run, i)
   local list = {}
-  for k in ipairs(run.system.states) do list[k] = core.track_value(run.track, i, k, false) end
+  for k in ipairs(run.states) do list[k] = core.track_value(run.track, i, k, false) end
   return list
 end
 
 local function start_of(run)
   local named, list = run.initial(), {}
-  for k, name in ipairs(run.system.states) do list[k] = named[name] end
+  for k, name in ipairs(run.states) do list[k] = named[name] end
   return list
 end
 

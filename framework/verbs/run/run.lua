@@ -20,23 +20,14 @@ local function strict(values, states)
   })
 end
 
--- By name, of all states by number.
-local function by_name(self, list)
-  local values, system = {}, self.system
-  if system and system.held then list = require "ambit.jitter".shown(system, list) end
-  for k, name in ipairs(self.states) do values[name] = list[k] end
-  return strict(values, self.states)
-end
-
-local function all_states(self) return self.system and self.system.states or self.states end
-
 local function enclosures(self, i, tube)
-  local list = {}
-  for k in ipairs(all_states(self)) do
-    list[k] = core.track_value(self.track, i, k, tube)
-    if not list[k] then return nil end
+  local values = {}
+  for k, name in ipairs(self.states) do
+    local x = core.track_value(self.track, i, k, tube)
+    if not x then return nil end
+    values[name] = x
   end
-  return by_name(self, list)
+  return strict(values, self.states)
 end
 
 -- step.x and step.tube are made when they are asked for; step.t and step.t_from are numbers, and enclosures in a run
@@ -73,12 +64,13 @@ end
 
 -- Within step i: from its dense enclosure, otherwise its tube, which holds for all its times.
 local function within(self, i, t)
-  local list = {}
-  for k in ipairs(all_states(self)) do
-    list[k] = core.track_dense(self.track, i, k, t) or core.track_value(self.track, i, k, true)
-    if not list[k] then return nil end
+  local values = {}
+  for k, name in ipairs(self.states) do
+    local x = core.track_dense(self.track, i, k, t) or core.track_value(self.track, i, k, true)
+    if not x then return nil end
+    values[name] = x
   end
-  return by_name(self, list)
+  return strict(values, self.states)
 end
 
 local function not_within(self, t)
@@ -86,14 +78,14 @@ local function not_within(self, t)
     core.literal(self.t_start), core.literal(self.t_reached))
 end
 
-local function at_start(self)
-  local named, list = self.initial(), {}
-  for k, name in ipairs(all_states(self)) do list[k] = named[name] end
-  return by_name(self, list)
+local function by_name(self, list)
+  local values = {}
+  for k, name in ipairs(self.states) do values[name] = list[k] end
+  return strict(values, self.states)
 end
 
 local function at_double(self, t)
-  if t.lo == self.times[1] then return at_start(self) end
+  if t.lo == self.times[1] then return strict(self.initial(), self.states) end
   local i, is_end = core.track_find(self.track, t.lo)
   if not i then not_within(self, t) end
   if is_end then return enclosures(self, i, false) end
@@ -117,7 +109,7 @@ end
 -- enclosure of times (step.t): of the states at all of them.
 function methods:at(t)
   local given, start = instant.read(t, "at: t", true), self.times.start
-  if start and instant.is_same(given, start) then return at_start(self) end
+  if start and instant.is_same(given, start) then return strict(self.initial(), self.states) end
   local own = instant.on_clock(given, self.times)
   local is_double = own.lo == own.hi and not self.system.sampled
   local values = (is_double and at_double or at_bracket)(self, own, given)
@@ -144,9 +136,8 @@ end
 function methods:set()
   local list, values = core.track_set(self.track), {}
   if list and ends_in_bracket(self) then set_back(self, list) end
-  local leaping = self.system.held and require "ambit.jitter".leaping(self.system) or {}
   for i, name in ipairs(self.states) do
-    values[name] = list and not leaping[i] and list[i] or core.expression(self.x[name])
+    values[name] = list and list[i] or core.expression(self.x[name])
   end
   return strict(values, self.states)
 end
@@ -190,7 +181,7 @@ function Run.__index(self, key)
   if key ~= "x" then return nil end
   local n, value = last_step(self.track), nil
   if ends_in_bracket(self) then value = at_bracket(self, self.times.final) end
-  value = value or n > 0 and enclosures(self, n, false) or at_start(self)
+  value = value or n > 0 and enclosures(self, n, false) or strict(self.initial(), self.states)
   rawset(self, "x", value)
   return value
 end

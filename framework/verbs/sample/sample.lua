@@ -120,7 +120,7 @@ end
 
 local function named(self, k, list)
   local values = {}
-  for i, name in ipairs(self.states) do values[name] = list[(k - 1) * self.width + i] end
+  for i, name in ipairs(self.states) do values[name] = list[(k - 1) * #self.states + i] end
   return values
 end
 
@@ -160,9 +160,7 @@ end
 local function solve(q, plan)
   q = without_varying(q)
   local values, facts, report = core.sample_system(flow(q, { solver = q.solver or "" }), plan)
-  facts.values, facts.t, facts.report = values, q.times, report
-  facts.states = (q.system.without_jitter or q.system).states
-  facts.width = #q.system.states
+  facts.values, facts.states, facts.t, facts.report = values, q.system.states, q.times, report
   facts.start = q.times.start
   return setmetatable(facts, Sample), report
 end
@@ -182,7 +180,7 @@ local function of_system(t)
   local result, report = solve(q, plan)
   local k = #q.times
   result.x, result.error = named(result, k, result.values), named(result, k, result.errors)
-  local last = (k - 1) * result.width
+  local last = (k - 1) * #result.states
   judge(result, result.failed, "did not reach the end" .. (result.reason and ": " .. result.reason or ""), allowed)
   write_values(result.states, table.move(result.values, last + 1, last + #result.states, 1, {}),
     table.move(result.errors, last + 1, last + #result.states, 1, {}))
@@ -211,9 +209,9 @@ local function dense_times(times)
   return list
 end
 
-local function bounds_of(values, count, width, times)
+local function bounds_of(values, width, times)
   local lo, hi, error = {}, {}, {}
-  for i = 1, count do
+  for i = 1, width do
     lo[i], hi[i], error[i] = {}, {}, {}
     for k = 1, times do
       local at = (k - 1) * width + i
@@ -223,8 +221,8 @@ local function bounds_of(values, count, width, times)
   return lo, hi, error
 end
 
-local function inner_of(facts, times, values, count)
-  local lo, hi, error = bounds_of(values, count, facts.width or count, #times)
+local function inner_of(facts, times, values, width)
+  local lo, hi, error = bounds_of(values, width, #times)
   return { t = times, lo = lo, hi = hi, error = error, draws = facts.draws, failed = facts.failed,
     status = facts.status, reason = facts.reason, points = facts.points, cpu_seconds = facts.cpu_seconds }
 end
@@ -232,10 +230,8 @@ end
 local function inner_of_system(q, plan, times)
   times = times or dense_times(q.times)
   times.exact = times[#times] == q.times[#q.times] and q.times.exact or nil
-  local own = { system = q.system, initial = q.initial, times = times }
-  if q.system.without_jitter then require "ambit.jitter".draw(own) end
-  local result = solve(own, plan)
-  return inner_of(result, times, result.values, #result.states)
+  local result = solve({ system = q.system, initial = q.initial, times = times }, plan)
+  return inner_of(result, times, result.values, #q.system.states)
 end
 
 local function inner_of_expressions(q, plan)

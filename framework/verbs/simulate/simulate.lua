@@ -107,13 +107,9 @@ function verb.request(t, what, default_solver, own_keys)
   local varying = package.loaded["ambit.varying"] -- before that, nothing varies at a known rate
   local bare = q.system
   if varying and carries[what] then q.system = varying.carried(q.system) end
-  local asked, jitter = q.system, q.system.jitter and require "ambit.jitter"
-  if jitter then q.system = what == "sample" and jitter.for_samples(q.system, t.t) or jitter.windows(q.system) end
   -- the same request about the system without the rates of its fastest functions
-  q.without_rates = asked.carried and function(count)
-    local system = varying.carried(bare, count)
-    if jitter then system = jitter.windows(system) end
-    return setmetatable({ system = verb.on_clock(system, q.times.shift) }, { __index = q })
+  q.without_rates = q.system.carried and function(count)
+    return setmetatable({ system = verb.on_clock(varying.carried(bare, count), q.times.shift) }, { __index = q })
   end
   local fitting
   if q.solver then
@@ -128,11 +124,10 @@ function verb.request(t, what, default_solver, own_keys)
     end
   end
   local sides = q.system.sampled and require "ambit.run.samples".sides(q.system)
-  q.initial = verb.initial(varying and varying.initial(t.initial, asked) or t.initial, asked, what)
+  q.initial = verb.initial(varying and varying.initial(t.initial, q.system) or t.initial, q.system, what)
   if varying then varying.check_starts(q.initial, q.system, what) end
   q.times = instant.list(t.t, what .. ": t", sides)
-  q.initial = assemble_data.correlate(q.initial, t.initial, asked, q.times)
-  if jitter then q.initial = jitter.start(q.system, q.initial, q.times[1]) end
+  q.initial = assemble_data.correlate(q.initial, t.initial, q.system, q.times)
   if q.system.sampled and q.times.shift then
     check.fail("%s: t: the start of a sampled system: expected a number that is a double, got %s", what,
       tostring(q.times.said[1]))
@@ -206,7 +201,7 @@ function verb.solve(q)
   check_loops(q)
   core.record_shift(q.times.shift and core.interval(q.times.shift) or 0)
   local track, facts, report = core.simulate(flow(q), q.watch, q.run_options)
-  facts.track, facts.states, facts.report = track, (q.system.without_jitter or q.system).states, report
+  facts.track, facts.states, facts.report = track, q.system.states, report
   facts.solver, facts.arithmetic, facts.t_start, facts.initial = q.solver, report.arithmetic, q.times[1],
     initial_enclosures(q)
   facts.times, facts.system, facts.keeps_last = q.times, q.system, q.run_options and q.run_options.last

@@ -53,7 +53,6 @@ return {
     { "outputs", "table", "names, or names and units" },
     { "memory?", "table<string, value>", "initial values" },
     { "delay?", "integer", "samples until an output acts", default = "0" },
-    { "jitter?", "datum", "by how much samples are early or late at most, each one anew", unit = "s", default = "0" },
     { "quantum?", "value|table<string, value>", "steps of the sensors' readings" },
     { "law?", "fun(s: table, m: table, t: expression): any, table" },
   },
