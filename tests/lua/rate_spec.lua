@@ -46,7 +46,8 @@ local function any_slow(lo, hi, least, most, t, h)
     value[k] = d
     if left <= 0 then
       local turn = math.random(1, 4)
-      slope, left = turn == 1 and least or turn == 2 and most or least + (most - least) * math.random(), math.random() * t / 4
+      slope = turn == 1 and least or turn == 2 and most or least + (most - least) * math.random()
+      left = math.random() * t / 4
     end
     d, left = math.min(hi, math.max(lo, d + slope * h)), left - h
   end
@@ -211,6 +212,24 @@ describe("what varies at a bounded rate", function()
     assert.equal("complete", on.status)
     assert.is_true(on.x.x.hi >= 0.9 * whole.x.x.hi and on.x.x.hi < 1.3 * whole.x.x.hi)
     fails(function() ambit.simulate { system, initial = { x = 0, v = 0, d = 2 }, t = { 0, 1 } } end, "stays between")
+  end)
+
+  it("keeps what events of a run were found", function()
+    local d = ambit.varying(-1, 1, { rate = 10, name = "d" })
+    local system = ambit.ode { states = { "x" }, equations = function() return { x = d } end }
+    local run = ambit.simulate { system, initial = { x = 0 }, t = { 0, 0.125, 10 },
+      events = { { g = function(_, _, t) return t - 5 end, name = "bell", stop = true } } }
+    assert.equal("bell", run.ended_by)
+    assert.is_true(run.t_reached >= 5 and run.x.x.hi >= 4.8 and run.x.x.lo <= -4.8, tostring(run.x.x))
+  end)
+
+  it("loses no verdict that the rate proves", function()
+    local push = ambit.varying(-1, 1, { rate = 0.1, name = "push" })
+    local system = ambit.ode { states = { "x", "v" }, equations = function(s) return { x = s.v, v = -s.x + push } end }
+    local report = ambit.verify { system, initial = { x = 0, v = 0 }, t = 20, budget = 0, at_end = {
+      a = function(s) return s.x - 2.5 end, b = function(s) return s.x - 1.9 end } }
+    assert.equal("proved", report.conditions.a.status)
+    assert.equal("undecided", report.status)
   end)
 
   it("says what is missing", function()

@@ -24,16 +24,27 @@ local function compare(q, run, other)
   return count > 0 and sum / count or 0
 end
 
+-- May another run take the place of this one? Not of one that was stopped, that shows a plugin to be broken, or that
+-- found events: the times of these are what was asked for.
+local function may_change(q, run)
+  return not q.watch and run.status ~= "stopped" and run.status ~= "broken"
+end
+
 -- The run, or a tighter one that forgets rates, from the fastest function on. solve: makes a run of a request.
 function rates.tightest(q, run, solve)
   local seconds = run.cpu_seconds
-  for count = 1, #q.system.carried do
+  for count = 1, may_change(q, run) and #q.system.carried or 0 do
     local asked = run.solver == q.solver and q or q.by(run.solver)
-    local other = solve(setmetatable({ system = q.without_rates(count).system }, { __index = asked }))
+    core.records_hold()
+    local good, other = pcall(solve, setmetatable({ system = q.without_rates(count).system }, { __index = asked }))
+    local gain = good and compare(q, run, other)
+    local is_next = good and (other.status == "broken" or gain and gain < 0)
+    core.records_release(is_next)
+    if not good then error(other, 0) end
     seconds = seconds + other.cpu_seconds
-    local gain = compare(q, run, other)
-    if not gain or not (gain < 0) then break end
+    if not is_next then break end
     other.solver_reason, run = run.solver_reason, other
+    if not may_change(q, run) then break end
   end
   run.cpu_seconds = seconds
   return run

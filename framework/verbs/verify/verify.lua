@@ -78,13 +78,14 @@ local function answer_with(t, count)
   return report.of(job), job
 end
 
--- The same, and where nothing is decided without the rates of the fastest functions of time.
+-- The same, and where not all is decided without the rates of the fastest functions of time; that answer counts if it
+-- decides all.
 local function answer(t)
   local result, job = answer_with(t)
   local q = job.asked
-  for count = 1, q.without_rates and #q.system.carried or 0 do
-    if result.status ~= "undecided" then break end
-    result, job = answer_with(t, count)
+  for count = 1, result.status == "undecided" and q.without_rates and #q.system.carried or 0 do
+    local other, asked = answer_with(t, count)
+    if other.status ~= "undecided" then return other, asked end
   end
   return result, job
 end
