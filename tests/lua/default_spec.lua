@@ -134,7 +134,7 @@ local cases = {
   ["map.request"] = { function(more)
     return tostring(pcall(ambit.map, with({ states = { x = "m" }, next = function(s) return { x = s.x ^ 2 } end }, more)))
   end, check_units = false },
-  ["sampled.request"] = { sampled, delay = 1, start = "0.05", jitter = "0.01" },
+  ["sampled.request"] = { sampled, delay = 1, start = "0.05" },
   ["network.layer"] = { function(more)
     return bounds { ambit.evaluate { ambit.network { with({ weights = { { 1 } } }, more) } { 2 } [1] } }
   end, activation = "tanh" },
