@@ -38,8 +38,10 @@ typedef struct mischief {
   long sleep_us;                  /* per step, times a number that depends on the piece */
   double fail_at[64], open_fails; /* time from which the piece by its least x fails; x whose open() is INVALID */
   bool skips, no_tube, domain, domain_everywhere, signed_zero;
-  uint32_t dear; /* the piece with this least x does as much as a hundred others; 0: none */
-  double top;    /* not 0: x is known within an eighth of the piece's width in x, y is -(x - top)^2 */
+  uint32_t dear;       /* the piece with this least x does as much as a hundred others; 0: none */
+  uint32_t part_costs; /* operations of a step of what is not the whole; 0: as of the whole */
+  double whole_ends;   /* the whole fails then */
+  double top;          /* not 0: x is known within an eighth of the piece's width in x, y is -(x - top)^2 */
   _Atomic uint32_t shared;
 } mischief;
 
@@ -75,9 +77,12 @@ static void spread(walker *w) {
   w->hi[1] = a <= top && top <= b ? 0 : -fmin((a - top) * (a - top), (b - top) * (b - top));
 }
 
+static bool is_whole(const walker *w) { return w->p.x0_hi[0] - w->p.x0_lo[0] == 8; }
+
 static int32_t walk_step(walker *w, ambit_sink *s, double from, double to) {
   double tube_lo[NX], tube_hi[NX];
-  w->counted->operations += behaviour.dear > 0 && w->cell == behaviour.dear ? 1000 : 10;
+  uint32_t costs = is_whole(w) || !behaviour.part_costs ? 10 : behaviour.part_costs;
+  w->counted->operations += behaviour.dear > 0 && w->cell == behaviour.dear ? 1000 : costs;
   for (int i = 0; i < NX; i++) {
     w->lo[i] = w->p.x0_lo[i] - to;
     w->hi[i] = w->p.x0_hi[i] + to;
@@ -111,6 +116,8 @@ static ambit_status walk(walker *w, ambit_sink *s) {
     for (uint32_t i = 0; i < behaviour.substeps; i++) {
       double a = behaviour.skips && k == 3 ? w->p.time[2] : from + i * h,
              b = i + 1 == behaviour.substeps ? to : from + (i + 1) * h;
+      if (behaviour.whole_ends > 0 && is_whole(w) && b > behaviour.whole_ends)
+        return (w->host->fail)(w->host, AMBIT_UNABLE, "too wide at %g", a);
       if (behaviour.fail_at[w->cell] > 0 && b > behaviour.fail_at[w->cell])
         return (w->host->fail)(w->host, AMBIT_UNABLE, "cell %u ends at %g", w->cell, a);
       if (walk_step(w, s, a, b)) return AMBIT_STOPPED;
@@ -144,6 +151,7 @@ typedef struct listener {
   pthread_t thread;
   uint32_t records, stop_after, calls;
   bool strange, stop; /* a call from another thread, or progress that falls; stop at the next progress */
+  const char *of;     /* what `done` is a share of */
   double done, value[NTIME][4 * NX], t[NTIME];
   uint32_t flags[NTIME], order[NTIME];
   bool tube[NTIME];
@@ -167,10 +175,11 @@ static int32_t hear(ambit_sink *s, const ambit_record *r) {
 }
 
 static int32_t hear_progress(ambit_sink *s, double done, const char *message) {
-  (void)message;
   listener *l = (listener *)(void *)s;
-  l->strange = l->strange || !pthread_equal(l->thread, pthread_self()) || done < l->done || done > 1;
+  bool falls = done < l->done && l->of && strcmp(l->of, message) == 0;
+  l->strange = l->strange || !pthread_equal(l->thread, pthread_self()) || falls || done > 1;
   l->done = done;
+  l->of = message;
   l->calls++;
   return l->stop;
 }
@@ -530,6 +539,27 @@ static void a_band_is_kept_to_its_work(void **state) {
   close_stage(&g);
 }
 
+/* The whole fails early, so that its parts may do little: they are told to stop, and that is no contradiction. */
+static void parts_that_creep_are_told(void **state) {
+  (void)state;
+  stage g;
+  open_stage(&g);
+  for (uint32_t threads = 1; threads <= 3; threads++) {
+    behave((mischief) { .top = 3, .whole_ends = 1.2, .part_costs = 30 });
+    outcome *o = refine(&g, threads, 100, 1000 * RUN, false);
+    assert_int_equal(o->split.said, AMBIT_UNABLE);
+    assert_string_equal(o->split.why.code, AMBIT_CODE_UNABLE_SHORT_STEPS);
+    assert_in_range(o->heard.records, 1, NTIME - 2);
+    free(o);
+    behave((mischief) { .top = 3, .whole_ends = 1.2 }); /* parts that cost no more come to the end */
+    o = refine(&g, threads, 100, 1000 * RUN, false);
+    assert_int_equal(o->split.said, AMBIT_OK);
+    assert_int_equal(o->heard.records, NTIME - 1);
+    free(o);
+  }
+  close_stage(&g);
+}
+
 static void a_band_is_kept_to_its_runs(void **state) {
   (void)state;
   stage g;
@@ -574,6 +604,7 @@ int main(void) {
     cmocka_unit_test(cuts_where_sets_are_too_wide),
     cmocka_unit_test(parts_that_fail_replace_nothing),
     cmocka_unit_test(a_band_is_kept_to_its_work),
+    cmocka_unit_test(parts_that_creep_are_told),
     cmocka_unit_test(a_band_is_kept_to_its_runs),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -267,6 +267,8 @@ local function try_one(state, try)
   left.band = try.band
   if not try.band then
     left.due, left.reach = part_of(state.ends, try.pieces == PIECES[#PIECES]), try.reach or REACH
+  elseif not try.is_counted then
+    left.due = CUT * math.max(LEAST, MORE * state.first_seconds)
   end
   local run = state.ask(try, left)
   local gained = not from or gains(run, state)
@@ -330,7 +332,7 @@ end
 local function cut_where_wide(state)
   local reason = "%s; the data are cut where the sets are too wide whole"
   local try = { solver = state.by.solver, reason = reason:format(state.by.reason),
-    band = band_of(state.best, state.hull.draws), left = {} }
+    band = band_of(state.best, state.hull.draws), is_counted = state.best.report.operations > 0, left = {} }
   return function()
     local own = try
     try = nil

@@ -44,7 +44,8 @@ static bool is_too_much(const ambit_piece *p) {
 }
 
 static int32_t go_on(ambit_piece *p) {
-  if (p->look(p->user) || is_too_much(p) || ambit_merge_is_over(p->merge, p->number, p->completed)) p->over = true;
+  p->spent = p->spent || is_too_much(p);
+  if (p->look(p->user) || p->spent || ambit_merge_is_over(p->merge, p->number, p->completed)) p->over = true;
   return p->over;
 }
 
@@ -175,7 +176,13 @@ static ambit_status run(ambit_piece *p, ambit_scope *scope) {
     status = ambit_fail_code(&why, AMBIT_BROKEN, AMBIT_CODE_BROKEN_TIME,
         "the solver is broken: it stepped over an instant that was asked for");
   }
-  if (status != AMBIT_OK && (p->skipped || !p->over)) report_failure(p, &why);
+  bool cut_off = p->spent && status != AMBIT_BROKEN && !ambit_merge_is_complete(p->merge);
+  if (cut_off) {
+    ambit_failure_clear(&why);
+    status = ambit_fail_code(&why, AMBIT_UNABLE, AMBIT_CODE_UNABLE_SHORT_STEPS,
+        "the work that cutting the data may take was done before they had been followed whole");
+  }
+  if (status != AMBIT_OK && (p->skipped || cut_off || !p->over)) report_failure(p, &why);
   return AMBIT_OK;
 }
 
@@ -187,7 +194,7 @@ ambit_status ambit_piece_run(ambit_piece *p, const ambit_split *s, ambit_merge *
   p->merge = merge;
   p->number = number;
   p->completed = 0;
-  p->over = p->skipped = false;
+  p->over = p->skipped = p->spent = false;
   p->scope = NULL;
   p->done = 0;
   p->look = look;

@@ -13,7 +13,7 @@ typedef struct ambit_piece {
   ambit_context *context;
   ambit_merge *merge;
   uint32_t number, completed; /* intervals */
-  bool over, skipped;         /* told to stop; a step went over an instant */
+  bool over, skipped, spent;  /* told to stop; a step went over an instant; told to stop for its work */
   const ambit_scope *scope;   /* of the run that is on */
   uint64_t done;              /* operations of the last run */
   double allowed;             /* after so many it is told to stop; 0: any number */

@@ -340,15 +340,10 @@ static ambit_status run_all(refinement *r, ambit_failure *f) {
     if (n > 0 && (totals[n] > r->s->band->most / 4 || !is_allowed(r, totals[n]))) break;
     ambit_status status = start(r, influence, totals[n], &done, f);
     if (status != AMBIT_OK || !done) return status;
-    if (n == 0 && r->s->band->work > 0) r->allowed = CREEP * r->done;
+    if (n == 0 && r->s->band->work > 0 && r->done > 0) r->allowed = CREEP * r->done;
     if (!(r->kept[worst_of(r->kept, r->nkept)].excess > r->s->band->limit)) return AMBIT_OK;
   }
   return refine(r, influence, &done, f);
-}
-
-/* for its work? */
-static bool was_stopped(const refinement *r, const part *whole) {
-  return r->s->band->work > 0 && (double)whole->done > r->s->band->work;
 }
 
 static ambit_status tell(refinement *r, ambit_failure *f) {
@@ -358,9 +353,6 @@ static ambit_status tell(refinement *r, ambit_failure *f) {
   bool stopped = ambit_merge_forward(all, r->s->sink) != 0 || r->stopped;
   if (stopped)
     r->out->said = AMBIT_STOPPED;
-  else if (r->nkept == 1 && !r->kept[0].complete && was_stopped(r, &r->kept[0]))
-    r->out->said = ambit_fail_code(&r->out->why, AMBIT_UNABLE, AMBIT_CODE_UNABLE_SHORT_STEPS,
-        "the work that cutting the data may take was done before they had been followed whole");
   else
     r->out->said = ambit_merge_outcome(all, &r->out->why);
   r->out->pieces = r->nkept;

@@ -1,8 +1,8 @@
 /* refine.h -- a run whose data are cut unevenly: parts are cut again where their sets reach far beyond a band.
 **
-** Why it holds: the parts cover the box of the data as those of a grid do (split.h), for a part is replaced by its own
-** parts only, when all of them have been run. What the whole part proved holds for each of them too, so that both are
-** intersected. The band only says where to cut.
+** Why it holds: the parts cover the box of the data as those of a grid do (split.h), for a part is replaced by all of
+** its own parts, once they have come to the end or, where it had not got there itself, failed. What the whole part
+** proved holds for each of them too, so that both are intersected. The band only says where to cut.
 ** Results do not depend on the number of threads: runs go in rounds, each part of which computes by itself; what the
 ** next round cuts is decided by what the last one proved, in the order of the parts.
 ** It begins with the whole, and equal parts: 8, and 64 if that is few enough runs. Then a round looks at the part that
