@@ -162,7 +162,7 @@ describe("plot", function()
 
   it("ends where an event ends the run", function()
     local run = ambit.simulate { ambit.ode { states = { "y", "v" }, equations = function(s)
-      return { y = s.v, v = -"9.81" }
+      return { y = s.v, v = -9.81 }
     end }, initial = { y = ambit.around(10, "1%"), v = 0 }, t = { 0, 3 },
       events = { { g = function(s) return s.y end, name = "ground", direction = "falling", stop = true } } }
     assert.equal("ground", run.ended_by)
