@@ -97,11 +97,11 @@ function command.run(list)
   core.notes(not options.quiet)
   if not options.quiet then scene.note_strays(words, known) end
   if options.plot then
-    local good, problem = pcall(require "ambit.plot".check_file, options.plot)
-    if not good then return 2, (tostring(problem):gsub("^.-plot: ", "--plot: "):gsub("plot: file", "plot")) end
     if options.sandbox and options.plot:find "%.[pP][nNdD][gGfF]$" then
       return 2, "--plot: .png and .pdf are made by another program, which --sandbox lets nobody start"
     end
+    local good, problem = pcall(require "ambit.plot".check_file, options.plot)
+    if not good then return 2, (tostring(problem):gsub("^.-plot: ", "--plot: "):gsub("plot: file", "plot")) end
     session.runs = {}
   end
   if options.json then

@@ -161,6 +161,27 @@ describe("what a page claims", function()
     assert.is_true(found["0"] and found["0.2"] and found["0.3"])
   end)
 
+  it("has no box for steps that were not kept", function()
+    local spin = [[
+      local ambit = require "ambit"
+      local m = ambit.mechanism "spin"
+      local tip = m:rigid_link { from = m:revolute { from = m.world, axis = "z", name = "q" }, offset = { 1, 0, 0 } }
+      m:point_mass { at = tip, mass = 1 }
+      local t = {}
+      for k = 0, 150 do t[k + 1] = k / 50 end
+      local run = ambit.simulate { m:dynamics(), initial = { q = 0, ["q'"] = 1 }, t = t, keep = "last", solver = "lohner",
+        EVENT }
+      ambit.view { m, run = run, points = { tip } }
+    ]]
+    local view = page_of((spin:gsub("EVENT", ""))).views[1]
+    local lo, hi = bounds(view.boxes[#view.boxes][1][1])
+    assert.is_true(lo <= math.cos(3) and math.cos(3) <= hi)
+    if #view.t == 2 then assert.is_false(view.swept[1]) end
+    -- and one that an event ends is shown up to there
+    view = page_of((spin:gsub("EVENT", "events = { { g = function(s) return s.q - 2 end, stop = true } }"))).views[1]
+    assert.is_true(math.abs(tonumber(view.t[#view.t]) - 2) < 0.05)
+  end)
+
   it("holds for a motion given over time, with joints and lengths in closed form", function()
     local data, code, stderr = page_of [[
       local ambit = require "ambit"

@@ -268,7 +268,7 @@ local function try_one(state, try)
   if not try.band then
     left.due, left.reach = part_of(state.ends, try.pieces == PIECES[#PIECES]), try.reach or REACH
   elseif not try.is_counted then
-    left.due = CUT * math.max(LEAST, MORE * state.first_seconds)
+    left.due = math.max(LEAST, MORE * state.first_seconds)
   end
   local run = state.ask(try, left)
   local gained = not from or gains(run, state)

@@ -200,7 +200,7 @@ end
 function verb.solve(q)
   check_loops(q)
   core.record_shift(q.times.shift and core.interval(q.times.shift) or 0)
-  local track, facts, report = core.simulate(flow(q), q.watch, q.run_options)
+  local track, facts, report = core.simulate(flow(q), q.watch or nil, q.run_options)
   facts.track, facts.states, facts.report = track, q.system.states, report
   facts.solver, facts.arithmetic, facts.t_start, facts.initial = q.solver, report.arithmetic, q.times[1],
     initial_enclosures(q)
@@ -217,14 +217,17 @@ function verb.solve(q)
   return result
 end
 
--- The same question once more, for what its answer is shown with: nothing is recorded, no event looked for.
+local first_only = { patience = true, due = true, reach = true } -- how long a try may take
+
+-- The same question once more, for what its answer is shown with: nothing is recorded, no event looked for, no datum
+-- cut where sets are wide.
 function verb.again(q, options, times)
-  local own = {}
-  for key, value in pairs(q) do own[key] = value end
   options.silent = true
-  own.watch, own.events, own.times = nil, nil, times or q.times
-  own.run_options = setmetatable(options, { __index = q.run_options })
-  return verb.solve(setmetatable(own, getmetatable(q)))
+  local function inherited(_, key)
+    if not first_only[key] and not key:find "^band_" then return (q.run_options or {})[key] end
+  end
+  return verb.solve(setmetatable({ watch = false, events = false, times = times or q.times,
+    run_options = setmetatable(options, { __index = inherited }) }, { __index = q }))
 end
 
 -- Asks a solver, the suggested one or another, with some fields of the request changed.

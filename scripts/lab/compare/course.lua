@@ -125,7 +125,8 @@ function course.track(run)
   for _, set in ipairs(start) do largest = math.max(largest, set:width()) end
   local before, pieces = 0, math.min(PIECES, (DRAWN - 2) // math.max(1, #ends))
   for _, i in ipairs(thinned(ends, width)) do
-    if pieces > 1 and core.track_dense(run.track, ends[i], 1, track.t[#track.t]) then
+    local is_next = core.track_step(run.track, ends[i]) == track.t[#track.t]
+    if pieces > 1 and is_next and core.track_dense(run.track, ends[i], 1, track.t[#track.t]) then
       add_pieces(track, run, ends[i], pieces)
     else
       add_tubes(track, run, ends, before + 1, i)

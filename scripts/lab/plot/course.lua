@@ -123,7 +123,9 @@ end
 -- Each solution ends at its own time of the event: no instant from the first such time on has them all.
 local function cut(found, track, run)
   local last
-  for _, e in ipairs(run.events or {}) do if e.name == run.ended_by then last = e.t end end
+  for _, e in ipairs(run.events or {}) do
+    if not run.ended_by or e.name == run.ended_by then last = e.t end -- an uncertain one is the last that was found
+  end
   if not last then return end
   local forward = track.t[#track.t] >= track.t[1]
   local function is_from(t, other) if forward then return t >= other end return t <= other end
@@ -156,7 +158,7 @@ function course.of(run, finer, quantities)
     found.t[i] = is_double and time or time:mid()
     found.t_lo[i], found.t_hi[i] = is_double and time or time.lo, is_double and time or time.hi
   end
-  if run.ended_by then cut(found, track, run) end
+  if run.ended_by or run.code == "unable.event" then cut(found, track, run) end
   return found
 end
 

@@ -62,8 +62,8 @@ local function refined(run, question, count)
   if steps == 0 or steps >= count / 2 or run.cpu_seconds / steps * count > MOST_SECONDS then return run end
   local times = finer(question.times, run.t_reached, count)
   if not times then return run end
-  local good, again = pcall(run.question.again, {}, times)
-  return good and again.status == "complete" and again or run
+  local good, again = pcall(run.question.again, { last = false }, times)
+  return good and again.status == "complete" and again.t_reached == run.t_reached and again or run
 end
 
 -- The last step of a run that ends in a bracket is that: what it says belongs to one instant.
@@ -79,10 +79,11 @@ local function collect(run, count)
   local last = #steps > 1 and steps[#steps].clock_from == run.times.last and table.remove(steps) or nil
   local self = { t = { t_start }, at = { run.initial() }, over = {} }
   local tubes, length = {}, #steps > 0 and (steps[#steps].clock - t_start) / count or 0
+  local all = steps[1] and steps[1].clock_from == t_start -- a run may have kept its last step only
   for i, step in ipairs(steps) do
     if step.has_tube then tubes[#tubes + 1] = { t = span(step.clock_from, step.clock), values = step.tube } end
     if i == #steps or #steps <= count or (step.clock - t_start) / length >= #self.t then
-      self.over[#self.t] = step.has_tube and condensed(tubes) or false
+      self.over[#self.t] = step.has_tube and (all or #self.t > 1) and condensed(tubes) or false
       self.t[#self.t + 1], self.at[#self.at + 1] = step.clock, step.x
       tubes = {}
     end
