@@ -532,7 +532,7 @@ static void a_band_is_kept_to_its_work(void **state) {
     o = refine(&g, threads, 100, 1000 * RUN, false);
     assert_int_equal(o->split.said, AMBIT_OK);
     assert_int_equal(o->heard.records, NTIME - 1);
-    assert_true(o->split.pieces > 1 && o->split.work.operations < 300 * RUN);
+    assert_true(o->split.pieces > 1 && (double)o->split.work.operations < 300 * RUN);
     assert_true(o->heard.value[NTIME - 2][0] <= 0 && o->heard.value[NTIME - 2][NX] >= 8);
     free(o);
   }
