@@ -218,11 +218,10 @@ describe("plot", function()
     local run = ambit.simulate { ambit.ode { states = { "x", "y" }, equations = function()
       return { x = 1, y = 1 }
     end }, initial = { x = ambit.around(7e6, 2e-8), y = ambit.around(1, 1) }, t = 1 }
-    local polygon = run:plot { against = "x" }.outlines[2]
-    if not polygon then return end -- rounding is as large as the set
-    local left, right = math.huge, -math.huge
+    local polygon = assert(run:plot { against = "x" }.outlines[2])
+    local left, right, off = math.huge, -math.huge, 7000001 - polygon.middle[1] -- exactly
     for _, p in ipairs(polygon) do left, right = math.min(left, p[1]), math.max(right, p[1]) end
-    assert.is_true(right - left >= 2e-8)
+    assert.is_true(left <= off - 2e-8 and off + 2e-8 <= right)
   end)
 
   it("says what is wrong with its input", function()
@@ -241,6 +240,12 @@ describe("plot", function()
     says("unknown key `limit`; did you mean `limits`?", { run, limit = {} })
     says("plot: sample: expected a positive integer", { run, sample = 0 })
     says("there are two of the name", { run, quantities = { "x", x = function(s) return s.v end } })
+  end)
+
+  it("knows what csv is asked for", function()
+    local run = oscillator { 0, 1 }
+    assert.truthy(message(run.csv, run, { "x" }):find("csv: unexpected entry [1]", 1, true))
+    assert.truthy(message(run.csv, run, { sample = 3 }):find("csv: unknown key `sample`", 1, true))
   end)
 
   it("writes what the name of the file says", function()

@@ -36,6 +36,9 @@ local function ends_of(run, quantities, middle, half)
   return ends
 end
 
+-- How far the box reaches, in parts of its half: one, but for what `middle` and `half` are rounded by.
+local function reach(middle, half) return 1 + 1e-6 + 0x1p-50 * math.abs(middle) / half end
+
 -- Corners in order for the quantities gx and gy (expressions of the run's states and clock), whose box at the end is
 -- [x_lo, x_hi] x [y_lo, y_hi], relative to the middle of that: { middle = { x, y }, { x, y }, ... }; nil: a box is all
 -- that is known. A run that ends at a time which is no double knows its set there, and its box at the double beside it.
@@ -53,8 +56,8 @@ function outline.of(run, gx, gy, box)
   end
   local good, bounds = pcall(core.evaluate, { arithmetic = "gradient", expressions = forms })
   if not good then return nil end
-  local most = 1 + 1e-6
-  local polygon = { { -most, -most }, { most, -most }, { most, most }, { -most, most } }
+  local x, y = reach(middle[1], half[1]), reach(middle[2], half[2])
+  local polygon = { { -x, -y }, { x, -y }, { x, y }, { -x, y } }
   for i, d in ipairs(directions) do polygon = clipped(polygon, d[1], d[2], bounds[i].hi + ROUNDING) end
   for _, p in ipairs(polygon) do p[1], p[2] = p[1] * half[1], p[2] * half[2] end
   polygon.middle = middle

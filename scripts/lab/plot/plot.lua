@@ -172,7 +172,7 @@ end
 function verb.csv(subject, t)
   local own = { subject, sample = false }
   for key, value in pairs(t == nil and {} or check.table(t, "csv")) do own[key] = value end
-  check.keys(own, { "quantities", "file", "sample" }, "csv", 1)
+  check.keys(t or {}, { "quantities", "file" }, "csv")
   return verb.plot(own):text "csv"
 end
 
