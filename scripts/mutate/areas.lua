@@ -36,7 +36,7 @@ return {
   solver("zonotope", 35, "cycle|jump|tanh|turn", { "sampled", "map", "saturation", "zonotope" }, "zonotope, jumps"),
   { name = "functions", share = 45, files = { "^framework/functions/(%w+)%.c$" }, target = "ambit_inside",
     tests = { "^functions%.", "^graph%.contract", "^graph%.jet" }, specs = { "functions" } },
-  { name = "sampled", share = 30, files = { "^framework/models/(sampled|map|network)%.lua$",
+  { name = "sampled", share = 20, files = { "^framework/models/(sampled|map|network)%.lua$",
       "^framework/verbs/simulate/(problem)%.c$" }, target = "ambit", tests = { "^verbs%.simulate", "^verbs%.problem" },
     specs = { "sampled", "map", "varying", "simulate", "verify", "split" } },
   solver("krawczyk", 25, "bound|box|branch|cover|evaluate|hull|inverse|newton|prove|solution",

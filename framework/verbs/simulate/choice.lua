@@ -312,7 +312,7 @@ local function other_solvers(state)
 end
 
 -- What core.simulate cuts again: parts whose sets are wider than LOOSE allows, half of that on each side of the hull.
--- It is known what they take, so that this is counted, and the same on every machine.
+-- It is known what they take, so that this is counted: the same for the same hull, whatever the machine.
 local function band_of(run, hull)
   local operations = run.report.operations
   local band = { lo = {}, hi = {}, limit = 0.5 * (LOOSE - 1), runs = operations > 0 and RUNS or PIECES[#PIECES],

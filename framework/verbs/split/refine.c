@@ -85,7 +85,7 @@ static double excess_of(const refinement *r, const part *p) {
   return most;
 }
 
-/* done: no part was told to stop. */
+/* done: the sink let all parts run; those that did too much work count as failed. */
 static ambit_status run_round(refinement *r, const part_list *now, bool *done, ambit_failure *f) {
   uint32_t nu = r->s->problem->nu;
   *done = false;
@@ -235,7 +235,7 @@ static void choose(const refinement *r, bool *chosen) {
   }
 }
 
-/* What a part was cut into takes its place if all of that came to the end, or no less did than before. */
+/* What a part was cut into takes its place if all of that came to the end, or it had not come there itself. */
 static bool replaces(const part *whole, const part *own, uint32_t n, bool done) {
   bool all = n > 0;
   for (uint32_t i = 0; i < n; i++) all = all && own[i].complete;
